@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...]): a shared library that tunica loads at run time.
+# Hidden visibility leaves one exported symbol, tunica_plugin; -fno-gnu-unique keeps inline statics apart.
+function(tunica_add_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT ARG_SOURCES)
+    message(FATAL_ERROR "tunica_add_plugin(${name}): SOURCES is empty")
+  endif()
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE tunica::sdk ${ARG_LIBRARIES})
+  if(TARGET tunica_developer)
+    target_link_libraries(${name} PRIVATE tunica_developer)
+  endif()
+  target_compile_options(${name} PRIVATE -fno-gnu-unique)
+  # Symbols of static libraries stay inside too; an undefined symbol is an error here, not at load time.
+  target_link_options(${name} PRIVATE -Wl,--exclude-libs,ALL $<$<NOT:$<BOOL:${TUNICA_SANITIZE}>>:-Wl,-z,defs>)
+  set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)
+    set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${TUNICA_PLUGIN_OUTPUT_DIRECTORY})
+  endif()
+  if(PROJECT_NAME STREQUAL "tunica")
+    install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/tunica/plugins)
+    set_property(GLOBAL APPEND PROPERTY TUNICA_PLUGINS ${name})
+  endif()
+endfunction()

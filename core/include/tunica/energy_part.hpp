@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tunica {
+
+/// The scalar invariant a part of the energy is a function of:
+///
+///   x = i1 I1 + i2 I2 + fibre (M·CM) + normal C_rr + offset,   M = sin(angle) e_t + cos(angle) e_z,
+///
+/// with I1 = tr C, I2 = (I1² − tr C²)/2. The angle, in radians, is measured from the axial direction z. The same
+/// struct holds the derivative of the coefficients with respect to one parameter.
+struct Invariant {
+  double i1 = 0, i2 = 0, fibre = 0, normal = 0, offset = 0;
+  double angle = 0;
+};
+
+/// ψ(x; p) at n values of x. Each output span has n entries, or is empty when not wanted; `value_dp` and
+/// `first_dp` hold one row of n per response parameter (row j of parameter j at j·n). Overflow gives inf.
+struct ResponseBatch {
+  std::span<const double> x;
+  std::span<double> value, first, second;  ///< ψ, dψ/dx, d²ψ/dx²
+  std::span<double> value_dp, first_dp;    ///< ∂ψ/∂p_j, ∂(dψ/dx)/∂p_j
+};
+
+/// One named part of a hyperelastic energy, W = Σ ψ_k(x_k): the matrix, a fibre family. Mechanisms transform parts
+/// (dispersion changes the invariant of the fibres, stiffening the response of the matrix) or add more.
+/// Thread-safe, evaluation is const; parameters are the whole model's, in its order and base units.
+class EnergyPart {
+ public:
+  enum class Role { matrix, fibre };
+  /// When the part contributes: `always`; while x > 0; while the fibres are stretched, M·CM > 1. At the edge the
+  /// right limit counts, so that rounding at rest decides nothing.
+  enum class Active { always, argument_positive, fibre_stretched };
+
+  struct Description {
+    std::string name;  ///< "matrix", "fibres"
+    Role role = Role::matrix;
+    Active active = Active::always;
+    bool mirrored = false;                           ///< a second family at −angle, with the same ψ
+    std::vector<std::size_t> invariant_parameters;   ///< model parameters that the invariant depends on
+    std::vector<std::size_t> response_parameters;    ///< model parameters that ψ depends on at fixed x
+  };
+
+  virtual ~EnergyPart() = default;
+  [[nodiscard]] virtual const Description& describe() const = 0;
+  /// The invariant, and (unless `derivatives` is empty) its derivative by each of `invariant_parameters`.
+  virtual void invariant(std::span<const double> parameters, Invariant& value, std::span<Invariant> derivatives) const = 0;
+  virtual void respond(std::span<const double> parameters, const ResponseBatch& batch) const = 0;
+};
+
+}  // namespace tunica

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tunica/model.hpp"
+#include "tunica/options.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica {
+
+/// Where a mechanism acts; also the canonical order of composition, whatever the file says.
+enum class Stage { invariants, energy, stress, history, test, data };
+
+/// A mechanism: something the base simulation leaves out, with a null at which it vanishes exactly. It is no fourth
+/// interface: a descriptor, and a function that wraps a Model or a Test in a decorator with the mechanism's
+/// parameters behind the wrapped object's own. At the null the decorator delegates to the bare object, bit for bit,
+/// and its limit there agrees with it to 1e-12; derivatives at the null are those of the formula.
+struct MechanismFactory {
+  enum class Side { positive, both, even };  ///< amplitude ≥ null; either; first derivative zero at the null
+
+  std::string id;     ///< "fibre_dispersion"
+  std::string cause;  ///< one sentence: what physically happens
+  Stage stage;
+  std::vector<std::string> applies_to;  ///< test types; empty = every one (test and data stages)
+  std::vector<Parameter> parameters;    ///< the amplitude first; nuisance parameters after it
+  double null;                          ///< of the amplitude
+  Side side;
+  double plausible_min, plausible_max;  ///< of the amplitude
+  std::vector<std::string> look_alikes;
+  std::string isolated_by;  ///< the kind of test that separates it
+  std::string reference;
+  std::vector<Option> options;
+
+  /// Stages invariants … history. Throws InputError where it cannot apply, for example for want of fibre parts.
+  std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};
+  /// Stages test and data.
+  std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
+};
+
+}  // namespace tunica

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/detail/abi_macros.hpp>
+
+#include "tunica/mechanism.hpp"
+#include "tunica/model.hpp"
+#include "tunica/optimizer.hpp"
+#include "tunica/options.hpp"
+#include "tunica/test.hpp"
+
+/// Raised with every change of an interface or of a struct that crosses the boundary.
+#define TUNICA_PLUGIN_API 1
+
+#define TUNICA_TEXT_(x) #x
+#define TUNICA_TEXT(x) TUNICA_TEXT_(x)
+#ifdef _GLIBCXX_DEBUG
+#define TUNICA_LIBRARY_DEBUG_ "debug"
+#else
+#define TUNICA_LIBRARY_DEBUG_ "release"
+#endif
+/// What must be equal on both sides for C++ objects to cross: compiler, standard library and its modes, language,
+/// Eigen and its alignment, JSON. Fields are separated by "; " so that a refusal can show the ones that differ.
+#define TUNICA_ABI_FINGERPRINT                                                                          \
+  "compiler " TUNICA_TEXT(__GNUC__) "; libstdc++ cxx11-abi " TUNICA_TEXT(_GLIBCXX_USE_CXX11_ABI) " "    \
+  TUNICA_LIBRARY_DEBUG_ "; c++ " TUNICA_TEXT(__cplusplus) "; eigen " TUNICA_TEXT(EIGEN_WORLD_VERSION) "." \
+  TUNICA_TEXT(EIGEN_MAJOR_VERSION) "." TUNICA_TEXT(EIGEN_MINOR_VERSION) "; alignment "                  \
+  TUNICA_TEXT(EIGEN_MAX_ALIGN_BYTES) "; json " TUNICA_TEXT(NLOHMANN_JSON_VERSION_MAJOR) "."             \
+  TUNICA_TEXT(NLOHMANN_JSON_VERSION_MINOR) "." TUNICA_TEXT(NLOHMANN_JSON_VERSION_PATCH)
+
+namespace tunica {
+
+struct ModelFactory {
+  std::string type, doc, reference;
+  std::vector<Option> options;
+  std::function<std::unique_ptr<Model>(const Options&)> create;
+};
+
+struct TestFactory {
+  std::string type, doc, reference;
+  std::vector<Option> options;
+  std::vector<Observable> observables;
+  std::function<std::unique_ptr<Test>(const TestSetup&)> create;
+};
+
+struct OptimizerFactory {
+  std::string type, doc, reference;
+  std::vector<Option> options;
+  std::function<std::unique_ptr<Optimizer>(const Options&)> create;
+};
+
+/// Receives what a plugin provides. Registration is staged: it counts only if `register_into` returns normally.
+class Registry {
+ public:
+  virtual ~Registry() = default;
+  virtual void add(ModelFactory factory) = 0;
+  virtual void add(TestFactory factory) = 0;
+  virtual void add(OptimizerFactory factory) = 0;
+  virtual void add(MechanismFactory factory) = 0;
+};
+
+/// What the one exported symbol, `tunica_plugin`, returns: plain data, compared before any C++ object is touched.
+struct PluginHeader {
+  std::uint32_t struct_size;
+  std::uint32_t api;
+  const char* fingerprint;
+  const char* name;
+  const char* version;
+  void (*register_into)(Registry&);
+};
+
+}  // namespace tunica
+
+/// TUNICA_PLUGIN("gho", "0.1.0") { registry.add(tunica::ModelFactory{…}); }
+#define TUNICA_PLUGIN(plugin_name, plugin_version)                                                              \
+  static void tunica_register_(tunica::Registry& registry);                                                     \
+  extern "C" __attribute__((visibility("default"))) const tunica::PluginHeader* tunica_plugin() {               \
+    static constexpr tunica::PluginHeader header{sizeof(tunica::PluginHeader), TUNICA_PLUGIN_API,               \
+                                                 TUNICA_ABI_FINGERPRINT, plugin_name, plugin_version,           \
+                                                 &tunica_register_};                                            \
+    return &header;                                                                                             \
+  }                                                                                                             \
+  static void tunica_register_([[maybe_unused]] tunica::Registry& registry)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+
+namespace tunica {
+
+/// What became of one evaluation. A point that cannot be evaluated is neither an exception nor a magic number:
+/// it is `failed` with a reason a person can act on. `infeasible` means the point was evaluated, and violates a
+/// constraint. Wrong input is an exception (error.hpp); a bug is an assertion.
+class [[nodiscard]] Status {
+ public:
+  enum class Kind { ok, infeasible, failed };
+
+  Status() = default;  ///< ok; allocates nothing
+  static Status infeasible(std::string reason) { return {Kind::infeasible, std::move(reason)}; }
+  static Status failed(std::string reason) { return {Kind::failed, std::move(reason)}; }
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] bool ok() const { return kind_ == Kind::ok; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  Status(Kind kind, std::string reason) : kind_(kind), reason_(std::move(reason)) {}
+  Kind kind_ = Kind::ok;
+  std::string reason_;
+};
+
+/// "ok", "infeasible", "failed": the words of evaluations.csv and result.json.
+inline const char* name(Status::Kind kind) {
+  return kind == Status::Kind::ok ? "ok" : kind == Status::Kind::infeasible ? "infeasible" : "failed";
+}
+
+}  // namespace tunica

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tunica/model.hpp"
+#include "tunica/options.hpp"
+
+namespace tunica {
+
+/// A quantity of a test that a data column can be mapped to.
+struct Observable {
+  enum class Role { abscissa, channel, time };  ///< prescribed; measured and predicted; clock
+  enum class Kind { plain, stretch, stress };   ///< stretch: percent-for-fraction check; stress: has a measure
+  std::string name;                             ///< "stretch", "stress", "transverse_stretch"
+  std::string unit;                             ///< base unit
+  Role role = Role::channel;
+  bool required = false;
+  std::string doc;
+  Kind kind = Kind::plain;
+};
+
+/// The rows of one test in loading order, in base units; spans live as long as the call that receives them.
+struct TestRows {
+  struct Column {
+    std::string observable;
+    std::span<const double> values;  ///< one per row
+  };
+  std::size_t count = 0;
+  std::vector<Column> abscissae;      ///< mapped observables of role abscissa
+  std::vector<std::string> channels;  ///< fitted observables, in the order of the predictions
+  std::span<const double> time;       ///< s; empty = equilibrium
+};
+
+/// What a test is made from. The test copies what it keeps.
+struct TestSetup {
+  Options options;
+  TestRows rows;
+  std::string stress_measure;  ///< "cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"
+};
+
+struct TestDescription {
+  std::vector<Parameter> parameters;     ///< the test's own, and its native imperfections
+  std::vector<double> nulls;             ///< null of each parameter; NaN = an ordinary parameter, fitted unless fixed
+  std::vector<std::string> diagnostics;  ///< names of the diagnostics rows, for example "transverse_stretch"
+  std::vector<std::string> diagnostic_units;
+};
+
+struct TestInput {
+  const Model& model;
+  std::span<const double> model_parameters;
+  std::span<const double> test_parameters;
+  /// Abscissae instead of the bound ones (a mechanism corrects them): one span per mapped abscissa, or empty.
+  std::span<const std::span<const double>> abscissae = {};
+};
+
+/// Predictions into memory of the caller; with c channels and n rows, channel k of row i at [k·n + i].
+/// An empty span means "not wanted".
+struct TestOutput {
+  std::span<double> values;               ///< c·n, in base units and in the data's stress measure
+  std::span<double> jacobian;             ///< (n_model + n_test)·c·n; ∂values/∂p_j at [j·c·n + …], model first
+  std::span<double> abscissa_derivative;  ///< n_abscissae·c·n; ∂values/∂(abscissa a of the same row)
+  std::span<double> diagnostics;          ///< n_diagnostics·n
+};
+
+/// Simulates one experiment with a model, at the rows it was made with.
+///
+/// Required: describe, predict. Rows are in loading order; a model with history sees them so, with time where the
+/// data have it, else at equilibrium. The Jacobian is exact where the model has parameter derivatives; else the
+/// test returns `failed` when it is asked for one and the host differences whole predictions.
+/// Threads: const, safe to call concurrently. Failure: a status with a reason that names row and abscissa, never a
+/// NaN under `ok`, never an exception. Ownership: the test owns its copy of the rows.
+class Test {
+ public:
+  virtual ~Test() = default;
+  [[nodiscard]] virtual const TestDescription& describe() const = 0;
+  [[nodiscard]] virtual const TestRows& rows() const = 0;
+  virtual Status predict(const TestInput& input, const TestOutput& output) const = 0;
+};
+
+}  // namespace tunica

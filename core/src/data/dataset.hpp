@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tunica/test.hpp"
+
+namespace tunica::data {
+
+/// σ² = absolute² + (relative·y)²; correlation between neighbouring rows.
+struct Noise {
+  double absolute = 0, relative = 0, correlation = 0;
+};
+
+/// first:last:step over the rows left after `where`, last exclusive, as in Python.
+struct RowRange {
+  std::size_t first = 0;
+  std::optional<std::size_t> last;
+  std::size_t step = 1;
+};
+
+/// What the experiment file says about the data of one test ("data": {…}).
+struct DataRequest {
+  std::vector<std::filesystem::path> files;                   ///< several: replicates
+  std::vector<std::pair<std::string, std::string>> columns;   ///< observable → column, in file order
+  std::string stress_measure = "cauchy";
+  RowRange rows;
+  std::vector<std::pair<std::string, std::string>> where;     ///< column → value, all must match
+  std::optional<double> time_rate;                            ///< abscissa per second, from `time_from`
+  std::vector<std::pair<std::string, Noise>> noise;           ///< by channel; absent = estimated
+};
+
+/// One fitted channel: the measured values and what is known of their noise.
+struct Channel {
+  std::string observable;
+  std::string unit;                              ///< base unit
+  std::vector<double> values;                    ///< mean over replicates where there are several
+  std::vector<std::vector<double>> replicates;   ///< each as long as values; empty = none
+  std::optional<Noise> noise;
+};
+
+/// The data of one test in base units, rows in loading order.
+struct Dataset {
+  std::size_t count = 0;
+  std::vector<std::pair<std::string, std::vector<double>>> abscissae;  ///< observable → values
+  std::vector<double> time;                                            ///< empty = none
+  std::vector<Channel> channels;
+  std::vector<std::size_t> lines;                                      ///< line of each row in the (first) file
+  std::vector<std::string> warnings;
+  std::vector<std::string> sha256;                                     ///< of each file, for the provenance
+  /// Column names and units of the source, by observable, so that `simulate` writes what it read.
+  std::vector<std::pair<std::string, std::pair<std::string, std::string>>> source_columns;
+
+  /// Views for a TestSetup; valid while this object lives and is not changed.
+  [[nodiscard]] TestRows rows() const;
+};
+
+/// Reads and checks the data of one test; `observables` are those the test declares. Throws InputError whose message
+/// names file, line and column.
+Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& observables);
+
+}  // namespace tunica::data

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "data/dataset.hpp"
+#include "plugins/catalogue.hpp"
+#include "tunica/options.hpp"
+#include "tunica/parameter.hpp"
+
+/// The experiment file as typed values: every name checked against the catalogue, every quantity in base units,
+/// every default filled in. What the keys mean: docs/experiment-file.md.
+namespace tunica::experiment {
+
+struct Prior {
+  double mean = 0, sd = 1;
+};
+
+/// What the file says about one parameter; an absent member leaves the plugin's declaration in force.
+struct ParameterSetting {
+  std::optional<double> min, max, initial, fixed;
+  std::optional<Scale> scale;
+  std::optional<std::string> share;
+  std::optional<Prior> prior;
+  std::string pointer;  ///< JSON pointer, for messages
+};
+using ParameterSettings = std::map<std::string, ParameterSetting, std::less<>>;
+
+struct MechanismEntry {
+  std::string type;
+  Options options;
+  ParameterSettings parameters;  ///< the mechanism's own names, without its prefix
+};
+
+struct ModelEntry {
+  std::string name, type;
+  Options options;
+  ParameterSettings parameters;
+  std::vector<MechanismEntry> mechanisms;
+};
+
+/// Rows kept out of the fit and of the naming: none, all, or a range.
+struct HoldOut {
+  bool all = false;
+  std::optional<data::RowRange> rows;
+};
+
+struct TestEntry {
+  std::string name, type;
+  Options options;
+  ParameterSettings parameters;
+  std::vector<MechanismEntry> mechanisms;
+  data::DataRequest data;
+  std::vector<double> weights;  ///< one per mapped channel, in the order of data.columns' channels
+  HoldOut hold_out;
+};
+
+enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
+enum class OnFailure { penalise, stop, retry };
+
+/// `type` of a constraint and its JSON text; the calibration module reads the rest.
+struct ConstraintEntry {
+  std::string type, json, pointer;
+};
+
+struct Stop {
+  std::uint64_t max_evaluations = 60000;
+  std::optional<double> max_time;       ///< s
+  std::optional<double> target;         ///< objective
+  std::optional<std::uint64_t> stall;   ///< evaluations without improvement
+};
+
+struct OptimizerEntry {
+  struct Stage {
+    std::string optimizer;  ///< name of another entry
+    std::optional<Stop> stop;
+  };
+  std::string name, type;   ///< type is "stages" when stages is not empty
+  Options options;
+  std::vector<Stage> stages;
+};
+
+struct RunEntry {
+  std::string model, optimizer;
+  std::uint64_t realisations = 1;
+  std::vector<std::string> tests;   ///< names, in file order; all unless overridden
+  ObjectiveType objective = ObjectiveType::standardised_quadratic;
+  std::vector<ConstraintEntry> constraints;
+  Stop stop;
+};
+
+struct Experiment {
+  std::string name;
+  std::filesystem::path file;
+  std::uint64_t seed = 1;
+  std::vector<ModelEntry> models;
+  std::vector<TestEntry> tests;
+  std::vector<OptimizerEntry> optimizers;
+  std::vector<RunEntry> runs;
+  OnFailure on_failure = OnFailure::penalise;
+  double max_failure_rate = 1;             ///< share of failed evaluations above which a run stops
+  std::string diagnosis_json;              ///< the "diagnosis" block as text; empty = none
+  std::string input_json;                  ///< the file with defaults filled in: input.json
+
+  [[nodiscard]] const ModelEntry& model(std::string_view name) const;
+  [[nodiscard]] const TestEntry& test(std::string_view name) const;
+  [[nodiscard]] const OptimizerEntry& optimizer(std::string_view name) const;
+};
+
+/// Parses, validates and types an experiment file. Throws InputError: each message quotes what was found, names JSON
+/// pointer and line, and says what is expected; unknown names list the nearest valid one.
+Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue);
+
+/// The JSON Schema (draft 7) of experiment files, composed from what the loaded plugins declare; JSON text.
+std::string compose_schema(const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::experiment

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tunica/plugin.hpp"
+
+namespace tunica::plugins {
+
+/// Everything the loaded plugins provide, by name. Each entry remembers its plugin.
+class Catalogue {
+ public:
+  template <class Factory>
+  struct Entry {
+    Factory factory;
+    std::string plugin;  ///< "gho 0.1.0"
+  };
+  template <class Factory>
+  using Shelf = std::map<std::string, Entry<Factory>, std::less<>>;
+
+  [[nodiscard]] const Shelf<ModelFactory>& models() const { return models_; }
+  [[nodiscard]] const Shelf<TestFactory>& tests() const { return tests_; }
+  [[nodiscard]] const Shelf<OptimizerFactory>& optimizers() const { return optimizers_; }
+  [[nodiscard]] const Shelf<MechanismFactory>& mechanisms() const { return mechanisms_; }
+
+  /// Takes over what one plugin has registered, all or nothing; throws std::invalid_argument on a name that is
+  /// taken (by which plugin is in the message) or not a plain identifier.
+  class Stage;
+  void commit(Stage&& stage, const std::string& plugin);
+
+ private:
+  Shelf<ModelFactory> models_;
+  Shelf<TestFactory> tests_;
+  Shelf<OptimizerFactory> optimizers_;
+  Shelf<MechanismFactory> mechanisms_;
+};
+
+/// The registry a plugin sees while it registers; nothing counts until commit().
+class Catalogue::Stage : public Registry {
+ public:
+  void add(ModelFactory factory) override { models.push_back(std::move(factory)); }
+  void add(TestFactory factory) override { tests.push_back(std::move(factory)); }
+  void add(OptimizerFactory factory) override { optimizers.push_back(std::move(factory)); }
+  void add(MechanismFactory factory) override { mechanisms.push_back(std::move(factory)); }
+
+  std::vector<ModelFactory> models;
+  std::vector<TestFactory> tests;
+  std::vector<OptimizerFactory> optimizers;
+  std::vector<MechanismFactory> mechanisms;
+};
+
+}  // namespace tunica::plugins
