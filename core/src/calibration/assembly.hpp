@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+#include "tunica/optimizer.hpp"
+
+namespace tunica::calibration {
+
+/// A parameter the run searches for, with its name as the outside sees it: "mu", "viscoelasticity.tau",
+/// "circumferential_strip.force_offset.value"; base units.
+struct FreeParameter {
+  std::string name, unit;
+  double min, max, initial;
+  Scale scale;
+  std::optional<experiment::Prior> prior;
+};
+
+struct FixedParameter {
+  std::string name, unit;
+  double value;
+};
+
+/// One channel of one test: where its rows lie in the vector of all predictions.
+struct ChannelView {
+  std::string test, observable, unit;
+  std::size_t offset = 0, count = 0;      ///< rows [offset, offset + count) of the predictions
+  std::vector<double> measured;           ///< count
+  std::vector<double> abscissa;           ///< count; the test's first abscissa, for plots and messages
+  std::string abscissa_name, abscissa_unit;
+  std::vector<bool> fitted;               ///< count; false = held out
+  double weight = 1;
+  std::optional<data::Noise> noise;
+};
+
+/// One run's model (with mechanisms) and tests (bound to their data), from parameters to predictions, residuals and
+/// objective. Const and thread-safe after construction; each thread brings a workspace, evaluation allocates nothing.
+class Assembly {
+ public:
+  class Workspace;  ///< scratch of one thread
+  struct WorkspaceDeleter {
+    void operator()(Workspace* workspace) const;
+  };
+  using WorkspacePointer = std::unique_ptr<Workspace, WorkspaceDeleter>;
+
+  /// Reads the data, builds model and tests through the plugins' factories (exceptions come back as InputError with
+  /// the plugin's name), binds names, shares and fixed values. Throws InputError.
+  Assembly(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+           const plugins::Catalogue& catalogue);
+  ~Assembly();
+
+  [[nodiscard]] const std::vector<FreeParameter>& parameters() const;
+  [[nodiscard]] const std::vector<FixedParameter>& fixed_parameters() const;
+  [[nodiscard]] const std::vector<ChannelView>& channels() const;
+  [[nodiscard]] std::size_t prediction_count() const;      ///< Σ channel counts, held-out rows included
+  [[nodiscard]] const std::vector<ResidualBlock>& blocks() const;  ///< one a fitted channel, one more for priors
+  [[nodiscard]] std::size_t residual_count() const;        ///< fitted rows and priors
+  [[nodiscard]] const std::vector<std::string>& warnings() const;
+  [[nodiscard]] const std::vector<std::string>& data_hashes() const;  ///< "circ.csv sha256:…"
+  /// Known invariances of the model, arguments as indices into parameters(); value() takes the free values.
+  [[nodiscard]] const std::vector<Combination>& combinations() const;
+  [[nodiscard]] bool jacobian_is_exact() const;            ///< false: some test's predictions are differenced
+
+  [[nodiscard]] WorkspacePointer make_workspace() const;
+
+  /// All predictions (prediction_count) and, unless empty, their Jacobian by the free parameters, row-major
+  /// [i·n + j]. `free` are parameter values in base units.
+  Status predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
+                 Workspace& workspace) const;
+  /// Diagnostics of one test at these parameters, name → row values (transverse stretch, iterations).
+  Status diagnostics(std::size_t test, std::span<const double> free,
+                     std::vector<std::pair<std::string, std::vector<double>>>& rows) const;
+  /// Objective, per-test cost (one per test of the run, holding out excluded) and, unless empty, residuals and their
+  /// Jacobian by the free parameters, row-major. Never NaN under ok.
+  Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
+                  std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const;
+
+  /// Unit box ↔ parameters: linear or logarithmic between the bounds.
+  void from_unit(std::span<const double> x, std::span<double> free) const;
+  void to_unit(std::span<const double> free, std::span<double> x) const;
+  [[nodiscard]] std::vector<double> initial_unit() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tunica::calibration

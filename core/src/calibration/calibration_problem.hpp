@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/assembly.hpp"
+#include "tunica/optimizer.hpp"
+
+namespace tunica::calibration {
+
+/// One evaluation as it goes to evaluations.csv, in the order of its index.
+struct Record {
+  std::uint64_t index;                  ///< within the realisation, from 0
+  std::span<const double> parameters;   ///< free values in base units
+  double objective;                     ///< undefined when failed
+  std::span<const double> per_test;
+  const Status& status;
+  double seconds;                       ///< since the realisation began
+};
+
+/// What the best evaluated point is, at any time.
+struct Best {
+  std::vector<double> parameters;       ///< empty: nothing succeeded yet
+  double objective = 0;
+  std::uint64_t index = 0;
+};
+
+/// A journal of evaluations that were already made, in index order, for resuming: returns false when it has none
+/// at this index. The problem checks that the parameters are bit-identical and throws std::runtime_error if not.
+struct Replayed {
+  std::vector<double> parameters, per_test;
+  double objective;
+  Status status;
+  double seconds;
+};
+using Replay = std::function<bool(std::uint64_t index, Replayed& entry)>;
+
+struct Tally {
+  std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
+  std::string first_failure;            ///< reason of the first failed evaluation
+};
+
+/// The host's Problem: counts, keeps the best, enforces the stop block and the failure policy, records every
+/// evaluation in index order, replays a journal. One object per realisation and stage.
+class CalibrationProblem : public Problem {
+ public:
+  struct Settings {
+    experiment::Stop stop;
+    experiment::OnFailure on_failure = experiment::OnFailure::penalise;
+    double max_failure_rate = 1;
+    std::uint64_t seed = 0;                           ///< of the realisation
+    std::vector<double> start;                        ///< unit box; empty = the parameters' initial values
+    std::function<void(const Record&)> record = {};   ///< called in index order, never concurrently
+    Replay replay = {};
+    std::function<bool()> interrupted = {};           ///< Ctrl-C
+    std::uint64_t first_index = 0;                    ///< of a later stage
+    double elapsed_before = 0;                        ///< s, counted against max_time
+  };
+  CalibrationProblem(const Assembly& assembly, Settings settings);
+  ~CalibrationProblem() override;
+
+  [[nodiscard]] const Best& best() const;
+  [[nodiscard]] const Tally& tally() const;
+  [[nodiscard]] const std::string& stop_reason() const;  ///< "max_evaluations", "target", "stall", … or empty
+
+  // Problem
+  [[nodiscard]] std::size_t dimension() const override;
+  [[nodiscard]] std::span<const double> start() const override;
+  [[nodiscard]] std::span<const ResidualBlock> blocks() const override;
+  [[nodiscard]] std::size_t residual_count() const override;
+  [[nodiscard]] std::size_t constraint_count() const override;
+  Status evaluate(std::span<const double> x, double& objective) override;
+  void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override;
+  Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                   std::span<double> jacobian) override;
+  Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override;
+  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
+  [[nodiscard]] bool should_stop() const override;
+  [[nodiscard]] std::uint64_t evaluations() const override;
+  [[nodiscard]] std::uint64_t budget() const override;
+  [[nodiscard]] std::uint64_t seed(std::string_view purpose) const override;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tunica::calibration
