@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/catalogue.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace tunica::plugins {
+namespace {
+
+bool is_letter(char character) {
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z');
+}
+
+/// Names become JSON keys and parts of dotted parameter names, so a dot or a blank in one would be ambiguous.
+bool is_plain_identifier(std::string_view name) {
+  return !name.empty() && is_letter(name.front()) && std::ranges::all_of(name, [](char character) {
+    return is_letter(character) || (character >= '0' && character <= '9') || character == '_';
+  });
+}
+
+template <class Factory>
+const std::string& name_of(const Factory& factory) {
+  return factory.type;
+}
+const std::string& name_of(const MechanismFactory& factory) { return factory.id; }
+
+template <class Factory>
+void check_callable(const Factory& factory, std::string_view kind) {
+  if (!factory.create) {
+    throw std::invalid_argument(
+        fmt::format("the {} '{}' has no create function; set it before registering", kind, name_of(factory)));
+  }
+}
+void check_callable(const MechanismFactory& factory, std::string_view kind) {
+  const bool on_model = factory.stage < tunica::Stage::test;
+  if (on_model ? !factory.wrap_model : !factory.wrap_test) {
+    throw std::invalid_argument(
+        fmt::format("the {} '{}' has no {} function, which its stage needs; set it before "
+                    "registering",
+                    kind, factory.id, on_model ? "wrap_model" : "wrap_test"));
+  }
+}
+
+/// Checks what one plugin brings against what is there; the result merges without a chance of failure.
+template <class Factory>
+Catalogue::Shelf<Factory> shelve(std::vector<Factory>&& factories, const Catalogue::Shelf<Factory>& taken,
+                                 const std::string& plugin, std::string_view kind) {
+  Catalogue::Shelf<Factory> shelf;
+  for (Factory& factory : factories) {
+    const std::string name = name_of(factory);
+    if (!is_plain_identifier(name)) {
+      throw std::invalid_argument(fmt::format(
+          "the {} name '{}' is no plain identifier; expected letters, digits and underscores, with a letter first",
+          kind, name));
+    }
+    check_callable(factory, kind);
+    if (const auto found = taken.find(name); found != taken.end()) {
+      throw std::invalid_argument(
+          fmt::format("the {} '{}' is already provided by plugin '{}', and a name can be taken "
+                      "once; rename it, or leave one of the two plugins out of the plugin path",
+                      kind, name, found->second.plugin));
+    }
+    if (!shelf.emplace(name, Catalogue::Entry<Factory>{std::move(factory), plugin}).second) {
+      throw std::invalid_argument(
+          fmt::format("the plugin registers the {} '{}' twice; rename one of them", kind, name));
+    }
+  }
+  return shelf;
+}
+
+}  // namespace
+
+void Catalogue::commit(Stage&& stage, const std::string& plugin) {
+  auto models = shelve(std::move(stage.models), models_, plugin, "model");
+  auto tests = shelve(std::move(stage.tests), tests_, plugin, "test");
+  auto optimizers = shelve(std::move(stage.optimizers), optimizers_, plugin, "optimiser");
+  auto mechanisms = shelve(std::move(stage.mechanisms), mechanisms_, plugin, "mechanism");
+  // Nodes change hands without allocating: from here on nothing can fail, so it is all or nothing.
+  models_.merge(models);
+  tests_.merge(tests);
+  optimizers_.merge(optimizers);
+  mechanisms_.merge(mechanisms);
+}
+
+}  // namespace tunica::plugins
