@@ -14,10 +14,12 @@ namespace tunica {
 ///
 /// with I1 = tr C, I2 = (I1² − tr C²)/2. The angle, in radians, is measured from the axial direction z. The same
 /// struct holds the derivative of the coefficients with respect to one parameter.
-struct Invariant {
-  double i1 = 0, i2 = 0, fibre = 0, normal = 0, offset = 0;
-  double angle = 0;
+template <class T>
+struct InvariantOf {
+  T i1 = T(0), i2 = T(0), fibre = T(0), normal = T(0), offset = T(0);
+  T angle = T(0);
 };
+using Invariant = InvariantOf<double>;
 
 /// ψ(x; p) at n values of x. Each output span has n entries, or is empty when not wanted; `value_dp` and
 /// `first_dp` hold one row of n per response parameter (row j of parameter j at j·n). Overflow gives inf.
@@ -41,15 +43,16 @@ class EnergyPart {
     std::string name;  ///< "matrix", "fibres"
     Role role = Role::matrix;
     Active active = Active::always;
-    bool mirrored = false;                           ///< a second family at −angle, with the same ψ
-    std::vector<std::size_t> invariant_parameters;   ///< model parameters that the invariant depends on
-    std::vector<std::size_t> response_parameters;    ///< model parameters that ψ depends on at fixed x
+    bool mirrored = false;                          ///< a second family at −angle, with the same ψ
+    std::vector<std::size_t> invariant_parameters;  ///< model parameters that the invariant depends on
+    std::vector<std::size_t> response_parameters;   ///< model parameters that ψ depends on at fixed x
   };
 
   virtual ~EnergyPart() = default;
   [[nodiscard]] virtual const Description& describe() const = 0;
   /// The invariant, and (unless `derivatives` is empty) its derivative by each of `invariant_parameters`.
-  virtual void invariant(std::span<const double> parameters, Invariant& value, std::span<Invariant> derivatives) const = 0;
+  virtual void invariant(std::span<const double> parameters, Invariant& value,
+                         std::span<Invariant> derivatives) const = 0;
   virtual void respond(std::span<const double> parameters, const ResponseBatch& batch) const = 0;
 };
 

@@ -32,8 +32,8 @@ struct MaterialPoints {
 
 /// Outputs into memory of the caller; an empty span means "not wanted".
 struct MaterialResponse {
-  std::span<double> energy;     ///< n; W per reference volume, kPa
-  std::span<double> stress;     ///< 6n; S = 2 ∂W/∂C (+ what history adds), second Piola–Kirchhoff without pressure, kPa
+  std::span<double> energy;  ///< n; W per reference volume, kPa
+  std::span<double> stress;  ///< 6n; S = 2 ∂W/∂C (+ what history adds), second Piola–Kirchhoff without pressure, kPa
   std::span<double> tangent;    ///< 36n; row (a,b) of point i at [(6a+b)n + i]: 2 ∂S_a/∂C_b, tensor components
   std::span<double> stress_dp;  ///< n_p·6n; ∂S/∂p_j at [(6j+c)n + i]
   std::span<double> state;      ///< history_size·n, new state; may not alias the old one
@@ -41,8 +41,8 @@ struct MaterialResponse {
 
 /// Points whose C is diagonal in material axes, given by the squared stretches c = (c_t, c_z, c_r).
 struct AxisPoints {
-  std::size_t count = 0;               ///< n
-  std::span<const double> c;           ///< 3n, component-major
+  std::size_t count = 0;      ///< n
+  std::span<const double> c;  ///< 3n, component-major
   std::span<const double> parameters;
 };
 

@@ -35,7 +35,7 @@ class Problem {
   [[nodiscard]] virtual std::span<const double> start() const = 0;  ///< initial point, n
   [[nodiscard]] virtual std::span<const ResidualBlock> blocks() const = 0;
   [[nodiscard]] virtual std::size_t residual_count() const = 0;
-  [[nodiscard]] virtual std::size_t constraint_count() const = 0;   ///< inequality constraints c(x) ≤ 0
+  [[nodiscard]] virtual std::size_t constraint_count() const = 0;  ///< inequality constraints c(x) ≤ 0
 
   /// One evaluation. `objective` is set unless the status is failed.
   virtual Status evaluate(std::span<const double> x, double& objective) = 0;

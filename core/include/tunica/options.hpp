@@ -22,10 +22,10 @@ struct Option {
 
   std::string name;
   Kind kind;
-  std::optional<Value> fallback;      ///< the default, in base units; none = the user must give it
-  std::string doc;                    ///< one sentence
-  std::string unit = {};              ///< quantity: the base unit, in UDUNITS spelling
-  std::optional<double> min = {};     ///< integer, number, quantity: inclusive
+  std::optional<Value> fallback;   ///< the default, in base units; none = the user must give it
+  std::string doc;                 ///< one sentence
+  std::string unit = {};           ///< quantity: the base unit, in UDUNITS spelling
+  std::optional<double> min = {};  ///< integer, number, quantity: inclusive
   std::optional<double> max = {};
   std::vector<std::string> choices = {};
 };

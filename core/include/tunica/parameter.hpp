@@ -25,11 +25,11 @@ struct Parameter {
 /// A function of the parameters that data may fix although they leave its arguments free, for example "2A + B".
 /// The host finds such valleys numerically and uses these names to say in words what the data do fix.
 struct Combination {
-  std::string name;                                     ///< as printed, for example "2A + B"
-  std::string unit;                                     ///< base unit of the value
-  std::vector<std::size_t> arguments;                   ///< indices of the parameters it depends on
-  std::function<double(std::span<const double>)> value; ///< of the owner's full parameter vector
-  std::string remedy;                                   ///< what fixes the rest, for example "an off-axis strip"
+  std::string name;                                      ///< as printed, for example "2A + B"
+  std::string unit;                                      ///< base unit of the value
+  std::vector<std::size_t> arguments;                    ///< indices of the parameters it depends on
+  std::function<double(std::span<const double>)> value;  ///< of the owner's full parameter vector
+  std::string remedy;                                    ///< what fixes the rest, for example "an off-axis strip"
 };
 
 }  // namespace tunica

@@ -28,7 +28,7 @@
 #endif
 /// What must be equal on both sides for C++ objects to cross: compiler, standard library and its modes, language,
 /// Eigen and its alignment, JSON. Fields are separated by "; " so that a refusal can show the ones that differ.
-#define TUNICA_ABI_FINGERPRINT                                                                          \
+#define TUNICA_ABI_FINGERPRINT \
   "compiler " TUNICA_TEXT(__GNUC__) "; libstdc++ cxx11-abi " TUNICA_TEXT(_GLIBCXX_USE_CXX11_ABI) " "    \
   TUNICA_LIBRARY_DEBUG_ "; c++ " TUNICA_TEXT(__cplusplus) "; eigen " TUNICA_TEXT(EIGEN_WORLD_VERSION) "." \
   TUNICA_TEXT(EIGEN_MAJOR_VERSION) "." TUNICA_TEXT(EIGEN_MINOR_VERSION) "; alignment "                  \
@@ -79,12 +79,15 @@ struct PluginHeader {
 }  // namespace tunica
 
 /// TUNICA_PLUGIN("gho", "0.1.0") { registry.add(tunica::ModelFactory{…}); }
-#define TUNICA_PLUGIN(plugin_name, plugin_version)                                                              \
-  static void tunica_register_(tunica::Registry& registry);                                                     \
-  extern "C" __attribute__((visibility("default"))) const tunica::PluginHeader* tunica_plugin() {               \
-    static constexpr tunica::PluginHeader header{sizeof(tunica::PluginHeader), TUNICA_PLUGIN_API,               \
-                                                 TUNICA_ABI_FINGERPRINT, plugin_name, plugin_version,           \
-                                                 &tunica_register_};                                            \
-    return &header;                                                                                             \
-  }                                                                                                             \
+#define TUNICA_PLUGIN(plugin_name, plugin_version)                                                \
+  static void tunica_register_(tunica::Registry& registry);                                       \
+  extern "C" __attribute__((visibility("default"))) const tunica::PluginHeader* tunica_plugin() { \
+    static constexpr tunica::PluginHeader header{sizeof(tunica::PluginHeader),                    \
+                                                 TUNICA_PLUGIN_API,                               \
+                                                 TUNICA_ABI_FINGERPRINT,                          \
+                                                 plugin_name,                                     \
+                                                 plugin_version,                                  \
+                                                 &tunica_register_};                              \
+    return &header;                                                                               \
+  }                                                                                               \
   static void tunica_register_([[maybe_unused]] tunica::Registry& registry)

@@ -59,8 +59,8 @@ struct TestInput {
 /// Predictions into memory of the caller; with c channels and n rows, channel k of row i at [k·n + i].
 /// An empty span means "not wanted".
 struct TestOutput {
-  std::span<double> values;               ///< c·n, in base units and in the data's stress measure
-  std::span<double> jacobian;             ///< (n_model + n_test)·c·n; ∂values/∂p_j at [j·c·n + …], model first
+  std::span<double> values;    ///< c·n, in base units and in the data's stress measure
+  std::span<double> jacobian;  ///< (n_model + n_test)·c·n; ∂values/∂p_j at [j·c·n + …], model first
   std::span<double> abscissa_derivative;  ///< n_abscissae·c·n; ∂values/∂(abscissa a of the same row)
   std::span<double> diagnostics;          ///< n_diagnostics·n
 };

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tunica/hyperelastic.hpp"
+#include "tunica/law_part.hpp"
+#include "tunica/laws.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica {
+inline constexpr double degree = std::numbers::pi / 180;
+}
+
+/// What the models of the arterial wall have in common: a neo-Hookean matrix, a mirrored pair of fibre families at
+/// ±theta from the axial direction with an exponential response, and the option that says when fibres carry load.
+namespace tunica::arterial {
+
+inline Parameter mu() {
+  return {"mu", "kPa", 10, 0.1, 200, Scale::log, "Shear modulus of the matrix.", "Holzapfel, Gasser, Ogden 2000"};
+}
+inline Parameter k1() {
+  return {"k1", "kPa", 10, 0.01, 1000, Scale::log, "Stiffness of the fibres.", "Holzapfel, Gasser, Ogden 2000"};
+}
+inline Parameter k2() {
+  return {"k2", "1", 1, 0.001, 100, Scale::log, "How fast the fibres stiffen.", "Holzapfel, Gasser, Ogden 2000"};
+}
+inline Parameter theta() {
+  return {"theta",
+          "deg",
+          45,
+          0,
+          90,
+          Scale::linear,
+          "Angle of the fibres from the axial direction.",
+          "Holzapfel, Gasser, Ogden 2000"};
+}
+
+/// When a fibre family carries load. `strain`: while E > 0. `stretch`: while its own stretch exceeds 1 (with
+/// dispersion W is then discontinuous). `none`: always.
+inline Option fibre_switch() {
+  return {.name = "fibre_switch",
+          .kind = Option::Kind::choice,
+          .fallback = std::string("strain"),
+          .doc = "When fibres carry load: while E > 0 (strain), while I4 > 1 (stretch), or always (none).",
+          .choices = {"strain", "stretch", "none"}};
+}
+
+inline EnergyPart::Active active(const Options& options) {
+  const std::string& value = options.text("fibre_switch");
+  return value == "strain"    ? EnergyPart::Active::argument_positive
+         : value == "stretch" ? EnergyPart::Active::fibre_stretched
+                              : EnergyPart::Active::always;
+}
+
+/// x = I1 − 3
+struct MatrixInvariant {
+  template <class T>
+  static InvariantOf<T> invariant(std::span<const T>) {
+    InvariantOf<T> x;
+    x.i1 = T(1);
+    x.offset = T(-3);
+    return x;
+  }
+};
+
+/// ψ = μ/2 (I1 − 3)
+template <std::size_t model_parameters>
+std::unique_ptr<EnergyPart> matrix(std::size_t mu) {
+  return std::make_unique<LawPart<laws::Linear, MatrixInvariant, model_parameters>>(
+      EnergyPart::Description{"matrix", EnergyPart::Role::matrix, EnergyPart::Active::always, false, {}, {mu}});
+}
+
+/// ψ = k1/(2 k2) [exp(k2 E²) − 1] for the families at ±theta, E as Geometry says.
+template <class Geometry, std::size_t model_parameters>
+std::unique_ptr<EnergyPart> fibres(std::vector<std::size_t> invariant_parameters,
+                                   std::vector<std::size_t> response_parameters, const Options& options) {
+  return std::make_unique<LawPart<laws::Exponential, Geometry, model_parameters>>(
+      EnergyPart::Description{"fibres", EnergyPart::Role::fibre, active(options), true, std::move(invariant_parameters),
+                              std::move(response_parameters)});
+}
+
+}  // namespace tunica::arterial
