@@ -25,21 +25,21 @@ struct RowRange {
 
 /// What the experiment file says about the data of one test ("data": {…}).
 struct DataRequest {
-  std::vector<std::filesystem::path> files;                   ///< several: replicates
-  std::vector<std::pair<std::string, std::string>> columns;   ///< observable → column, in file order
+  std::vector<std::filesystem::path> files;                  ///< several: replicates
+  std::vector<std::pair<std::string, std::string>> columns;  ///< observable → column, in file order
   std::string stress_measure = "cauchy";
   RowRange rows;
-  std::vector<std::pair<std::string, std::string>> where;     ///< column → value, all must match
-  std::optional<double> time_rate;                            ///< abscissa per second, from `time_from`
-  std::vector<std::pair<std::string, Noise>> noise;           ///< by channel; absent = estimated
+  std::vector<std::pair<std::string, std::string>> where;  ///< column → value, all must match
+  std::optional<double> time_rate;                         ///< abscissa per second, from `time_from`
+  std::vector<std::pair<std::string, Noise>> noise;        ///< by channel; absent = estimated
 };
 
 /// One fitted channel: the measured values and what is known of their noise.
 struct Channel {
   std::string observable;
-  std::string unit;                              ///< base unit
-  std::vector<double> values;                    ///< mean over replicates where there are several
-  std::vector<std::vector<double>> replicates;   ///< each as long as values; empty = none
+  std::string unit;                             ///< base unit
+  std::vector<double> values;                   ///< mean over replicates where there are several
+  std::vector<std::vector<double>> replicates;  ///< each as long as values; empty = none
   std::optional<Noise> noise;
 };
 
@@ -49,9 +49,9 @@ struct Dataset {
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;  ///< observable → values
   std::vector<double> time;                                            ///< empty = none
   std::vector<Channel> channels;
-  std::vector<std::size_t> lines;                                      ///< line of each row in the (first) file
+  std::vector<std::size_t> lines;  ///< line of each row in the (first) file
   std::vector<std::string> warnings;
-  std::vector<std::string> sha256;                                     ///< of each file, for the provenance
+  std::vector<std::string> sha256;  ///< of each file, for the provenance
   /// Column names and units of the source, by observable, so that `simulate` writes what it read.
   std::vector<std::pair<std::string, std::pair<std::string, std::string>>> source_columns;
 

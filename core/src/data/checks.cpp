@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/series.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::data {
+namespace {
+
+using Role = Observable::Role;
+using Kind = Observable::Kind;
+
+// No tissue or rubber is stretched twentyfold; where somebody's is, a unit in the header says so.
+constexpr double largest_stretch = 20;
+
+void check_stretch(const Series& series, const Series::Column& column, std::vector<std::string>& warnings) {
+  const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+  const auto row = [&](auto at) { return static_cast<std::size_t>(at - column.values.begin()); };
+  const bool from_zero = std::abs(column.values.front()) < 0.1;
+  if (from_zero && *low > -1 && *high <= 2)
+    throw InputError(
+        fmt::format("{}: '{}' begins at {}, so it looks like strain; expected stretch, which is 1 at rest. "
+                    "Write stretch = 1 + strain.",
+                    series.place(0, column), column.name, column.values.front()));
+  if ((from_zero && *high > 2) || (*high > largest_stretch && column.unit.empty()))
+    throw InputError(
+        fmt::format("{}: found {} where a stretch (1 at rest) is expected; this looks like percent. {}",
+                    series.place(row(high), column), *high,
+                    from_zero || *low < 50
+                        ? "Write stretch = 1 + strain/100 (a true stretch this large needs the unit: 'stretch [1]')."
+                        : "Write the unit in the header: 'stretch [%]'."));
+  if (*low <= 0)
+    throw InputError(
+        fmt::format("{}: found a stretch of {}; expected a positive number, 1 at rest, less in compression.",
+                    series.place(row(low), column), *low));
+  if (*high > largest_stretch)
+    warnings.push_back(fmt::format("{}: a stretch of {} is found, more than any tissue or rubber bears. Is it percent?",
+                                   series.place(row(high), column), *high));
+  else if (*low > 2)
+    warnings.push_back(
+        fmt::format("{}: every stretch is above 2 and none is near 1, the state at rest. Is it percent strain?",
+                    series.place(0, column)));
+}
+
+/// Signs of stress and stretch that do not go together: tension pulls.
+void check_sign(const Series& series, const Series::Column& stretch, const Series::Column& stress,
+                std::vector<std::string>& warnings) {
+  std::size_t tensile = 0, negative = 0, first = 0;
+  for (std::size_t row = 0; row < series.lines.size(); ++row) {
+    if (stretch.values[row] <= 1 || stress.values[row] == 0) continue;
+    ++tensile;
+    if (stress.values[row] < 0 && negative++ == 0) first = row;
+  }
+  if (tensile >= 2 && 2 * negative > tensile)
+    warnings.push_back(
+        fmt::format("{}: {} of {} rows in tension ('{}' above 1) have a negative stress. Tension is positive "
+                    "here; is the sign of the load cell reversed?",
+                    series.place(first, stress), negative, tensile, stretch.name));
+}
+
+void check_time(const Series& series, const Series::Column& column) {
+  for (std::size_t row = 0; row < column.values.size(); ++row)
+    if (column.values[row] < (row == 0 ? 0 : column.values[row - 1]))
+      throw InputError(
+          fmt::format("{}: the time {} s comes after {} s. Rows stand in loading order, so time must not run "
+                      "backwards, and begins at rest at 0.",
+                      series.place(row, column), column.values[row], row == 0 ? 0 : column.values[row - 1]));
+}
+
+std::string some_lines(const std::vector<std::size_t>& lines) {
+  const std::vector<std::size_t> shown(
+      lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(lines.size(), 5)));
+  return fmt::format("{} {}{}", lines.size() == 1 ? "line" : "lines", fmt::join(shown, ", "),
+                     lines.size() > 5 ? ", …" : "");
+}
+
+/// Rows that repeat an earlier one in every mapped column, and, in a file that only loads (no cycle, no clock), rows
+/// at an abscissa that was measured before with another result.
+void check_duplicates(const Series& series, std::vector<std::string>& warnings) {
+  bool clock = !series.time.empty();
+  const Series::Column* abscissa = nullptr;
+  std::map<std::vector<double>, std::size_t> rows, points;
+  for (const Series::Column& column : series.columns) {
+    clock = clock || column.observable->role == Role::time;
+    if (column.observable->role == Role::abscissa && abscissa == nullptr) abscissa = &column;
+  }
+  std::vector<std::size_t> repeated, ambiguous;
+  bool rising = true;
+  for (std::size_t row = 0; row < series.lines.size(); ++row) {
+    std::vector<double> all, prescribed;
+    for (const Series::Column& column : series.columns) {
+      all.push_back(column.values[row]);
+      if (column.observable->role == Role::abscissa) prescribed.push_back(column.values[row]);
+    }
+    const bool new_row = rows.emplace(std::move(all), row).second;
+    const bool new_point = points.emplace(std::move(prescribed), row).second;
+    if (!new_row)
+      repeated.push_back(series.lines[row]);
+    else if (!new_point)
+      ambiguous.push_back(series.lines[row]);
+    if (row > 0 && abscissa != nullptr) rising = rising && abscissa->values[row] >= abscissa->values[row - 1];
+  }
+  if (abscissa == nullptr) return;  // nothing is prescribed: equal rows are equal measurements
+  if (!repeated.empty() && (rising || clock))
+    warnings.push_back(
+        fmt::format("{}, {}: the same numbers as in an earlier row. Duplicates count twice in the fit; remove "
+                    "them if they are no separate measurements.",
+                    series.file.string(), some_lines(repeated)));
+  if (!ambiguous.empty() && rising && !clock)
+    warnings.push_back(
+        fmt::format("{}, {}, column {} ('{}'): this abscissa occurs before with another result. A simulation "
+                    "gives one value at both; is a time column missing, or are specimens mixed (\"where\")?",
+                    series.file.string(), some_lines(ambiguous), abscissa->index + 1, abscissa->name));
+}
+
+}  // namespace
+
+void check_series(const Series& series, std::vector<std::string>& warnings) {
+  const Series::Column* stretch = nullptr;
+  for (const Series::Column& column : series.columns) {
+    if (column.observable->kind == Kind::stretch) check_stretch(series, column, warnings);
+    if (column.observable->kind == Kind::stretch && column.observable->role == Role::abscissa && stretch == nullptr)
+      stretch = &column;
+    if (column.observable->role == Role::time) check_time(series, column);
+  }
+  for (const Series::Column& column : series.columns)
+    if (stretch != nullptr && column.observable->kind == Kind::stress) check_sign(series, *stretch, column, warnings);
+  check_duplicates(series, warnings);
+}
+
+}  // namespace tunica::data

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data/csv.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "data/nearest.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::data {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Cuts a text into lines (LF, CRLF or CR) and lines into fields, keeping count of lines.
+class Cutter {
+ public:
+  Cutter(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+
+  [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
+  [[nodiscard]] std::size_t line() const { return line_; }
+
+  /// Skips blank and comment lines.
+  void skip_comments() {
+    while (!at_end()) {
+      const std::string_view line = trimmed(rest_of_line());
+      if (!line.empty() && line.front() != '#') return;
+      at_ += rest_of_line().size();
+      end_line();
+    }
+  }
+
+  [[nodiscard]] std::string_view rest_of_line() const {
+    const std::size_t end = text_.find_first_of("\r\n", at_);
+    return text_.substr(at_, end == std::string_view::npos ? end : end - at_);
+  }
+
+  std::vector<std::string> fields(char delimiter) {
+    std::vector<std::string> cells;
+    bool more = true;
+    while (more) {
+      if (delimiter == ' ') skip_blanks();
+      std::string cell = field(delimiter);
+      more = !at_end() && text_[at_] != '\r' && text_[at_] != '\n';
+      if (delimiter == ' ' && cell.empty() && !more) break;  // white space at the end of the line
+      cells.push_back(std::move(cell));
+      if (more) ++at_;  // the delimiter
+      if (more && delimiter != ' ' && (at_end() || text_[at_] == '\r' || text_[at_] == '\n'))
+        cells.emplace_back(), more = false;
+    }
+    end_line();
+    return cells;
+  }
+
+ private:
+  void skip_blanks() {
+    while (!at_end() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+  }
+
+  [[nodiscard]] bool is_delimiter(char c, char delimiter) const {
+    return c == delimiter || (delimiter == ' ' && c == '\t');
+  }
+
+  // A field up to the delimiter or the end of the line; in quotes it may hold both, and "" for a quote.
+  std::string field(char delimiter) {
+    std::size_t begin = at_;
+    while (begin < text_.size() && text_[begin] == ' ') ++begin;
+    if (begin < text_.size() && text_[begin] == '"') return at_ = begin, quoted(delimiter);
+    const std::size_t start = at_;
+    while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter)) ++at_;
+    return std::string(trimmed(text_.substr(start, at_ - start)));
+  }
+
+  std::string quoted(char delimiter) {
+    const std::size_t opened = line_;
+    std::string cell;
+    for (++at_; !at_end(); ++at_) {
+      const char c = text_[at_];
+      if (c == '"' && at_ + 1 < text_.size() && text_[at_ + 1] == '"')
+        ++at_;
+      else if (c == '"')
+        break;
+      if (c == '\n') ++line_;
+      cell += text_[at_];
+    }
+    if (at_end())
+      throw InputError(fmt::format("{}, line {}: a quoted field is opened here and never closed. Close it with \".",
+                                   file_.string(), opened));
+    ++at_;
+    while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter))
+      cell += text_[at_++];
+    return std::string(trimmed(cell));
+  }
+
+  void end_line() {
+    if (at_end()) return;
+    if (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++at_;
+    ++at_, ++line_;
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view text_;
+  std::size_t at_ = 0, line_ = 1;
+};
+
+// Delimiters within quotes and within the brackets of a unit do not count.
+char sniff_delimiter(std::string_view header) {
+  std::size_t tabs = 0, semicolons = 0, commas = 0;
+  bool quoted = false;
+  int bracket = 0;
+  for (const char c : header) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    bracket += c == '[' ? 1 : c == ']' && bracket > 0 ? -1 : 0;
+    if (bracket > 0) continue;
+    tabs += c == '\t', semicolons += c == ';', commas += c == ',';
+  }
+  return tabs > 0 ? '\t' : semicolons > 0 ? ';' : commas > 0 ? ',' : ' ';
+}
+
+Csv::Column header_cell(const std::string& text) {
+  const std::size_t open = text.rfind('[');
+  if (open == std::string::npos || text.back() != ']') return {text, text, std::nullopt};
+  const std::string_view view = text;
+  return {text, std::string(trimmed(view.substr(0, open))),
+          std::string(trimmed(view.substr(open + 1, text.size() - open - 2)))};
+}
+
+// In a file delimited by white space the unit has become a cell of its own: "stress [kPa]", or two, "stress [N / m]".
+std::vector<std::string> join_units(const std::vector<std::string>& cells) {
+  std::vector<std::string> joined;
+  for (const std::string& cell : cells) {
+    const bool open = !joined.empty() && joined.back().find('[') != std::string::npos && joined.back().back() != ']';
+    if (!joined.empty() && (open || cell.starts_with('[')))
+      joined.back() += " " + cell;
+    else
+      joined.push_back(cell);
+  }
+  return joined;
+}
+
+bool is_number(const std::string& cell) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size();
+}
+
+void refuse_encodings(const std::filesystem::path& file, std::string_view text) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw InputError(fmt::format("{}, line 1: the file is UTF-16. Save it as UTF-8 text.", file.string()));
+  const std::size_t zero = text.find('\0');
+  if (zero != std::string_view::npos)
+    throw InputError(fmt::format(
+        "{}, line {}: found a zero byte, so this is no text file. Expected CSV: a header line "
+        "`name [unit]` and rows of numbers.",
+        file.string(), 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n')));
+}
+
+}  // namespace
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    throw InputError(
+        fmt::format("{}: there is no such file. Paths are relative to the experiment file.", file.string()));
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(fmt::format("{}: this is no regular file. Name a text file.", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  if (stream) bytes << stream.rdbuf();
+  // An empty file sets failbit on `bytes`, which is no error here.
+  if (!stream.is_open() || stream.bad())
+    throw InputError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
+  return std::move(bytes).str();
+}
+
+Csv parse_csv(const std::filesystem::path& file, std::string_view text) {
+  refuse_encodings(file, text);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  Csv csv;
+  csv.file = file;
+  Cutter cutter(file, text);
+  cutter.skip_comments();
+  if (cutter.at_end())
+    throw InputError(
+        fmt::format("{}, line 1: the file is empty{}. Expected a header line `name [unit]` and rows of numbers.",
+                    file.string(), text.empty() ? "" : " but for comments"));
+  csv.header_line = cutter.line();
+  csv.delimiter = sniff_delimiter(cutter.rest_of_line());
+  std::vector<std::string> header = cutter.fields(csv.delimiter);
+  if (csv.delimiter == ' ') header = join_units(header);
+  if (std::all_of(header.begin(), header.end(), is_number))
+    throw InputError(
+        fmt::format("{}, line {}, column 1: found the number {} where the header is expected. Write a line "
+                    "`name [unit]` with one name per column above the rows.",
+                    file.string(), csv.header_line, excerpt(header.front())));
+  while (header.size() > 1 && header.back().empty()) header.pop_back();
+  for (const std::string& cell : header) csv.columns.push_back(header_cell(cell));
+  for (cutter.skip_comments(); !cutter.at_end(); cutter.skip_comments()) {
+    Csv::Row row{cutter.line(), cutter.fields(csv.delimiter)};
+    const auto surplus = row.cells.size() > csv.columns.size()
+                             ? std::find_if(row.cells.begin() + static_cast<std::ptrdiff_t>(csv.columns.size()),
+                                            row.cells.end(), [](const std::string& cell) { return !cell.empty(); })
+                             : row.cells.end();
+    if (surplus != row.cells.end())
+      throw InputError(
+          fmt::format("{}, line {}, column {}: found '{}' beyond the last of the {} columns the header names. "
+                      "Name every column, and use a decimal point, or semicolons between the fields.",
+                      file.string(), row.line, surplus - row.cells.begin() + 1, excerpt(*surplus), csv.columns.size()));
+    row.cells.resize(csv.columns.size());
+    csv.rows.push_back(std::move(row));
+  }
+  if (csv.rows.empty())
+    throw InputError(fmt::format("{}, line {}: the file ends after its header. Expected rows of numbers below it.",
+                                 file.string(), csv.header_line));
+  return csv;
+}
+
+std::size_t Csv::column(std::string_view name) const {
+  const auto called = [&](const Column& column) { return column.name == name; };
+  const auto written = [&](const Column& column) { return column.text == name; };
+  auto found = std::find_if(columns.begin(), columns.end(), called);
+  if (found != columns.end()) {
+    const auto second = std::find_if(found + 1, columns.end(), called);
+    if (second != columns.end())
+      throw InputError(fmt::format("{}, line {}: the columns {} and {} are both called '{}'. Rename one.",
+                                   file.string(), header_line, found - columns.begin() + 1,
+                                   second - columns.begin() + 1, excerpt(name)));
+    return static_cast<std::size_t>(found - columns.begin());
+  }
+  found = std::find_if(columns.begin(), columns.end(), written);
+  if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(excerpt(column.name));
+  throw InputError(fmt::format("{}, line {}: there is no column '{}'. {}", file.string(), header_line, excerpt(name),
+                               suggestion(name, names)));
+}
+
+std::string Csv::place(std::size_t line, std::size_t column) const {
+  return fmt::format("{}, line {}, column {} ('{}')", file.string(), line, column + 1, excerpt(columns[column].name));
+}
+
+char Csv::decimal_mark(const std::vector<std::size_t>& of_columns) const {
+  bool comma = false;
+  for (const Row& row : rows)
+    for (const std::size_t column : of_columns) {
+      if (row.cells[column].find('.') != std::string::npos) return '.';
+      comma = comma || row.cells[column].find(',') != std::string::npos;
+    }
+  return comma && delimiter != ',' ? ',' : '.';
+}
+
+double Csv::number(const Row& row, std::size_t column, char decimal) const {
+  const std::string& cell = row.cells[column];
+  const auto refuse = [&](std::string_view found, std::string_view remedy) -> double {
+    throw InputError(
+        fmt::format("{}: found {} where a number is expected. {}", place(row.line, column), found, remedy));
+  };
+  constexpr std::string_view leave_out = "Correct the cell, or leave the row out with \"rows\" or \"where\".";
+  if (cell.empty()) return refuse("an empty cell", leave_out);
+  std::string digits = cell;
+  if (decimal == ',') std::replace(digits.begin(), digits.end(), ',', '.');
+  const char* begin = digits.data() + (digits.front() == '+' ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(begin, digits.data() + digits.size(), value);
+  if (error == std::errc::result_out_of_range && end == digits.data() + digits.size())
+    return digits.find_first_of("eE") != std::string::npos &&
+                   digits.find("-", digits.find_first_of("eE")) != std::string::npos
+               ? 0.0  // smaller than any double
+               : refuse(fmt::format("'{}', too large for a number,", excerpt(cell)), leave_out);
+  if (error != std::errc() || end != digits.data() + digits.size()) {
+    const bool comma =
+        cell.find(',') != std::string::npos && cell.find_first_not_of("+-0123456789.,eE") == std::string::npos;
+    return refuse(
+        fmt::format("'{}'", excerpt(cell)),
+        comma ? "Use a decimal point, or decimal commas throughout with semicolons between the fields." : leave_out);
+  }
+  if (!std::isfinite(value)) return refuse(fmt::format("'{}'", excerpt(cell)), leave_out);
+  return value;
+}
+
+}  // namespace tunica::data

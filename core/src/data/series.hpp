@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "data/dataset.hpp"
+
+namespace tunica::data {
+
+/// The mapped columns of one data file in base units, the selected rows in loading order.
+struct Series {
+  struct Column {
+    const Observable* observable;
+    std::size_t index;           ///< of the column in the file, from 0
+    std::string name, unit;      ///< as the header has them; unit "" where it has none
+    std::vector<double> values;  ///< one per row
+  };
+  std::filesystem::path file;
+  std::string sha256;
+  std::size_t header_line = 0;
+  std::vector<Column> columns;     ///< in the order of the request
+  std::vector<std::size_t> lines;  ///< one per row
+  std::vector<double> time;        ///< from `time_from`; empty = none
+
+  /// "circ.csv, line 7, column 2 ('stress')".
+  [[nodiscard]] std::string place(std::size_t row, const Column& column) const;
+  [[nodiscard]] std::string header_place(const Column& column) const;
+};
+
+Series read_series(const std::filesystem::path& file, const DataRequest& request,
+                   const std::vector<Observable>& observables, std::vector<std::string>& warnings);
+
+/// Refuses what cannot be a measurement of the observable (a stretch of zero or less, strain for stretch, percent for
+/// a fraction, time that runs backwards) and warns of what probably is none. Throws InputError.
+void check_series(const Series& series, std::vector<std::string>& warnings);
+
+/// Brings replicates to one set of abscissae, those of the first file: series with the same ones are taken as they
+/// are, others interpolated linearly with a warning; rows that some replicate does not reach are left out. After it
+/// all series have the same rows. Throws InputError.
+void align(std::vector<Series>& replicates, std::vector<std::string>& warnings);
+
+}  // namespace tunica::data
