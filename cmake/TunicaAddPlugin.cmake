@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...]): a shared library that tunica loads at run time.
-# Hidden visibility leaves one exported symbol, tunica_plugin; -fno-gnu-unique keeps inline statics apart.
+# It exports one symbol, tunica_plugin (tunica_plugin.map); -fno-gnu-unique keeps inline statics apart.
 function(tunica_add_plugin name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCES)
@@ -12,9 +12,11 @@ function(tunica_add_plugin name)
     target_link_libraries(${name} PRIVATE tunica_developer)
   endif()
   target_compile_options(${name} PRIVATE -fno-gnu-unique)
-  # Symbols of static libraries stay inside too; an undefined symbol is an error here, not at load time.
-  target_link_options(${name} PRIVATE -Wl,--exclude-libs,ALL $<$<NOT:$<BOOL:${TUNICA_SANITIZE}>>:-Wl,-z,defs>)
-  set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  # An undefined symbol is an error here, not at load time; sanitizers leave theirs to the executable.
+  set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/tunica_plugin.map)
+  target_link_options(${name} PRIVATE -Wl,--version-script=${exports} $<$<NOT:$<BOOL:${TUNICA_SANITIZE}>>:-Wl,-z,defs>)
+  set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+                                           LINK_DEPENDS ${exports})
   if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${TUNICA_PLUGIN_OUTPUT_DIRECTORY})
   endif()

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/loader.hpp"
+
+#define BOOST_DLL_USE_STD_FS
+#include <algorithm>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
+#include <cstdlib>
+#include <exception>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "plugins/refusals.hpp"
+
+namespace tunica::plugins {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* entry_symbol = "tunica_plugin";
+
+/// Maps the file for the life of the process. Objects, exceptions, vtables and type information of a plugin live in
+/// its image, and a library can start threads or hand out pointers before anyone knows that it is no plugin: what was
+/// mapped once is never unmapped, refused libraries included. The list itself is therefore never destroyed.
+const boost::dll::shared_library& map_for_good(const fs::path& file) {
+  static auto& mapped = *new std::vector<boost::dll::shared_library>();
+  boost::dll::shared_library library;
+  boost::dll::fs::error_code error;
+  dlerror();  // forget an older message
+  library.load(fs::absolute(file), error, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+  if (error) {
+    // Boost says "Bad file descriptor" whatever happened; the linker's own text names the reason.
+    const char* text = dlerror();
+    throw Refused(explain_load_failure(file, text == nullptr ? error.message() : text));
+  }
+  return mapped.emplace_back(std::move(library));
+}
+
+/// Runs a piece of the plugin and turns whatever it throws into Refused.
+template <class Call>
+auto shielded(std::string_view doing, const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& problem) {
+    throw Refused(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
+                              problem.what()));
+  } catch (...) {
+    throw Refused(
+        fmt::format("{} threw something that is no std::exception; expected it to return normally; nothing "
+                    "of the plugin was taken",
+                    doing));
+  }
+}
+
+std::vector<fs::path> plugins_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == boost::dll::shared_library::suffix()) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string refuse_folder(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) return "no such folder; expected a folder with plugins; check the plugin path";
+  if (!fs::is_directory(status)) return "found a file; expected a folder with plugins; name the folder it lies in";
+  return {};
+}
+
+}  // namespace
+
+SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
+  SearchPath path{from_command_line};
+  if (const char* variable = std::getenv("TUNICA_PLUGIN_PATH")) {
+    std::string_view rest = variable;
+    while (!rest.empty()) {
+      const std::size_t colon = rest.find(':');
+      if (colon != 0) path.folders.emplace_back(rest.substr(0, colon));
+      rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
+    }
+  }
+  // Nobody asked for the install folder by name, so its absence is no error.
+  const fs::path installed = boost::dll::program_location().parent_path() / TUNICA_PLUGINS_FROM_BIN;
+  if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
+  return path;
+}
+
+LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
+  LoadReport report;
+  std::set<fs::path> searched;
+  for (const fs::path& folder : path.folders) {
+    if (std::string reason = refuse_folder(folder); !reason.empty()) {
+      report.refused.push_back({folder, std::move(reason)});
+      continue;
+    }
+    // A folder that the path names twice holds no duplicates.
+    if (!searched.insert(fs::canonical(folder)).second) continue;
+    try {
+      for (const fs::path& file : plugins_in(folder)) {
+        try {
+          report.loaded.push_back(load_file(file, catalogue, path.allow_world_writable));
+        } catch (const Refused& refusal) {
+          report.refused.push_back({file, refusal.what()});
+        }
+      }
+    } catch (const fs::filesystem_error& problem) {
+      report.refused.push_back(
+          {folder, fmt::format("the folder cannot be read ({}); check its permissions", problem.code().message())});
+    }
+  }
+  return report;
+}
+
+Loaded load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
+  if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw Refused(reason);
+  const boost::dll::shared_library& library = map_for_good(file);
+  if (!library.has(entry_symbol)) {
+    throw Refused(
+        fmt::format("a shared library, but no plugin: found no exported symbol '{}'; define the plugin with "
+                    "TUNICA_PLUGIN(), or take the file out of the plugin path",
+                    entry_symbol));
+  }
+  const auto entry = library.get<const PluginHeader*()>(entry_symbol);
+  const PluginHeader* header = shielded("tunica_plugin()", [&] { return entry(); });
+  if (const std::string reason = refuse_header(header); !reason.empty()) throw Refused(reason);
+
+  const std::string plugin = fmt::format("{} {}", header->name, header->version);
+  Catalogue::Stage stage;
+  shielded(fmt::format("registration of plugin '{}'", plugin), [&] { header->register_into(stage); });
+  try {
+    catalogue.commit(std::move(stage), plugin);
+  } catch (const std::invalid_argument& problem) {
+    throw Refused(fmt::format("plugin '{}': {}", plugin, problem.what()));
+  }
+  return {header->name, header->version, file};
+}
+
+}  // namespace tunica::plugins

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "plugins/loader.hpp"
+#include "temporary_folder.hpp"
+
+// Each way of being no plugin, and its own message: what was expected, what was found, what to do.
+namespace tunica::plugins {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::copy_plugin;
+using ::testing::HasSubstr;
+using testing::TemporaryFolder;
+
+std::string reason_for(const fs::path& file, bool allow_world_writable = false) {
+  Catalogue catalogue;
+  try {
+    load_file(file, catalogue, allow_world_writable);
+  } catch (const Refused& refusal) {
+    EXPECT_TRUE(catalogue.optimizers().empty()) << "nothing of a refused plugin is taken";
+    return refusal.what();
+  }
+  return "loaded";
+}
+
+std::string reason_for_bad(const std::string& name) {
+  const TemporaryFolder folder;
+  return reason_for(copy_plugin(name, folder.path()));
+}
+
+void open_to_everyone(const fs::path& path) { fs::permissions(path, fs::perms::others_write, fs::perm_options::add); }
+
+TEST(Refusal, WrongApiNumber) {
+  EXPECT_EQ(reason_for_bad("wrong_api"), "it was built for plugin API " + std::to_string(TUNICA_PLUGIN_API + 41) +
+                                             "; expected " + std::to_string(TUNICA_PLUGIN_API) +
+                                             "; rebuild the plugin with the headers and the compiler of this tunica");
+}
+
+TEST(Refusal, OtherFingerprintShowsTheFieldsThatDifferAndNoOthers) {
+  const std::string ours = TUNICA_ABI_FINGERPRINT;
+  std::smatch alignment;
+  ASSERT_TRUE(std::regex_search(ours, alignment, std::regex("alignment ([^;]*)")));
+  EXPECT_EQ(reason_for_bad("other_fingerprint"),
+            "its binary interface differs: alignment: expected " + alignment.str(1) +
+                ", found 64; rebuild the plugin with the headers and the compiler of this tunica");
+}
+
+TEST(Refusal, HeaderOfAnotherSize) {
+  EXPECT_EQ(reason_for_bad("other_struct_size"),
+            "its header has 8 bytes; expected " + std::to_string(sizeof(PluginHeader)) +
+                "; rebuild the plugin with the headers and the compiler of this tunica");
+}
+
+TEST(Refusal, MissingSymbol) {
+  EXPECT_EQ(reason_for_bad("missing_symbol"),
+            "a shared library, but no plugin: found no exported symbol 'tunica_plugin'; define the plugin with "
+            "TUNICA_PLUGIN(), or take the file out of the plugin path");
+}
+
+TEST(Refusal, NullHeader) {
+  EXPECT_EQ(reason_for_bad("null_header"),
+            "tunica_plugin() returned a null pointer; expected the plugin's header; define it with TUNICA_PLUGIN()");
+}
+
+TEST(Refusal, NoName) {
+  EXPECT_EQ(reason_for_bad("no_name"), "its header has no name; expected a text; give TUNICA_PLUGIN() a name");
+}
+
+TEST(Refusal, NoRegisterFunction) {
+  EXPECT_EQ(reason_for_bad("no_register_function"),
+            "plugin 'no_register_function 0.1.0' has no register function; expected one; define the plugin with "
+            "TUNICA_PLUGIN()");
+}
+
+TEST(Refusal, RegistrationThatThrows) {
+  EXPECT_EQ(reason_for_bad("throwing_registration"),
+            "registration of plugin 'throwing_registration 0.1.0' failed: the table of materials is missing; expected "
+            "it to return normally; nothing of the plugin was taken");
+}
+
+TEST(Refusal, RegistrationThatThrowsANumber) {
+  EXPECT_EQ(reason_for_bad("non_standard_throw"),
+            "registration of plugin 'non_standard_throw 0.1.0' threw something that is no std::exception; expected it "
+            "to return normally; nothing of the plugin was taken");
+}
+
+TEST(Refusal, UndefinedSymbolIsNamed) {
+  EXPECT_EQ(reason_for_bad("undefined_symbol"),
+            "it needs the symbol 'nobody_defines_this', which neither it nor a library it is linked with defines; link "
+            "the missing library, and build with -Wl,-z,defs to see such gaps at link time");
+}
+
+TEST(Refusal, NotALibrary) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(reason_for(folder.write("text.so", "model = gho\n")),
+            "not a shared library: it does not begin with the ELF signature; expected the plugin's compiled .so file");
+  EXPECT_THAT(reason_for(folder.write("empty.so", "")), HasSubstr("not a shared library"));
+}
+
+TEST(Refusal, TruncatedLibraryKeepsTheLinkersWords) {
+  const TemporaryFolder folder;
+  const fs::path file = copy_plugin("good", folder.path());
+  fs::resize_file(file, 40);
+  EXPECT_THAT(reason_for(file), HasSubstr("the dynamic linker refused it: "));
+  EXPECT_THAT(reason_for(file), HasSubstr("too short"));
+}
+
+TEST(Refusal, MissingFileAndFolderInsteadOfAFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(reason_for(folder.path() / "nowhere.so"),
+            "no such file; expected a plugin (a shared library); check the path");
+  EXPECT_EQ(reason_for(folder.subfolder("folder.so")),
+            "found something other than a regular file; expected a shared library");
+}
+
+TEST(Refusal, WorldWritableFile) {
+  const TemporaryFolder folder;
+  const fs::path file = copy_plugin("good", folder.path());
+  open_to_everyone(file);
+  EXPECT_EQ(reason_for(file),
+            "the file can be written by every user, so that any of them could run code as you; expected a file "
+            "writable by its owner only; run: chmod o-w '" +
+                file.string() + "' (or pass --allow-world-writable)");
+  EXPECT_EQ(reason_for(file, true), "loaded") << "the override";
+}
+
+TEST(Refusal, WorldWritableFolder) {
+  const TemporaryFolder folder;
+  const fs::path open = folder.subfolder("open");
+  const fs::path file = copy_plugin("good", open);
+  open_to_everyone(open);
+  EXPECT_EQ(reason_for(file),
+            "its folder can be written by every user, so that any of them could replace it; expected a folder "
+            "writable by its owner only; run: chmod o-w '" +
+                open.string() + "' (or pass --allow-world-writable)");
+  EXPECT_EQ(reason_for(file, true), "loaded") << "the override";
+}
+
+TEST(Refusal, ALinkDoesNotHideAWorldWritableFolder) {
+  const TemporaryFolder folder;
+  const fs::path open = folder.subfolder("open"), closed = folder.subfolder("closed");
+  copy_plugin("good", open);
+  fs::create_symlink(open / "good.so", closed / "good.so");
+  EXPECT_EQ(reason_for(closed / "good.so"), "loaded") << "a link as such is fine";
+  open_to_everyone(open);
+  EXPECT_THAT(reason_for(closed / "good.so"), HasSubstr("chmod o-w '" + open.string() + "'"));
+}
+
+TEST(Refusal, TheOverrideReachesWholeFolders) {
+  const TemporaryFolder folder;
+  copy_plugin("good", folder.path());
+  open_to_everyone(folder.path());
+  Catalogue refusing, allowing;
+  EXPECT_EQ(load_all({{folder.path()}}, refusing).refused.size(), 1u);
+  EXPECT_EQ(load_all({{folder.path()}, true}, allowing).loaded.size(), 1u);
+}
+
+}  // namespace
+}  // namespace tunica::plugins
