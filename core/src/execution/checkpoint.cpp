@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "data/sha256.hpp"
+#include "execution/files.hpp"
+#include "tunica/error.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int checkpoint_format = 1;
+
+std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
+
+json to_json(std::size_t task, const RealisationResult& result) {
+  return {
+      {"task", task},
+      {"realisation", result.realisation},
+      {"best",
+       {{"parameters", result.best.parameters}, {"objective", result.best.objective}, {"index", result.best.index}}},
+      {"evaluations", result.tally.evaluations},
+      {"jacobians", result.tally.jacobians},
+      {"failures", result.tally.failures},
+      {"infeasible", result.tally.infeasible},
+      {"first_failure", result.tally.first_failure},
+      {"converged", result.converged},
+      {"reason", result.reason},
+      {"stop_reason", result.stop_reason},
+      {"seconds", result.seconds}};
+}
+
+RealisationResult from_json(const json& entry) {
+  RealisationResult result;
+  result.realisation = entry.at("realisation");
+  result.finished = true;
+  result.best.parameters = entry.at("best").at("parameters").get<std::vector<double>>();
+  result.best.objective = entry.at("best").at("objective");
+  result.best.index = entry.at("best").at("index");
+  result.tally.evaluations = entry.at("evaluations");
+  result.tally.jacobians = entry.at("jacobians");
+  result.tally.failures = entry.at("failures");
+  result.tally.infeasible = entry.at("infeasible");
+  result.tally.first_failure = entry.at("first_failure");
+  result.converged = entry.at("converged");
+  result.reason = entry.at("reason");
+  result.stop_reason = entry.at("stop_reason");
+  result.seconds = entry.at("seconds");
+  return result;
+}
+
+/// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
+/// 90000)".
+std::vector<std::string> changed_keys(const std::filesystem::path& directory, const std::string& input_json) {
+  std::vector<std::string> keys;
+  const json then = json::parse(read_text(directory / "input.json"), nullptr, false);
+  const json now = json::parse(input_json, nullptr, false);
+  if (then.is_discarded() || now.is_discarded()) return keys;
+  for (const auto& change : json::diff(then, now)) {
+    const std::string path = change.at("path");
+    const json::json_pointer pointer(path);
+    const std::string was = then.contains(pointer) ? then.at(pointer).dump() : "absent";
+    const std::string is = now.contains(pointer) ? now.at(pointer).dump() : "absent";
+    if (was.size() + is.size() < 60)
+      keys.push_back(fmt::format("{} (was {}, is {})", path, was, is));
+    else
+      keys.push_back(path);
+  }
+  return keys;
+}
+
+}  // namespace
+
+Facts facts_of(const Plan& plan) {
+  Facts facts;
+  const auto& experiment = *plan.experiment;
+  facts["the experiment file"] = data::sha256(experiment.input_json);
+  facts["the seed"] = fmt::format("{}", experiment.seed);
+  for (const auto& run : plan.runs) {
+    for (const auto& hash : run.assembly->data_hashes()) {
+      const auto space = hash.rfind(' ');
+      facts["the data " + hash.substr(0, space)] = space == std::string::npos ? hash : hash.substr(space + 1);
+    }
+    for (const auto& stage : run.stages) facts["the plugin of " + stage.entry->type] = stage.optimizer->plugin;
+  }
+  facts["the plugin interface of tunica"] = fmt::format("{}", TUNICA_PLUGIN_API);
+  return facts;
+}
+
+void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
+  json finished = json::array();
+  for (const auto& [task, result] : checkpoint.finished) finished.push_back(to_json(task, result));
+  const json document = {{"format", checkpoint_format}, {"facts", checkpoint.facts}, {"finished", std::move(finished)}};
+  write_atomically(checkpoint_file(directory), document.dump(1) + '\n');
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& directory) {
+  const auto file = checkpoint_file(directory);
+  if (!std::filesystem::exists(file))
+    throw InputError(
+        fmt::format("{}: there is no checkpoint.json, so no run to resume; leave out --resume, or name the "
+                    "folder of an interrupted run with -o",
+                    directory.string()));
+  try {
+    const json document = json::parse(read_text(file));
+    if (document.at("format") != checkpoint_format)
+      throw InputError(
+          fmt::format("{}: format {}, this version of tunica reads {}; resume with the version that wrote it",
+                      file.string(), document.at("format").dump(), checkpoint_format));
+    Checkpoint checkpoint;
+    checkpoint.facts = document.at("facts").get<Facts>();
+    for (const auto& entry : document.at("finished"))
+      checkpoint.finished.emplace_back(entry.at("task").get<std::size_t>(), from_json(entry));
+    return checkpoint;
+  } catch (const json::exception& problem) {
+    throw InputError(
+        fmt::format("{}: cannot be understood ({}); start anew with another -o", file.string(), problem.what()));
+  }
+}
+
+void refuse_changes(const std::filesystem::path& directory, const Facts& then, const Facts& now,
+                    const std::string& input_json) {
+  std::vector<std::string> changes;
+  for (const auto& [what, value] : now) {
+    const auto before = then.find(what);
+    if (before == then.end())
+      changes.push_back(what + " is new");
+    else if (before->second != value && what != "the experiment file")
+      changes.push_back(fmt::format("{} changed (was {}, is {})", what, before->second, value));
+    else if (before->second != value)
+      changes.push_back(fmt::format("{} changed: {}", what, fmt::join(changed_keys(directory, input_json), ", ")));
+  }
+  for (const auto& [what, value] : then)
+    if (now.find(what) == now.end()) changes.push_back(what + " is gone");
+  if (changes.empty()) return;
+  throw InputError(
+      fmt::format("{}: cannot be resumed, because the run began with something else:\n  {}\n"
+                  "Put it back as it was, or start anew: leave out --resume and name another folder with -o",
+                  directory.string(), fmt::join(changes, "\n  ")));
+}
+
+}  // namespace tunica::execution

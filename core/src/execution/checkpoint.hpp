@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "execution/plan.hpp"
+#include "execution/results.hpp"
+
+namespace tunica::execution {
+
+/// What must be the same for a run to be resumed, by the words a person knows it by: "seed" → "7",
+/// "the data circ.csv" → its hash, "the plugin of es" → "es 0.1.0".
+using Facts = std::map<std::string, std::string>;
+
+/// checkpoint.json: the facts, and the realisations that are finished. Those are not run again; the others are
+/// replayed from the journal (journal.hpp), which needs nothing but the evaluations themselves.
+struct Checkpoint {
+  Facts facts;
+  std::vector<std::pair<std::size_t, RealisationResult>> finished;  ///< task, result
+};
+
+Facts facts_of(const Plan& plan);
+
+void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
+
+/// Throws InputError when there is none, or it cannot be understood.
+Checkpoint read_checkpoint(const std::filesystem::path& directory);
+
+/// Throws InputError when something changed since the run began: what, and what to do. `input_json` is the
+/// experiment as it is now; changed keys are named by comparing it with input.json.
+void refuse_changes(const std::filesystem::path& directory, const Facts& then, const Facts& now,
+                    const std::string& input_json);
+
+}  // namespace tunica::execution

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/evaluation_table.hpp"
+
+#include <fmt/compile.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "tunica/error.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+constexpr std::size_t fixed_before = 3;  // id, run, realisation
+constexpr std::size_t fixed_after = 4;   // objective, status, reason, time
+
+/// Columns of all runs, each once, in order of first appearance; and where each run finds its own among them.
+void unite(const std::vector<std::vector<std::string>>& per_run, std::vector<std::string>& columns,
+           std::vector<std::vector<int>>& slots) {
+  for (const auto& names : per_run)
+    for (const auto& name : names)
+      if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+  for (const auto& names : per_run) {
+    auto& slot = slots.emplace_back(columns.size(), -1);
+    for (std::size_t own = 0; own < names.size(); ++own) {
+      const auto column = std::find(columns.begin(), columns.end(), names[own]) - columns.begin();
+      slot[static_cast<std::size_t>(column)] = static_cast<int>(own);
+    }
+  }
+}
+
+void append(fmt::memory_buffer& buffer, std::string_view text) {
+  buffer.append(text.data(), text.data() + text.size());
+}
+
+void append_number(fmt::memory_buffer& buffer, double value) {
+  if (std::isfinite(value)) fmt::format_to(fmt::appender(buffer), FMT_COMPILE("{}"), value);
+}
+
+template <class Number>
+Number read_number(std::string_view cell, Number when_empty) {
+  if (cell.empty()) return when_empty;
+  Number value{};
+  const auto end = cell.data() + cell.size();
+  const auto [stop, error] = std::from_chars(cell.data(), end, value);
+  if (error != std::errc{} || stop != end) throw InputError(fmt::format("'{}' is not a number", cell));
+  return value;
+}
+
+std::string unquoted(std::string_view cell) {
+  if (cell.size() < 2 || cell.front() != '"') return std::string(cell);
+  std::string text;
+  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
+    text += cell[i];
+    if (cell[i] == '"') ++i;
+  }
+  return text;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] != ',' || quoted) continue;
+    cells.push_back(line.substr(begin, i - begin));
+    begin = i + 1;
+  }
+  cells.push_back(line.substr(begin));
+}
+
+}  // namespace
+
+std::string csv_cell(std::string_view text) {
+  std::string cell;
+  for (const char character : text) {
+    cell += character == '\n' || character == '\r' ? ' ' : character;
+    if (character == '"') cell += '"';
+  }
+  return text.find_first_of(",\"") == std::string_view::npos ? cell : '"' + cell + '"';
+}
+
+EvaluationTable::EvaluationTable(std::vector<RunColumns> runs) : runs_(std::move(runs)) {
+  std::vector<std::vector<std::string>> parameters, costs;
+  for (const auto& run : runs_) {
+    quoted_labels_.push_back(csv_cell(run.label));
+    auto& names = parameters.emplace_back();
+    for (const auto& [name, unit] : run.parameters) names.push_back(fmt::format("{} [{}]", name, unit));
+    auto& tests = costs.emplace_back();
+    for (const auto& test : run.tests) tests.push_back("cost." + test);
+  }
+  unite(parameters, parameter_columns_, parameter_slots_);
+  unite(costs, cost_columns_, cost_slots_);
+}
+
+std::string EvaluationTable::header() const {
+  std::string line = "id,run,realisation";
+  for (const auto& column : parameter_columns_) line += ',' + csv_cell(column);
+  for (const auto& column : cost_columns_) line += ',' + csv_cell(column);
+  return line + ",objective,status,reason,time [s]\n";
+}
+
+void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
+                                 const calibration::Record& record) const {
+  fmt::format_to(fmt::appender(buffer), FMT_COMPILE("{},{},{}"), record.index + 1, quoted_labels_[run], realisation);
+  const bool failed = record.status.kind() == Status::Kind::failed;
+  for (const int own : parameter_slots_[run]) {
+    buffer.push_back(',');
+    if (own >= 0) append_number(buffer, record.parameters[static_cast<std::size_t>(own)]);
+  }
+  for (const int own : cost_slots_[run]) {
+    buffer.push_back(',');
+    if (own >= 0 && !failed) append_number(buffer, record.per_test[static_cast<std::size_t>(own)]);
+  }
+  buffer.push_back(',');
+  if (!failed) append_number(buffer, record.objective);
+  buffer.push_back(',');
+  append(buffer, name(record.status.kind()));
+  buffer.push_back(',');
+  if (!record.status.reason().empty()) append(buffer, csv_cell(record.status.reason()));
+  // Microseconds, written as a decimal fraction: cheaper than printing a double with a precision.
+  const auto micro = static_cast<std::uint64_t>(std::max(0.0, record.seconds) * 1e6);
+  fmt::format_to(fmt::appender(buffer), FMT_COMPILE(",{}.{:06}\n"), micro / 1000000, micro % 1000000);
+}
+
+void EvaluationTable::parse(std::string_view line, Row& row) const {
+  split(line, row.cells);
+  const std::size_t expected = fixed_before + parameter_columns_.size() + cost_columns_.size() + fixed_after;
+  if (row.cells.size() != expected)
+    throw InputError(fmt::format("{} cells where the header has {}: '{}'", row.cells.size(), expected, line));
+  const auto label = std::find(quoted_labels_.begin(), quoted_labels_.end(), row.cells[1]);
+  if (label == quoted_labels_.end())
+    throw InputError(fmt::format("'{}' is no run of this experiment: '{}'", row.cells[1], line));
+  row.run = static_cast<std::size_t>(label - quoted_labels_.begin());
+  row.realisation = read_number<std::uint64_t>(row.cells[2], 0);
+  const auto id = read_number<std::uint64_t>(row.cells[0], 0);
+  if (id == 0) throw InputError(fmt::format("no id: '{}'", line));
+  row.index = id - 1;
+}
+
+void EvaluationTable::values(const Row& row, calibration::Replayed& entry) const {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto& run = runs_[row.run];
+  entry.parameters.assign(run.parameters.size(), none);
+  entry.per_test.assign(run.tests.size(), none);
+  std::size_t cell = fixed_before;
+  for (const int own : parameter_slots_[row.run]) {
+    if (own >= 0) entry.parameters[static_cast<std::size_t>(own)] = read_number(row.cells[cell], none);
+    ++cell;
+  }
+  for (const int own : cost_slots_[row.run]) {
+    if (own >= 0) entry.per_test[static_cast<std::size_t>(own)] = read_number(row.cells[cell], none);
+    ++cell;
+  }
+  entry.objective = read_number(row.cells[cell], none);
+  const std::string_view word = row.cells[cell + 1];
+  std::string reason = unquoted(row.cells[cell + 2]);
+  if (word == "ok")
+    entry.status = Status();
+  else if (word == "infeasible")
+    entry.status = Status::infeasible(std::move(reason));
+  else if (word == "failed")
+    entry.status = Status::failed(std::move(reason));
+  else
+    throw InputError(fmt::format("'{}' is no status", word));
+  entry.seconds = read_number(row.cells[cell + 3], 0.0);
+}
+
+}  // namespace tunica::execution

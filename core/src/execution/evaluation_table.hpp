@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calibration/calibration_problem.hpp"
+
+namespace tunica::execution {
+
+/// What one run has in evaluations.csv.
+struct RunColumns {
+  std::string label;                                            ///< "gho/es"
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, base unit
+  std::vector<std::string> tests;
+};
+
+/// The layout of evaluations.csv: one file for all runs, one row an evaluation.
+///
+///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, reason, time [s]
+///
+/// Parameter and cost columns are the union over the runs, in order of first appearance; a cell that a run does not
+/// have is empty. id counts from 1 within a realisation; time counts from its beginning. Numbers are the shortest
+/// text that reads back as the same double: the file is the journal from which a run is resumed bit for bit.
+class EvaluationTable {
+ public:
+  explicit EvaluationTable(std::vector<RunColumns> runs);
+
+  [[nodiscard]] std::string header() const;  ///< with its line end
+  [[nodiscard]] const std::vector<RunColumns>& runs() const { return runs_; }
+
+  /// Appends one line. Well under a microsecond; allocates only when the buffer grows.
+  void append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
+                  const calibration::Record& record) const;
+
+  struct Row {
+    std::size_t run = 0;
+    std::uint64_t realisation = 0, index = 0;  ///< index from 0, as in Record
+    std::vector<std::string_view> cells;       ///< of the line that was parsed
+  };
+  /// Splits a line and reads which evaluation it is; throws InputError on a line that this layout cannot have
+  /// written. `values` then reads the rest.
+  void parse(std::string_view line, Row& row) const;
+  void values(const Row& row, calibration::Replayed& entry) const;
+
+ private:
+  std::vector<RunColumns> runs_;
+  std::vector<std::string> quoted_labels_;
+  std::vector<std::string> parameter_columns_, cost_columns_;
+  std::vector<std::vector<int>> parameter_slots_, cost_slots_;  ///< run → column → own index, or -1
+};
+
+/// A cell as RFC 4180 wants it, on one line.
+std::string csv_cell(std::string_view text);
+
+}  // namespace tunica::execution

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "execution/evaluation_table.hpp"
+#include "execution/files.hpp"
+
+namespace tunica::execution {
+
+/// One realisation of one run, the unit that is started, finished and resumed. `realisation` counts from 1.
+struct Task {
+  std::size_t run = 0;
+  std::uint64_t realisation = 1;
+};
+
+/// evaluations.csv while a run is under way, and with it the memory that a killed run is resumed from.
+///
+/// Why a journal of evaluations is a checkpoint of any optimiser: given its seed, an optimiser is a deterministic
+/// function of the answers it gets. Started again and answered from the journal it passes through the same states
+/// without one new evaluation, and goes on where it was killed; no optimiser has to know how to save itself.
+///
+/// The rows of evaluations.csv are in the order of run, realisation, id, whatever the number of threads: the first
+/// unfinished realisation appends to it; those that run ahead of it append to `parts/<n>.csv` and are moved over
+/// when their turn comes. Rows are buffered; flush() is to be called every 0.2 s or less. A failed write is kept in
+/// failure() and stops the recording, for it happens inside an optimiser, where no exception of ours belongs.
+/// Threads: one task's record() from one thread at a time; everything else from any.
+class Journal {
+ public:
+  /// What is on disk already: rows of each task, in order from index 0.
+  struct Stored {
+    std::vector<std::uint64_t> rows;  ///< per task; empty = a new journal
+    std::size_t head = 0;             ///< task whose rows end evaluations.csv
+  };
+
+  Journal(std::filesystem::path directory, const EvaluationTable& table, std::vector<Task> tasks, Stored stored);
+  ~Journal();
+
+  /// Appends a row; rows that are stored already are passed over.
+  void record(std::size_t task, const calibration::Record& record);
+  void finish(std::size_t task);
+  /// Writes what is buffered; `durable` waits until it is on the disk.
+  void flush(bool durable = false);
+
+  [[nodiscard]] bool failed() const { return failed_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::string failure() const;
+
+  static std::filesystem::path main_file(const std::filesystem::path& directory);
+  static std::filesystem::path part_file(const std::filesystem::path& directory, std::size_t task);
+
+ private:
+  struct Sink {
+    std::mutex mutex;
+    fmt::memory_buffer rows;
+    std::uint64_t next = 0;  ///< index of the first row that is not stored
+    AppendFile part;
+    bool finished = false;
+  };
+  void write(std::size_t task, std::string_view rows);
+  void advance();
+  template <class Action>
+  void keep_failure(Action&& action);
+
+  std::filesystem::path directory_;
+  const EvaluationTable& table_;
+  std::vector<Task> tasks_;
+  std::vector<std::unique_ptr<Sink>> sinks_;
+  mutable std::mutex files_;  ///< taken after a sink's mutex, never before
+  AppendFile main_;
+  std::size_t head_ = 0;
+  std::string failure_;
+  std::atomic<bool> failed_ = false;
+};
+
+}  // namespace tunica::execution

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "plugins/guarded.hpp"
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+PlannedStage plan_stage(const experiment::OptimizerEntry& entry, const experiment::Stop* own_stop,
+                        const plugins::Catalogue& catalogue) {
+  const auto found = catalogue.optimizers().find(entry.type);
+  if (found == catalogue.optimizers().end())
+    throw InputError(fmt::format("optimizers.{}: no plugin provides the type '{}'; see `tunica list optimizers`",
+                                 entry.name, entry.type));
+  return {&entry, &found->second, own_stop};
+}
+
+std::vector<PlannedStage> plan_stages(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                                      const plugins::Catalogue& catalogue) {
+  const auto& optimizer = experiment.optimizer(run.optimizer);
+  if (optimizer.stages.empty()) return {plan_stage(optimizer, nullptr, catalogue)};
+  std::vector<PlannedStage> stages;
+  for (const auto& stage : optimizer.stages) {
+    const auto& entry = experiment.optimizer(stage.optimizer);
+    if (!entry.stages.empty())
+      throw InputError(fmt::format("optimizers.{}: the stage '{}' has stages itself; list its stages here instead",
+                                   optimizer.name, entry.name));
+    stages.push_back(plan_stage(entry, stage.stop ? &*stage.stop : nullptr, catalogue));
+  }
+  return stages;
+}
+
+/// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
+void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
+  if (run.assembly->parameters().empty())
+    throw InputError(
+        fmt::format("run {}: every parameter is fixed, there is nothing to fit; free one, or use "
+                    "`tunica simulate` to see the predictions",
+                    run.label));
+  bool random = false;
+  for (const auto& stage : run.stages) {
+    const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
+    const auto& needs = optimizer->needs();
+    random = random || needs.random;
+    if (needs.residuals && run.assembly->blocks().empty())
+      throw InputError(
+          fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
+                      "row is held out. Set hold_out to false in a test, or take out the run",
+                      run.label, stage.entry->name, stage.entry->type));
+    if (!needs.constraints && !run.entry->constraints.empty())
+      warnings.push_back(
+          fmt::format("run {}: the optimiser '{}' does not handle constraints itself; violations are "
+                      "added to its objective as a penalty",
+                      run.label, stage.entry->name));
+    if (needs.gradient && !run.assembly->jacobian_is_exact())
+      warnings.push_back(
+          fmt::format("run {}: derivatives for '{}' are differences of whole predictions, because model "
+                      "or test has no exact ones",
+                      run.label, stage.entry->name));
+  }
+  if (run.assembly->blocks().empty())
+    throw InputError(fmt::format(
+        "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
+  if (!random && run.entry->realisations > 1)
+    warnings.push_back(
+        fmt::format("run {}: the optimiser uses no random numbers, so its {} realisations are all the same", run.label,
+                    run.entry->realisations));
+}
+
+}  // namespace
+
+EvaluationTable Plan::table() const {
+  std::vector<RunColumns> columns;
+  for (const auto& run : runs) {
+    auto& column = columns.emplace_back();
+    column.label = run.label;
+    for (const auto& parameter : run.assembly->parameters())
+      column.parameters.emplace_back(parameter.name, parameter.unit);
+    column.tests = run.entry->tests;
+  }
+  return EvaluationTable(std::move(columns));
+}
+
+Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  Plan plan;
+  plan.experiment = &experiment;
+  std::map<std::string, int> seen;
+  for (const auto& entry : experiment.runs) {
+    auto& run = plan.runs.emplace_back();
+    const std::string pair = entry.model + '/' + entry.optimizer;
+    const int occurrence = ++seen[pair];
+    run.label = occurrence == 1 ? pair : fmt::format("{}#{}", pair, occurrence);
+    run.entry = &entry;
+    run.seed = derive_seed(experiment.seed, fmt::format("run {}#{}", pair, occurrence));
+    run.stages = plan_stages(experiment, entry, catalogue);
+    run.assembly = std::make_unique<calibration::Assembly>(experiment, entry, catalogue);
+    check_needs(run, plan.warnings);
+    for (std::uint64_t realisation = 1; realisation <= entry.realisations; ++realisation)
+      plan.tasks.push_back({plan.runs.size() - 1, realisation});
+  }
+  return plan;
+}
+
+}  // namespace tunica::execution

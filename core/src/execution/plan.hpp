@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calibration/assembly.hpp"
+#include "execution/evaluation_table.hpp"
+#include "execution/journal.hpp"
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+namespace tunica::execution {
+
+/// One search within a run: the whole of it, or one of `stages`.
+struct PlannedStage {
+  const experiment::OptimizerEntry* entry = nullptr;
+  const plugins::Catalogue::Entry<OptimizerFactory>* optimizer = nullptr;
+  const experiment::Stop* own_stop = nullptr;  ///< of the stage; null = the run's
+};
+
+/// One entry of `runs`, ready to start.
+struct PlannedRun {
+  std::string label;  ///< "gho/es"; a second run of the same pair is "gho/es#2"
+  const experiment::RunEntry* entry = nullptr;
+  std::unique_ptr<calibration::Assembly> assembly;
+  std::vector<PlannedStage> stages;
+  std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
+};
+
+/// Everything a run of the experiment does, checked before anything starts. Refers to the experiment and the
+/// catalogue, which must outlive it.
+struct Plan {
+  const experiment::Experiment* experiment = nullptr;
+  std::vector<PlannedRun> runs;
+  std::vector<Task> tasks;  ///< in the order of evaluations.csv
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] EvaluationTable table() const;
+};
+
+/// Throws InputError where data, names or an optimiser's needs do not fit.
+Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::execution

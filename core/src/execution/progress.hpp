@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "execution/plan.hpp"
+
+namespace tunica::execution {
+
+/// Counters of one realisation, written by the thread that runs it and read by the display.
+struct alignas(64) Meter {
+  std::atomic<std::uint64_t> evaluations = 0;
+  std::atomic<double> best;  ///< infinity until something succeeded
+  std::atomic<bool> running = false, finished = false;
+  Meter();
+  void count(const calibration::Record& record);
+};
+
+/// What is shown on stderr while a run is under way: on a terminal one line that is redrawn, elsewhere a plain line
+/// every few seconds. NO_COLOR (no-color.org) takes the colour off. One thread calls it.
+class Progress {
+ public:
+  enum class Style { none, lines, bar };
+  /// Style for stderr as it is: a bar on a terminal that can redraw a line, else lines.
+  static Style style_of_stderr();
+
+  Progress(Style style, const Plan& plan, const std::vector<Meter>& meters);
+  /// Draws when it is time to; `last` takes the bar off the screen again.
+  void draw(bool last = false);
+
+ private:
+  [[nodiscard]] std::string text(double seconds) const;
+
+  Style style_;
+  bool colour_;
+  const Plan& plan_;
+  const std::vector<Meter>& meters_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double drawn_ = 0;  ///< s since the beginning
+};
+
+/// "0:07", "12:30", "3:05:00"
+std::string clock_text(double seconds);
+
+}  // namespace tunica::execution

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/realisation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "plugins/guarded.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+/// The stop block of a stage: its own limits, within what is left of the shared ones.
+experiment::Stop stage_stop(const experiment::Stop& shared, const experiment::Stop* own, std::uint64_t used,
+                            double elapsed) {
+  experiment::Stop stop = own ? *own : shared;
+  stop.max_evaluations = std::min(stop.max_evaluations, shared.max_evaluations - used);
+  if (own && own->max_time) stop.max_time = *own->max_time + elapsed;  // counted from the start of the stage
+  if (shared.max_time) stop.max_time = std::min(stop.max_time.value_or(*shared.max_time), *shared.max_time);
+  if (!stop.target) stop.target = shared.target;
+  if (!stop.stall) stop.stall = shared.stall;
+  return stop;
+}
+
+void add(calibration::Tally& total, const calibration::Tally& part) {
+  total.evaluations += part.evaluations;
+  total.jacobians += part.jacobians;
+  total.failures += part.failures;
+  total.infeasible += part.infeasible;
+  if (total.first_failure.empty()) total.first_failure = part.first_failure;
+}
+
+/// One line, as evaluations.csv stores it, so that a resumed run reports the same words.
+std::string one_line(std::string text) {
+  for (char& character : text)
+    if (character == '\n' || character == '\r') character = ' ';
+  return text;
+}
+
+}  // namespace
+
+RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisation,
+                                  const experiment::Experiment& experiment, const Surroundings& surroundings) {
+  RealisationResult result;
+  result.realisation = realisation;
+  const std::uint64_t seed = derive_seed(run.seed, fmt::format("realisation {}", realisation));
+  const auto& shared = run.entry->stop;
+  const auto record = [&](const calibration::Record& entry) {
+    result.seconds = std::max(result.seconds, entry.seconds);
+    surroundings.record(entry);
+  };
+  for (std::size_t s = 0; s < run.stages.size(); ++s) {
+    const auto& stage = run.stages[s];
+    calibration::CalibrationProblem::Settings settings;
+    settings.stop = stage_stop(shared, stage.own_stop, result.tally.evaluations, result.seconds);
+    settings.on_failure = experiment.on_failure;
+    settings.max_failure_rate = experiment.max_failure_rate;
+    settings.seed =
+        run.stages.size() == 1 ? seed : derive_seed(seed, fmt::format("stage {} {}", s + 1, stage.entry->name));
+    settings.record = record;
+    settings.replay = surroundings.replay;
+    settings.interrupted = surroundings.interrupted;
+    settings.first_index = result.tally.evaluations;
+    settings.elapsed_before = result.seconds;
+    if (!result.best.parameters.empty()) {
+      settings.start.resize(result.best.parameters.size());
+      run.assembly->to_unit(result.best.parameters, settings.start);
+    }
+    calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
+    const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
+    const auto outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
+
+    add(result.tally, problem.tally());
+    const auto& best = problem.best();
+    if (!best.parameters.empty() && (result.best.parameters.empty() || best.objective < result.best.objective))
+      result.best = best;
+    result.converged = outcome.converged;
+    result.reason = one_line(outcome.reason);
+    result.stop_reason = problem.stop_reason();
+    const bool spent = result.tally.evaluations >= shared.max_evaluations;
+    const bool stage_ended =
+        result.stop_reason.empty() || result.stop_reason == "stall" ||
+        (result.stop_reason == "max_evaluations" && !spent) ||
+        (result.stop_reason == "max_time" && !(shared.max_time && result.seconds >= *shared.max_time));
+    if (!stage_ended) break;
+  }
+  result.tally.first_failure = one_line(result.tally.first_failure);
+  result.finished = !surroundings.interrupted();
+  return result;
+}
+
+}  // namespace tunica::execution

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_problem.hpp"
+
+namespace tunica::execution {
+
+/// How one realisation of one run ended.
+struct RealisationResult {
+  std::uint64_t realisation = 1;
+  bool finished = false;   ///< false: interrupted
+  calibration::Best best;  ///< parameters are empty when no evaluation succeeded
+  calibration::Tally tally;
+  bool converged = false;   ///< the optimiser's own word
+  std::string reason;       ///< the optimiser's reason for coming back
+  std::string stop_reason;  ///< what of the stop block or the failure policy ended it, or empty
+  double seconds = 0;
+};
+
+/// What the execution hands to the comparison, one entry a run in the order of the file.
+struct RunResult {
+  std::vector<RealisationResult> realisations;
+};
+
+}  // namespace tunica::execution

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/run_directory.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "tunica/error.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+const std::filesystem::path results = "results";
+
+/// A name as a folder name: what a shell would take amiss becomes '-'.
+std::string folder_name(const std::string& name) {
+  std::string folder;
+  for (const char character : name)
+    folder +=
+        std::isalnum(static_cast<unsigned char>(character)) || character == '-' || character == '_' ? character : '-';
+  return folder.empty() ? "experiment" : folder;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::error_code& error) {
+  throw InputError(fmt::format("{}: cannot be created: {}; name a folder that you may write to with -o", path.string(),
+                               error.message()));
+}
+
+/// The numbers n for which results/<folder>-<n> exists; the largest, or 0.
+int newest(const std::string& folder) {
+  int largest = 0;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(results, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(folder + '-', 0) != 0) continue;
+    int number = 0;
+    const char* end = name.data() + name.size();
+    const auto [stop, problem] = std::from_chars(name.data() + folder.size() + 1, end, number);
+    if (problem == std::errc{} && stop == end && number > largest) largest = number;
+  }
+  return largest;
+}
+
+}  // namespace
+
+RunDirectory RunDirectory::create(const std::optional<std::filesystem::path>& requested, const std::string& name) {
+  std::error_code error;
+  if (requested) {
+    if (std::filesystem::exists(*requested, error) && !std::filesystem::is_directory(*requested, error))
+      throw InputError(fmt::format("{}: is a file; -o names a folder", requested->string()));
+    if (std::filesystem::is_directory(*requested, error) && !std::filesystem::is_empty(*requested, error))
+      throw InputError(fmt::format(
+          "{}: is not empty, and results are never overwritten; name another folder with -o{}", requested->string(),
+          std::filesystem::exists(*requested / "checkpoint.json", error) ? ", or go on with the run in it with --resume"
+                                                                         : ""));
+    std::filesystem::create_directories(*requested, error);
+    if (error) refuse(*requested, error);
+    return RunDirectory(*requested);
+  }
+  std::filesystem::create_directories(results, error);
+  if (error) refuse(results, error);
+  const std::string folder = folder_name(name);
+  for (int number = newest(folder) + 1;; ++number) {
+    const auto path = results / fmt::format("{}-{}", folder, number);
+    if (std::filesystem::create_directory(path, error)) return RunDirectory(path);
+    if (error) refuse(path, error);
+  }
+}
+
+RunDirectory RunDirectory::reopen(const std::optional<std::filesystem::path>& requested, const std::string& name) {
+  if (requested && !std::filesystem::is_directory(*requested))
+    throw InputError(fmt::format("{}: no such folder; --resume goes on with the run in it", requested->string()));
+  if (requested) return RunDirectory(*requested);
+  const std::string folder = folder_name(name);
+  const int number = newest(folder);
+  if (number == 0)
+    throw InputError(
+        fmt::format("{}/{}-<n>: there is no run to resume here; name its folder with -o", results.string(), folder));
+  return RunDirectory(results / fmt::format("{}-{}", folder, number));
+}
+
+RunDirectory::RunDirectory(std::filesystem::path path) : path_(std::move(path)) {
+  if (::access(path_.c_str(), W_OK | X_OK) != 0)
+    throw InputError(
+        fmt::format("{}: cannot be written to: {}; name another folder with -o", path_.string(), std::strerror(errno)));
+  lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // The lock goes with the process, so a killed run leaves none behind.
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(std::exchange(lock_, -1));
+    throw InputError(fmt::format("{}: another tunica is running in it; wait for it, or name another folder with -o",
+                                 path_.string()));
+  }
+}
+
+RunDirectory::RunDirectory(RunDirectory&& other) noexcept
+    : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
+
+RunDirectory::~RunDirectory() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace tunica::execution

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/runner.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/logger.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "execution/checkpoint.hpp"
+#include "execution/files.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/journal.hpp"
+#include "execution/realisation.hpp"
+#include "execution/recovery.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds heartbeat{100};  // rows are on disk after this time at the latest
+constexpr std::chrono::seconds checkpoint_interval{1};
+
+/// State of one execution; what several threads touch is under `mutex_` or in the journal and the meters.
+class Run {
+ public:
+  Run(const Plan& plan, const RunSettings& settings)
+      : plan_(plan),
+        settings_(settings),
+        table_(plan.table()),
+        meters_(plan.tasks.size()),
+        results_(plan.tasks.size()),
+        stored_(plan.tasks.size()) {
+    const auto log_file = (settings.directory / "run.log").string();
+    log_ = std::make_shared<spdlog::logger>("run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file));
+    log_->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
+    log_->set_error_handler([](const std::string&) {});  // a full disk is reported by the journal
+    open();
+  }
+
+  Execution execute();
+
+ private:
+  void open();
+  void work();
+  void run_task(std::size_t task);
+  void save(bool now);
+  bool stopping() const { return InterruptWatch::interrupted() || journal_->failed() || broken_; }
+
+  const Plan& plan_;
+  const RunSettings& settings_;
+  EvaluationTable table_;
+  std::vector<Meter> meters_;
+  std::vector<RealisationResult> results_;  ///< per task
+  std::vector<StoredEvaluations> stored_;
+  std::unique_ptr<Journal> journal_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<bool> broken_ = false;  ///< an exception is on its way, or the checkpoint cannot be written
+  std::string write_failure_;         ///< of the checkpoint
+  std::mutex mutex_;
+  Checkpoint checkpoint_;
+  Clock::time_point saved_ = Clock::now();
+};
+
+void Run::open() {
+  const auto& directory = settings_.directory;
+  const auto& input = plan_.experiment->input_json;
+  checkpoint_.facts = facts_of(plan_);
+  Journal::Stored stored;
+  if (settings_.resume) {
+    Checkpoint before = read_checkpoint(directory);
+    refuse_changes(directory, before.facts, checkpoint_.facts, input);
+    std::vector<bool> wanted(plan_.tasks.size(), true);
+    for (const auto& [task, result] : before.finished)
+      if (task < wanted.size()) wanted[task] = false;
+    auto recovered = recover(directory, table_, plan_.tasks, wanted);
+    for (auto& [task, result] : before.finished) {
+      // Without all of its rows (a loss of power) a finished realisation counts as unfinished, from its beginning.
+      if (task >= wanted.size() || recovered.stored.rows[task] != result.tally.evaluations) continue;
+      results_[task] = result;
+      checkpoint_.finished.emplace_back(task, std::move(result));
+    }
+    stored_ = std::move(recovered.evaluations);
+    stored = std::move(recovered.stored);
+    log_->info("resumed: {} of {} realisations are finished, the others are replayed from evaluations.csv",
+               checkpoint_.finished.size(), plan_.tasks.size());
+  } else {
+    write_atomically(directory / "input.json", input);
+    log_->info("experiment '{}', seed {}, {} threads", plan_.experiment->name, plan_.experiment->seed,
+               settings_.threads);
+  }
+  for (const auto& warning : plan_.warnings) log_->warn("{}", warning);
+  journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
+  for (const auto& [task, result] : checkpoint_.finished) {
+    journal_->finish(task);
+    meters_[task].evaluations = result.tally.evaluations;
+    meters_[task].best = result.best.parameters.empty() ? meters_[task].best.load() : result.best.objective;
+    meters_[task].finished = true;
+  }
+  write_checkpoint(directory, checkpoint_);
+}
+
+/// Rows first, then the checkpoint that counts on them.
+void Run::save(bool now) {
+  const std::lock_guard lock(mutex_);
+  if (!now && Clock::now() - saved_ < checkpoint_interval) return;
+  journal_->flush(true);
+  if (journal_->failed()) return;
+  std::sort(checkpoint_.finished.begin(), checkpoint_.finished.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  try {
+    write_checkpoint(settings_.directory, checkpoint_);
+  } catch (const WriteFailure& problem) {
+    write_failure_ = problem.what();
+    broken_ = true;
+  }
+  saved_ = Clock::now();
+}
+
+void Run::run_task(std::size_t task) {
+  const auto& [run_index, realisation] = plan_.tasks[task];
+  const auto& run = plan_.runs[run_index];
+  auto& meter = meters_[task];
+  meter.running = true;
+  log_->info("{}, realisation {}: begins", run.label, realisation);
+  Surroundings surroundings;
+  surroundings.record = [&](const calibration::Record& record) {
+    journal_->record(task, record);
+    meter.count(record);
+  };
+  surroundings.replay = [&](std::uint64_t index, calibration::Replayed& entry) {
+    return stored_[task].get(index, entry);
+  };
+  surroundings.interrupted = [this] { return stopping(); };
+  auto result = run_realisation(run, realisation, *plan_.experiment, surroundings);
+  stored_[task] = {};
+  meter.running = false;
+  log_->info("{}, realisation {}: {} after {} evaluations ({} failed), {:.3f} s, best {}{}{}", run.label, realisation,
+             result.finished ? "ends" : "interrupted", result.tally.evaluations, result.tally.failures, result.seconds,
+             result.best.parameters.empty() ? "none" : fmt::format("{}", result.best.objective),
+             result.stop_reason.empty() ? "" : ", stopped by " + result.stop_reason,
+             result.reason.empty() ? "" : ": " + result.reason);
+  if (result.tally.failures > 0)
+    log_->warn("{}, realisation {}: first failure: {}", run.label, realisation, result.tally.first_failure);
+  if (result.finished) {
+    journal_->finish(task);
+    meter.finished = true;
+    const std::lock_guard lock(mutex_);
+    checkpoint_.finished.emplace_back(task, result);
+  }
+  results_[task] = std::move(result);
+  save(false);
+}
+
+void Run::work() {
+  for (std::size_t task = next_++; task < plan_.tasks.size() && !stopping(); task = next_++) {
+    if (results_[task].finished) continue;
+    try {
+      // Without isolation a thread that waits for its population could pick up another whole realisation.
+      tbb::this_task_arena::isolate([&] { run_task(task); });
+    } catch (...) {
+      broken_ = true;
+      throw;
+    }
+  }
+}
+
+Execution Run::execute() {
+  const auto begin = Clock::now();
+  Progress progress(settings_.progress, plan_, meters_);
+  std::mutex waiting;
+  std::condition_variable wake;
+  bool over = false;
+  std::thread pulse([&] {
+    for (std::unique_lock lock(waiting); !wake.wait_for(lock, heartbeat, [&] { return over; });) {
+      journal_->flush();
+      progress.draw();
+    }
+  });
+  std::exception_ptr thrown;
+  try {
+    const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, settings_.threads);
+    tbb::task_arena arena(static_cast<int>(settings_.threads));
+    const std::size_t workers = std::min<std::size_t>(settings_.threads, plan_.tasks.size());
+    arena.execute([&] {
+      tbb::parallel_for(
+          std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
+    });
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  {
+    const std::lock_guard lock(waiting);
+    over = true;
+  }
+  wake.notify_all();
+  pulse.join();
+  progress.draw(true);
+  journal_->flush();
+  if (thrown) {
+    log_->error("ended by an error; the evaluations so far are in evaluations.csv");
+    std::rethrow_exception(thrown);
+  }
+  Execution execution;
+  if (!broken_) save(true);
+  execution.write_failure = journal_->failed() ? journal_->failure() : write_failure_;
+  execution.runs.resize(plan_.runs.size());
+  for (std::size_t task = 0; task < results_.size(); ++task) {
+    if (!results_[task].finished) execution.interrupted = true;
+    execution.runs[plan_.tasks[task].run].realisations.push_back(std::move(results_[task]));
+  }
+  execution.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  log_->info("{} after {:.3f} s", execution.interrupted ? "interrupted" : "done", execution.seconds);
+  return execution;
+}
+
+}  // namespace
+
+Execution execute(const Plan& plan, const RunSettings& settings) { return Run(plan, settings).execute(); }
+
+}  // namespace tunica::execution
