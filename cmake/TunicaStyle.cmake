@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# Checks of the sources: licence lines, file lengths and formatting as tests (seconds), clang-tidy as target `lint`
+# (minutes; it compiles every file once more).
+if(TUNICA_BUILD_TESTS)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  set(style ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/style.py ${PROJECT_SOURCE_DIR})
+  add_test(NAME Style.EverySourceHasItsLicenceLine COMMAND ${style} licence)
+  add_test(NAME Style.FilesOver400LinesHaveAReason COMMAND ${style} lines)
+endif()
+
+# Versions of clang-format disagree about the same style, so only the one of Debian 12 decides.
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+if(CLANG_FORMAT)
+  execute_process(COMMAND ${CLANG_FORMAT} --version OUTPUT_VARIABLE clang_format_version)
+  if(clang_format_version MATCHES "version 14\\." AND TUNICA_BUILD_TESTS)
+    add_test(NAME Style.SourcesAreFormatted COMMAND ${style} format ${CLANG_FORMAT})
+  endif()
+endif()
+
+find_program(RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
+if(RUN_CLANG_TIDY)
+  add_custom_target(lint
+    COMMAND ${RUN_CLANG_TIDY} -quiet -p ${CMAKE_BINARY_DIR} "${PROJECT_SOURCE_DIR}/(core|plugins|apps)/.*\\.cpp$"
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM USES_TERMINAL COMMENT "clang-tidy over core, plugins and apps")
+endif()

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks of the sources that need no compiler: style.py ROOT lines|licence|format CLANG_FORMAT."""
+import pathlib
+import subprocess
+import sys
+
+CODE = {".cpp", ".hpp"}
+SCRIPTS = {".py", ".cmake", ".sh"}
+LONGEST = 400
+
+
+def sources(root):
+    """Tracked files; in an unpacked archive without git, all files outside build and results."""
+    if (root / ".git").exists():
+        listing = subprocess.run(["git", "-c", f"safe.directory={root}", "-C", str(root), "ls-files", "-z"],
+                                 check=True, capture_output=True, text=True).stdout
+        files = [root / name for name in listing.split("\0") if name]
+    else:
+        files = [path for path in root.rglob("*") if path.relative_to(root).parts[0] not in ("build", "results")]
+    return sorted(path for path in files if path.is_file())
+
+
+def allowed_long_files(root):
+    """cmake/long_files.txt: `path: reason` a line."""
+    allowed = {}
+    for line in (root / "cmake/long_files.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            path, _, reason = line.partition(":")
+            allowed[path.strip()] = reason.strip()
+    return allowed
+
+
+def check_lines(root):
+    allowed = allowed_long_files(root)
+    problems = [f"cmake/long_files.txt: '{path}' has no reason" for path, reason in allowed.items() if not reason]
+    lengths = {str(path.relative_to(root)): len(path.read_text().splitlines())
+               for path in sources(root) if path.suffix in CODE | SCRIPTS}
+    for path, length in lengths.items():
+        if length > LONGEST and path not in allowed:
+            problems.append(f"{path}: {length} lines, expected at most {LONGEST}; split it by concept, or give a "
+                            "reason in cmake/long_files.txt")
+    for path in allowed:
+        if lengths.get(path, 0) <= LONGEST:
+            problems.append(f"cmake/long_files.txt: '{path}' is not over {LONGEST} lines; take it off the list")
+    return problems
+
+
+def check_licence(root):
+    problems = []
+    for path in sources(root):
+        script = path.suffix in SCRIPTS or path.name == "CMakeLists.txt" or path.name in ("bootstrap", "run")
+        if path.suffix not in CODE and not script:
+            continue
+        head = path.read_text().splitlines()[:3]
+        if sum("SPDX-License-Identifier: Apache-2.0" in line for line in head) != 1:
+            problems.append(f"{path.relative_to(root)}: expected one line 'SPDX-License-Identifier: Apache-2.0' at the top")
+    return problems
+
+
+def check_format(root, clang_format):
+    files = [str(path) for path in sources(root) if path.suffix in CODE]
+    result = subprocess.run([clang_format, "--dry-run", "-Werror", *files], capture_output=True, text=True)
+    wrong = sorted({line.split(":")[0] for line in result.stderr.splitlines() if "clang-format-violations" in line})
+    if result.returncode and not wrong:
+        return [result.stderr]
+    return [f"{pathlib.Path(path).relative_to(root)}: not formatted; run: {clang_format} -i {path}" for path in wrong]
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]).resolve()
+    checks = {"lines": check_lines, "licence": check_licence}
+    check = sys.argv[2]
+    problems = check_format(root, sys.argv[3]) if check == "format" else checks[check](root)
+    for problem in problems:
+        print(problem)
+    sys.exit(1 if problems else 0)
+
+
+main()
