@@ -14,7 +14,10 @@ function(tunica_add_plugin name)
   target_compile_options(${name} PRIVATE -fno-gnu-unique)
   # An undefined symbol is an error here, not at load time; sanitizers leave theirs to the executable.
   set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/tunica_plugin.map)
-  target_link_options(${name} PRIVATE -Wl,--version-script=${exports} $<$<NOT:$<BOOL:${TUNICA_SANITIZE}>>:-Wl,-z,defs>)
+  target_link_options(${name} PRIVATE -Wl,--version-script=${exports})
+  if(NOT TUNICA_SANITIZE)
+    target_link_options(${name} PRIVATE -Wl,-z,defs)
+  endif()
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                            LINK_DEPENDS ${exports})
   if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)
