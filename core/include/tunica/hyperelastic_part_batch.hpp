@@ -24,20 +24,27 @@ struct Structure {
   double tt = 0, zz = 0, rr = 0, tz = 0, i2 = 0, offset = 0;
 };
 
-/// `side` is +1 or −1: the family at +angle or at −angle.
-inline Structure structure(const Invariant& v, double side) {
-  const double s = std::sin(v.angle), c = std::cos(v.angle);
-  return {v.i1 + v.fibre * s * s, v.i1 + v.fibre * c * c, v.i1 + v.normal, side * v.fibre * s * c, v.i2, v.offset};
+/// Sine and cosine of a fibre angle; `side` is +1 or −1: the family at +angle or at −angle.
+struct Direction {
+  double s = 0, c = 1;
+  Direction() = default;
+  Direction(const Invariant& v, double side) {
+    if (v.angle != 0) s = side * std::sin(v.angle), c = std::cos(v.angle);
+  }
+};
+
+inline Structure structure(const Invariant& v, const Direction& m) {
+  return {v.i1 + v.fibre * m.s * m.s, v.i1 + v.fibre * m.c * m.c, v.i1 + v.normal, v.fibre * m.s * m.c, v.i2, v.offset};
 }
 
-/// Derivative of the structure by a parameter; d holds the derivative of the coefficients.
-inline Structure structure_derivative(const Invariant& v, const Invariant& d, double side) {
-  const double s = std::sin(v.angle), c = std::cos(v.angle);
-  const double by_angle = v.fibre * 2 * s * c * d.angle;
-  return {d.i1 + d.fibre * s * s + by_angle,
-          d.i1 + d.fibre * c * c - by_angle,
+/// Derivative of the structure by a parameter; d holds the derivative of the coefficients, for the family at +angle.
+inline Structure structure_derivative(const Invariant& v, const Invariant& d, const Direction& m, double side) {
+  const double by_angle = v.fibre * side * d.angle;
+  const double sc = m.s * m.c;
+  return {d.i1 + d.fibre * m.s * m.s + 2 * sc * by_angle,
+          d.i1 + d.fibre * m.c * m.c - 2 * sc * by_angle,
           d.i1 + d.normal,
-          side * (d.fibre * s * c + v.fibre * (c * c - s * s) * d.angle),
+          d.fibre * sc + (m.c * m.c - m.s * m.s) * by_angle,
           d.i2,
           d.offset};
 }
@@ -45,6 +52,7 @@ inline Structure structure_derivative(const Invariant& v, const Invariant& d, do
 /// Response of one part at up to `chunk` points; what is not wanted stays untouched.
 struct PartBatch {
   using Row = std::array<double, chunk>;
+  PartBatch() {}  // leaves the arrays as they are: every entry that is read was written before
   alignas(16) Row x, value, first, second;
   alignas(16) std::array<double, chunk * max_part_parameters> value_dp, first_dp;
 

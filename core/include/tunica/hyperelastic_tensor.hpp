@@ -38,7 +38,8 @@ inline void add_part_tensor(const EnergyPart& part, double side, const MaterialP
   std::array<Invariant, max_part_parameters> derivatives;
   const std::size_t invariant_count = out.stress_dp.empty() ? 0 : description.invariant_parameters.size();
   part.invariant(points.parameters, invariant, {derivatives.data(), invariant_count});
-  const Structure a = structure(invariant, side);
+  const Direction fibre(invariant, side);
+  const Structure a = structure(invariant, fibre);
 
   PartBatch batch;
   for (std::size_t i = 0; i < m; ++i) batch.x[i] = invariant_value(a, tensor(i));
@@ -51,8 +52,8 @@ inline void add_part_tensor(const EnergyPart& part, double side, const MaterialP
     batch.switch_off_below(batch.x, 0, response_count, m, wants);
   } else if (description.active == EnergyPart::Active::fibre_stretched) {
     PartBatch::Row i4;
-    const Structure direction = structure(Invariant{.fibre = 1, .angle = invariant.angle}, side);
-    for (std::size_t i = 0; i < m; ++i) i4[i] = invariant_value(direction, tensor(i));
+    const Structure along = structure(Invariant{.fibre = 1}, fibre);
+    for (std::size_t i = 0; i < m; ++i) i4[i] = invariant_value(along, tensor(i));
     batch.switch_off_below(i4, 1, response_count, m, wants);
   }
 
@@ -76,7 +77,7 @@ inline void add_part_tensor(const EnergyPart& part, double side, const MaterialP
     }
     // ∂S/∂p = 2 (ψ'' ∂x/∂p ∂x/∂C + ψ' ∂²x/∂C∂p + ∂ψ'/∂p ∂x/∂C)
     for (std::size_t j = 0; j < invariant_count; ++j) {
-      const Structure d = structure_derivative(invariant, derivatives[j], side);
+      const Structure d = structure_derivative(invariant, derivatives[j], fibre, side);
       const std::array<double, 6> d_slope = invariant_slope(d, C);
       const double x_p = invariant_value(d, C);
       double* const row = out.stress_dp.data() + 6 * description.invariant_parameters[j] * n + begin + i;

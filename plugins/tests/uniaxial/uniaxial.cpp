@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "uniaxial.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "axes_path.hpp"
+#include "tensor_path.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::uniaxial {
+namespace {
+
+/// A strip pulled along the circumferential or axial direction, its lateral faces free.
+class Uniaxial final : public Test {
+ public:
+  explicit Uniaxial(const TestSetup& setup) : axes_(bind(setup)) {
+    description_.parameters = {{"misalignment", "deg", 0, -15, 15, Scale::linear,
+                                "Angle between the pulled direction and the nominal material axis.", ""}};
+    description_.nulls = {0};
+    description_.diagnostics = {"transverse_stretch", "normal_stretch"};
+    description_.diagnostic_units = {"1", "1"};
+  }
+
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    const ModelDescription& model = input.model.describe();
+    const double misalignment = input.test_parameters[0];
+    if (misalignment != 0 || model.history_size > 0 || !model.principal_axes)
+      return predict_on_tensors(strip_, input, misalignment, output);
+    if (!model.parameter_derivatives && !output.jacobian.empty())
+      return Status::failed("uniaxial: the model has no parameter derivatives");
+    const Status status = axes_.predict(strip_, input, output);
+    // At α = 0 the mirrored families make every channel even in α.
+    if (status.ok() && !output.jacobian.empty()) {
+      const std::size_t rows = strip_.channels.size() * strip_.stretch.size();
+      for (double& entry : output.jacobian.subspan(input.model_parameters.size() * rows)) entry = 0;
+    }
+    return status;
+  }
+
+ private:
+  const Strip& bind(const TestSetup& setup) {
+    const bool circumferential = setup.options.text("direction") == "circumferential";
+    strip_.loaded = circumferential ? 0 : 1;
+    strip_.transverse = 1 - strip_.loaded;
+    strip_.measure = setup.stress_measure == "first_piola_kirchhoff"    ? Measure::first_piola_kirchhoff
+                     : setup.stress_measure == "second_piola_kirchhoff" ? Measure::second_piola_kirchhoff
+                                                                        : Measure::cauchy;
+    for (const auto& column : setup.rows.abscissae)
+      if (column.observable == "stretch") strip_.stretch.assign(column.values.begin(), column.values.end());
+    strip_.time.assign(setup.rows.time.begin(), setup.rows.time.end());
+    if (strip_.stretch.empty()) throw InputError("uniaxial: no rows, or no column mapped to 'stretch'");
+    for (std::size_t i = 0; i < strip_.stretch.size(); ++i)
+      if (!(strip_.stretch[i] > 0 && std::isfinite(strip_.stretch[i])))
+        throw InputError("uniaxial: row " + std::to_string(i + 1) + " has stretch " +
+                         std::to_string(strip_.stretch[i]) + "; a stretch is positive");
+    for (std::size_t i = 1; i < strip_.time.size(); ++i)
+      if (!(strip_.time[i] >= strip_.time[i - 1]))
+        throw InputError("uniaxial: time runs backwards at row " + std::to_string(i + 1) +
+                         "; rows must stand in loading order");
+    for (const std::string& channel : setup.rows.channels)
+      strip_.channels.push_back(channel == "transverse_stretch" ? Channel::transverse_stretch
+                                : channel == "normal_stretch"   ? Channel::normal_stretch
+                                                                : Channel::stress);
+    rows_.count = strip_.stretch.size();
+    rows_.abscissae = {{"stretch", strip_.stretch}};
+    rows_.channels = setup.rows.channels;
+    rows_.time = strip_.time;
+    return strip_;
+  }
+
+  Strip strip_;
+  TestRows rows_;
+  TestDescription description_;
+  AxesPath axes_;
+};
+
+TestFactory factory() {
+  return {"uniaxial",
+          "A strip pulled along the circumferential or axial direction, lateral faces free.",
+          "Holzapfel & Ogden, J. R. Soc. Interface 7:787 (2010)",
+          {{.name = "direction",
+            .kind = Option::Kind::choice,
+            .fallback = std::nullopt,
+            .doc = "Material axis the strip is pulled along.",
+            .choices = {"circumferential", "axial"}}},
+          {{"stretch", "1", Observable::Role::abscissa, true, "Stretch along the strip.", Observable::Kind::stretch},
+           {"time", "s", Observable::Role::time, false, "Time since the unloaded state.", Observable::Kind::plain},
+           {"stress", "kPa", Observable::Role::channel, false, "Stress along the strip.", Observable::Kind::stress},
+           {"transverse_stretch", "1", Observable::Role::channel, false, "In-plane stretch across the strip.",
+            Observable::Kind::stretch},
+           {"normal_stretch", "1", Observable::Role::channel, false, "Stretch through the thickness.",
+            Observable::Kind::stretch}},
+          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); }};
+}
+
+}  // namespace
+}  // namespace tunica::uniaxial
+
+TUNICA_PLUGIN("uniaxial", TUNICA_PLUGIN_VERSION) { registry.add(tunica::uniaxial::factory()); }
