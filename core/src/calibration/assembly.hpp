@@ -30,11 +30,11 @@ struct FixedParameter {
 /// One channel of one test: where its rows lie in the vector of all predictions.
 struct ChannelView {
   std::string test, observable, unit;
-  std::size_t offset = 0, count = 0;      ///< rows [offset, offset + count) of the predictions
-  std::vector<double> measured;           ///< count
-  std::vector<double> abscissa;           ///< count; the test's first abscissa, for plots and messages
+  std::size_t offset = 0, count = 0;  ///< rows [offset, offset + count) of the predictions
+  std::vector<double> measured;       ///< count
+  std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
   std::string abscissa_name, abscissa_unit;
-  std::vector<bool> fitted;               ///< count; false = held out
+  std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
   std::optional<data::Noise> noise;
 };
@@ -49,8 +49,8 @@ class Assembly {
   };
   using WorkspacePointer = std::unique_ptr<Workspace, WorkspaceDeleter>;
 
-  /// Reads the data, builds model and tests through the plugins' factories (exceptions come back as InputError with
-  /// the plugin's name), binds names, shares and fixed values. Throws InputError.
+  /// Reads the data, builds model and tests through the plugins' factories, binds names, shares and fixed values.
+  /// Throws InputError, and plugins::PluginFailure where a plugin breaks its promise.
   Assembly(const experiment::Experiment& experiment, const experiment::RunEntry& run,
            const plugins::Catalogue& catalogue);
   ~Assembly();
@@ -58,19 +58,22 @@ class Assembly {
   [[nodiscard]] const std::vector<FreeParameter>& parameters() const;
   [[nodiscard]] const std::vector<FixedParameter>& fixed_parameters() const;
   [[nodiscard]] const std::vector<ChannelView>& channels() const;
-  [[nodiscard]] std::size_t prediction_count() const;      ///< Σ channel counts, held-out rows included
+  [[nodiscard]] std::size_t test_count() const;                    ///< tests of the run: entries of per_test
+  [[nodiscard]] std::size_t prediction_count() const;              ///< Σ channel counts, held-out rows included
   [[nodiscard]] const std::vector<ResidualBlock>& blocks() const;  ///< one a fitted channel, one more for priors
-  [[nodiscard]] std::size_t residual_count() const;        ///< fitted rows and priors
+  [[nodiscard]] std::size_t residual_count() const;                ///< fitted rows and priors
   [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const std::vector<std::string>& data_hashes() const;  ///< "circ.csv sha256:…"
   /// Known invariances of the model, arguments as indices into parameters(); value() takes the free values.
   [[nodiscard]] const std::vector<Combination>& combinations() const;
-  [[nodiscard]] bool jacobian_is_exact() const;            ///< false: some test's predictions are differenced
+  [[nodiscard]] bool jacobian_is_exact() const;  ///< false: some test's predictions are differenced
 
   [[nodiscard]] WorkspacePointer make_workspace() const;
 
   /// All predictions (prediction_count) and, unless empty, their Jacobian by the free parameters, row-major
-  /// [i·n + j]. `free` are parameter values in base units.
+  /// [i·n + j]. `free` are parameter values in base units. Exact where the model has parameter derivatives; else
+  /// central differences of whole predictions, one-sided (second order) at bounds, step ε^(1/3)·|p| (linear scale: of
+  /// at least a hundredth of the range).
   Status predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
                  Workspace& workspace) const;
   /// Diagnostics of one test at these parameters, name → row values (transverse stretch, iterations).

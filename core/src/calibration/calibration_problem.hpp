@@ -16,17 +16,17 @@ namespace tunica::calibration {
 
 /// One evaluation as it goes to evaluations.csv, in the order of its index.
 struct Record {
-  std::uint64_t index;                  ///< within the realisation, from 0
-  std::span<const double> parameters;   ///< free values in base units
-  double objective;                     ///< undefined when failed
+  std::uint64_t index;                 ///< within the realisation, from 0
+  std::span<const double> parameters;  ///< free values in base units
+  double objective;                    ///< undefined when failed
   std::span<const double> per_test;
   const Status& status;
-  double seconds;                       ///< since the realisation began
+  double seconds;  ///< since the realisation began
 };
 
 /// What the best evaluated point is, at any time.
 struct Best {
-  std::vector<double> parameters;       ///< empty: nothing succeeded yet
+  std::vector<double> parameters;  ///< empty: nothing succeeded yet
   double objective = 0;
   std::uint64_t index = 0;
 };
@@ -43,7 +43,7 @@ using Replay = std::function<bool(std::uint64_t index, Replayed& entry)>;
 
 struct Tally {
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
-  std::string first_failure;            ///< reason of the first failed evaluation
+  std::string first_failure;  ///< reason of the first failed evaluation
 };
 
 /// The host's Problem: counts, keeps the best, enforces the stop block and the failure policy, records every
@@ -54,13 +54,13 @@ class CalibrationProblem : public Problem {
     experiment::Stop stop;
     experiment::OnFailure on_failure = experiment::OnFailure::penalise;
     double max_failure_rate = 1;
-    std::uint64_t seed = 0;                           ///< of the realisation
-    std::vector<double> start;                        ///< unit box; empty = the parameters' initial values
-    std::function<void(const Record&)> record = {};   ///< called in index order, never concurrently
+    std::uint64_t seed = 0;                          ///< of the realisation
+    std::vector<double> start;                       ///< unit box; empty = the parameters' initial values
+    std::function<void(const Record&)> record = {};  ///< called in index order, never concurrently
     Replay replay = {};
-    std::function<bool()> interrupted = {};           ///< Ctrl-C
-    std::uint64_t first_index = 0;                    ///< of a later stage
-    double elapsed_before = 0;                        ///< s, counted against max_time
+    std::function<bool()> interrupted = {};  ///< Ctrl-C
+    std::uint64_t first_index = 0;           ///< of a later stage
+    double elapsed_before = 0;               ///< s, counted against max_time
   };
   CalibrationProblem(const Assembly& assembly, Settings settings);
   ~CalibrationProblem() override;

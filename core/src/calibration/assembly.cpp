@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "calibration/assembly_parts.hpp"
+#include "calibration/composition.hpp"
+
+namespace tunica::calibration {
+namespace {
+
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count) {
+  std::vector<bool> fitted(count, !entry.hold_out.all);
+  if (entry.hold_out.all || !entry.hold_out.rows) return fitted;
+  const data::RowRange& range = *entry.hold_out.rows;
+  if (range.first >= count) {
+    throw InputError(
+        fmt::format("test '{}': hold_out starts at row {}, but only rows 0 … {} are used; choose rows among them",
+                    entry.name, range.first, static_cast<std::ptrdiff_t>(count) - 1));
+  }
+  const std::size_t last = std::min(range.last.value_or(count), count);
+  for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
+  return fitted;
+}
+
+/// What one test measured, channel by channel, its rows behind the predictions so far.
+std::vector<ChannelView> views(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                               const std::vector<Observable>& observables, std::size_t offset) {
+  std::vector<ChannelView> found;
+  if (!entry.weights.empty() && entry.weights.size() != dataset.channels.size()) {
+    throw InputError(fmt::format("test '{}': {} weights for {} fitted channels; give one number or one a channel",
+                                 entry.name, entry.weights.size(), dataset.channels.size()));
+  }
+  for (std::size_t k = 0; k < dataset.channels.size(); ++k) {
+    const data::Channel& channel = dataset.channels[k];
+    ChannelView view;
+    view.test = entry.name, view.observable = channel.observable, view.unit = channel.unit;
+    view.offset = offset + k * dataset.count, view.count = dataset.count;
+    view.measured = channel.values, view.noise = channel.noise;
+    view.fitted = fitted_rows(entry, dataset.count);
+    if (!entry.weights.empty()) view.weight = entry.weights[k];
+    if (!dataset.abscissae.empty()) {
+      const auto& [name, values] = dataset.abscissae.front();
+      view.abscissa_name = name, view.abscissa = values;
+      const auto observable =
+          std::find_if(observables.begin(), observables.end(),
+                       [&name = name](const Observable& candidate) { return candidate.name == name; });
+      if (observable != observables.end()) view.abscissa_unit = observable->unit;
+    } else {
+      view.abscissa_name = "row", view.abscissa_unit = "1";
+      for (std::size_t row = 0; row < dataset.count; ++row) view.abscissa.push_back(static_cast<double>(row));
+    }
+    found.push_back(std::move(view));
+  }
+  return found;
+}
+
+/// The chain rule of one test, see BoundTest.
+void chain(BoundTest& test, const Bound& model, std::size_t free_count) {
+  std::vector<std::optional<std::size_t>> first(free_count);
+  const auto visit = [&](const Link& link, std::size_t slot) {
+    if (first[link.index]) {
+      test.sums.emplace_back(*first[link.index], slot);
+    } else {
+      first[link.index] = slot;
+    }
+  };
+  for (const Link& link : model.links) visit(link, link.position);
+  for (const Link& link : test.own.links) visit(link, model.values.size() + link.position);
+  for (std::size_t index = 0; index < free_count; ++index) {
+    if (!first[index]) {
+      test.untouched.push_back(index);
+    } else {
+      // Differences fill rows in free order instead of slot order; there are never more of them than slots.
+      test.columns.emplace_back(index, test.differenced ? test.columns.size() : *first[index]);
+    }
+  }
+}
+
+/// The model's combinations as functions of the free values; one without a free argument says nothing.
+std::vector<Combination> free_combinations(const std::vector<Combination>& of_model, const Bound& bound) {
+  std::vector<Combination> found;
+  for (const Combination& combination : of_model) {
+    Combination free{combination.name, combination.unit, {}, {}, combination.remedy};
+    for (const Link& link : bound.links) {
+      const auto& arguments = combination.arguments;
+      if (std::find(arguments.begin(), arguments.end(), link.position) == arguments.end()) continue;
+      if (std::find(free.arguments.begin(), free.arguments.end(), link.index) == free.arguments.end()) {
+        free.arguments.push_back(link.index);
+      }
+    }
+    if (free.arguments.empty()) continue;
+    free.value = [value = combination.value, bound](std::span<const double> values) {
+      std::vector<double> all = bound.values;
+      for (const Link& link : bound.links) all[link.position] = values[link.index];
+      return value(all);
+    };
+    found.push_back(std::move(free));
+  }
+  return found;
+}
+
+Map map_of(const FreeParameter& free) {
+  if (free.scale == Scale::linear) return {free.min, free.max, 0, 0, false};
+  return {free.min, free.max, std::log(free.min), std::log(free.max / free.min), true};
+}
+
+}  // namespace
+
+void Assembly::WorkspaceDeleter::operator()(Workspace* workspace) const { delete workspace; }
+
+Assembly::Assembly(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                   const plugins::Catalogue& catalogue)
+    : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  if (!run.constraints.empty()) {
+    const auto& constraint = run.constraints.front();
+    throw InputError(fmt::format("{}: unknown constraint type '{}'; none is available yet, remove it",
+                                 constraint.pointer, constraint.type));
+  }
+  ComposedModel model = compose_model(experiment.model(run.model), catalogue);
+  std::vector<std::vector<Slot>> slots{std::move(model.slots)};
+  std::vector<ComposedTest> tests;
+  for (const std::string& name : run.tests) {
+    tests.push_back(compose_test(experiment.test(name), catalogue));
+    slots.push_back(tests.back().slots);
+  }
+  Binding binding = bind_parameters(slots);
+  parts.model = std::move(model.model), parts.model_plugin = std::move(model.plugin);
+  parts.model_parameters = std::move(binding.owners[0]);
+  parts.free = std::move(binding.free), parts.fixed = std::move(binding.fixed);
+  std::transform(parts.free.begin(), parts.free.end(), std::back_inserter(parts.maps), map_of);
+  parts.combinations = free_combinations(parts.model->describe().combinations, parts.model_parameters);
+
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const experiment::TestEntry& entry = experiment.test(run.tests[t]);
+    const data::Dataset& dataset = tests[t].dataset;
+    BoundTest test;
+    test.name = entry.name, test.plugin = std::move(tests[t].plugin), test.test = std::move(tests[t].test);
+    test.rows = dataset.count, test.channels = dataset.channels.size(), test.offset = parts.prediction_count;
+    test.own = std::move(binding.owners[t + 1]);
+    test.differenced = !parts.model->describe().parameter_derivatives;
+    chain(test, parts.model_parameters, parts.free.size());
+    const auto& observables = catalogue.tests().at(entry.type).factory.observables;
+    for (const std::string& warning : dataset.warnings) {
+      parts.warnings.push_back(fmt::format("test '{}': {}", entry.name, warning));
+    }
+    for (std::size_t k = 0; k < dataset.sha256.size(); ++k) {
+      const std::string file = k < entry.data.files.size() ? entry.data.files[k].filename().string() : entry.name;
+      parts.data_hashes.push_back(fmt::format("{} sha256:{}", file, dataset.sha256[k]));
+    }
+    auto channels = views(entry, dataset, observables, test.offset);
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+      const ChannelView& view = channels[k];
+      FittedChannel fitted{t, {parts.residual_count, 0, 1, {}}, {}, {}, {}, {}};
+      for (std::size_t row = 0; row < view.count; ++row) {
+        if (!view.fitted[row]) continue;
+        fitted.rows.push_back(view.offset + row), fitted.measured.push_back(view.measured[row]);
+      }
+      if (fitted.rows.empty()) continue;
+      fitted.block.size = fitted.rows.size();
+      const std::string where = fmt::format("test '{}', channel '{}'", view.test, view.observable);
+      NoiseModel noise;
+      if (run.objective == experiment::ObjectiveType::least_squares) {
+        noise = noise_model(dataset.channels[k], view.abscissa, view.fitted, where, parts.warnings);
+      }
+      scale_residuals(fitted, run.objective, view.weight, &noise, where);
+      parts.residual_count += fitted.block.size;
+      parts.blocks.push_back(fitted.block);
+      parts.fitted.push_back(std::move(fitted));
+    }
+    parts.prediction_count += test.size();
+    std::move(channels.begin(), channels.end(), std::back_inserter(parts.channels));
+    parts.tests.push_back(std::move(test));
+  }
+
+  for (std::size_t index = 0; index < parts.free.size(); ++index) {
+    const FreeParameter& free = parts.free[index];
+    if (!free.prior) continue;
+    if (run.objective == experiment::ObjectiveType::least_squares) {
+      parts.priors.push_back({index, free.prior->mean, free.prior->sd});
+    } else {
+      parts.warnings.push_back(
+          fmt::format("the prior of '{}' is not used: only 'least_squares' weighs data by their noise, "
+                      "so that a prior can be added to it",
+                      free.name));
+    }
+  }
+  if (!parts.priors.empty()) {
+    parts.blocks.push_back({parts.residual_count, parts.priors.size(), 1, ResidualBlock::Loss::quadratic});
+    parts.residual_count += parts.priors.size();
+  }
+}
+
+Assembly::~Assembly() = default;
+
+const std::vector<FreeParameter>& Assembly::parameters() const { return parts_->free; }
+const std::vector<FixedParameter>& Assembly::fixed_parameters() const { return parts_->fixed; }
+const std::vector<ChannelView>& Assembly::channels() const { return parts_->channels; }
+std::size_t Assembly::test_count() const { return parts_->tests.size(); }
+std::size_t Assembly::prediction_count() const { return parts_->prediction_count; }
+const std::vector<ResidualBlock>& Assembly::blocks() const { return parts_->blocks; }
+std::size_t Assembly::residual_count() const { return parts_->residual_count; }
+const std::vector<std::string>& Assembly::warnings() const { return parts_->warnings; }
+const std::vector<std::string>& Assembly::data_hashes() const { return parts_->data_hashes; }
+const std::vector<Combination>& Assembly::combinations() const { return parts_->combinations; }
+
+bool Assembly::jacobian_is_exact() const {
+  return std::none_of(parts_->tests.begin(), parts_->tests.end(),
+                      [](const BoundTest& test) { return test.differenced; });
+}
+
+Assembly::WorkspacePointer Assembly::make_workspace() const { return WorkspacePointer(new Workspace(*parts_)); }
+
+void Assembly::from_unit(std::span<const double> x, std::span<double> free) const {
+  for (std::size_t j = 0; j < parts_->maps.size(); ++j) {
+    const Map& map = parts_->maps[j];
+    const double value =
+        map.logarithmic ? std::exp(map.log_min + x[j] * map.log_span) : map.min + x[j] * (map.max - map.min);
+    free[j] = std::clamp(value, map.min, map.max);  // rounding must not leave the bounds
+  }
+}
+
+void Assembly::to_unit(std::span<const double> free, std::span<double> x) const {
+  for (std::size_t j = 0; j < parts_->maps.size(); ++j) {
+    const Map& map = parts_->maps[j];
+    const double unit =
+        map.logarithmic ? (std::log(free[j]) - map.log_min) / map.log_span : (free[j] - map.min) / (map.max - map.min);
+    x[j] = std::clamp(unit, 0.0, 1.0);
+  }
+}
+
+std::vector<double> Assembly::initial_unit() const {
+  std::vector<double> initial, x(parts_->free.size());
+  for (const FreeParameter& parameter : parts_->free) initial.push_back(parameter.initial);
+  to_unit(initial, x);
+  return x;
+}
+
+}  // namespace tunica::calibration

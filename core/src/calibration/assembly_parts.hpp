@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/assembly.hpp"
+#include "calibration/binding.hpp"
+#include "calibration/objective.hpp"
+#include "tunica/model.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::calibration {
+
+/// One test of the run, with everything an evaluation needs worked out beforehand.
+struct BoundTest {
+  std::string name, plugin;
+  std::unique_ptr<Test> test;
+  std::size_t rows = 0, channels = 0;
+  std::size_t offset = 0;    ///< of its rows among all predictions, channel after channel
+  Bound own;                 ///< the test's parameter vector
+  bool differenced = false;  ///< the host takes differences of whole predictions
+
+  // The chain rule from slots (model parameters, then the test's) to free parameters. A test's Jacobian holds one row
+  // of values per slot; rows of slots that share a free parameter are summed into the first of them.
+  std::vector<std::pair<std::size_t, std::size_t>> sums;     ///< {into, from}
+  std::vector<std::pair<std::size_t, std::size_t>> columns;  ///< {free parameter, row of the test's Jacobian}
+  std::vector<std::size_t> untouched;                        ///< free parameters that the test does not depend on
+
+  [[nodiscard]] std::size_t size() const { return rows * channels; }
+};
+
+/// A prior of a free parameter as a residual (p − mean)/sd.
+struct PriorRow {
+  std::size_t index;
+  double mean, sd;
+};
+
+/// Unit box ↔ parameter: p = min + x·span, or p = exp(log_min + x·log_span).
+struct Map {
+  double min, max, log_min, log_span;
+  bool logarithmic;
+};
+
+struct Assembly::Parts {
+  std::unique_ptr<Model> model;
+  std::string model_plugin;
+  Bound model_parameters;
+  std::vector<BoundTest> tests;
+  std::vector<FreeParameter> free;
+  std::vector<FixedParameter> fixed;
+  std::vector<Map> maps;
+  std::vector<ChannelView> channels;
+  std::vector<FittedChannel> fitted;
+  std::vector<PriorRow> priors;
+  std::vector<ResidualBlock> blocks;
+  std::vector<Combination> combinations;
+  std::vector<std::string> warnings, data_hashes;
+  std::size_t prediction_count = 0, residual_count = 0;
+
+  /// Predictions of one test into `values` and, if wanted, its Jacobian by slots into the workspace, sums done.
+  Status predict(const BoundTest& test, std::span<const double> at, std::span<double> values, bool jacobian,
+                 Workspace& workspace) const;
+  /// The call into the plugin: parameters filled in, exceptions and non-finite numbers turned into a status.
+  Status call(const BoundTest& test, std::span<const double> at, std::span<double> values, std::span<double> jacobian,
+              Workspace& workspace) const;
+  /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
+  Status difference(const BoundTest& test, std::span<const double> at, std::span<const double> values,
+                    Workspace& workspace) const;
+  /// Where among a test's values something lies: "channel 'stress', row 12 (stretch 1.8)".
+  [[nodiscard]] std::string place(const BoundTest& test, std::size_t position) const;
+};
+
+class Assembly::Workspace {
+ public:
+  explicit Workspace(const Parts& parts);
+  std::vector<double> model_parameters;
+  std::vector<std::vector<double>> test_parameters;  ///< by test
+  std::vector<double> predictions;                   ///< all
+  std::vector<double> jacobian;                      ///< of one test by slots, large enough for each
+  std::vector<double> ahead, behind, shifted;        ///< for differences
+};
+
+}  // namespace tunica::calibration

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/composition.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/nearest.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::calibration {
+namespace {
+
+using experiment::MechanismEntry;
+using experiment::ParameterSettings;
+using MechanismOnShelf = plugins::Catalogue::Entry<MechanismFactory>;
+
+template <class Shelf>
+const typename Shelf::mapped_type& look_up(const Shelf& shelf, const std::string& type, const std::string& what) {
+  const auto found = shelf.find(type);
+  if (found == shelf.end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, entry] : shelf) known.push_back(name);
+    throw InputError(
+        fmt::format("no loaded plugin provides the {} '{}'. {}", what, type, data::suggestion(type, known)));
+  }
+  return found->second;
+}
+
+struct Layer {
+  const MechanismEntry* entry;
+  const MechanismOnShelf* mechanism;
+};
+
+/// The mechanisms of one model or test from the inside out.
+std::vector<Layer> layers(const std::vector<MechanismEntry>& entries, const plugins::Catalogue& catalogue,
+                          const std::string& owner, bool on_model) {
+  std::vector<Layer> found;
+  std::set<std::string> seen;
+  for (const MechanismEntry& entry : entries) {
+    const MechanismOnShelf& mechanism = look_up(catalogue.mechanisms(), entry.type, "mechanism");
+    if (!seen.insert(entry.type).second) {
+      throw InputError(
+          fmt::format("{}: the mechanism '{}' stands there twice, and its parameters would have one name; "
+                      "keep one",
+                      owner, entry.type));
+    }
+    const bool acts_on_model = mechanism.factory.stage < Stage::test;
+    if (acts_on_model != on_model) {
+      throw InputError(fmt::format("{}: the mechanism '{}' acts on a {}; list it under the mechanisms of a {}", owner,
+                                   entry.type, acts_on_model ? "model" : "test", acts_on_model ? "model" : "test"));
+    }
+    found.push_back({&entry, &mechanism});
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Layer& a, const Layer& b) {
+    return a.mechanism->factory.stage < b.mechanism->factory.stage;
+  });
+  return found;
+}
+
+const experiment::ParameterSetting* setting_of(const ParameterSettings& settings, const std::string& name) {
+  const auto found = settings.find(name);
+  return found == settings.end() ? nullptr : &found->second;
+}
+
+std::vector<Slot> own_slots(const std::vector<Parameter>& parameters, const ParameterSettings& settings,
+                            const std::string& prefix, const std::string& owner) {
+  std::vector<Slot> slots;
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) {
+    names.push_back(parameter.name);
+    slots.push_back({parameter, setting_of(settings, parameter.name)});
+    slots.back().declaration.name = prefix + parameter.name;
+  }
+  refuse_unknown(settings, names, owner);
+  return slots;
+}
+
+/// Appends the parameters that `layer` put behind `slots`, as the decorator declares them.
+void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decorated, const Layer& layer,
+                  const std::string& prefix, const std::string& owner) {
+  const auto& declared = layer.mechanism->factory.parameters;
+  if (decorated.size() != slots.size() + declared.size()) {
+    throw plugins::PluginFailure(fmt::format(
+        "plugin '{}': the mechanism '{}' declares {} parameters, but its decorator has {} behind the {} it wraps",
+        layer.mechanism->plugin, layer.entry->type, declared.size(),
+        static_cast<std::ptrdiff_t>(decorated.size()) - static_cast<std::ptrdiff_t>(slots.size()), slots.size()));
+  }
+  std::vector<std::string> names;
+  const std::size_t first = slots.size();
+  for (std::size_t k = 0; k < declared.size(); ++k) {
+    names.push_back(declared[k].name);
+    slots.push_back({decorated[first + k], setting_of(layer.entry->parameters, declared[k].name)});
+    slots.back().declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->type, declared[k].name);
+  }
+  refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->type, owner));
+}
+
+}  // namespace
+
+ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue) {
+  const std::string owner = fmt::format("model '{}'", entry.name);
+  const auto& on_shelf = look_up(catalogue.models(), entry.type, "model type");
+  ComposedModel composed{plugins::create(on_shelf, entry.options), on_shelf.plugin, {}};
+  composed.slots = own_slots(composed.model->describe().parameters, entry.parameters, "", owner);
+  for (const Layer& layer : layers(entry.mechanisms, catalogue, owner, true)) {
+    composed.model = plugins::wrap(*layer.mechanism, std::move(composed.model), layer.entry->options);
+    append_slots(composed.slots, composed.model->describe().parameters, layer, "", owner);
+  }
+  return composed;
+}
+
+ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue) {
+  const std::string owner = fmt::format("test '{}'", entry.name), prefix = entry.name + ".";
+  const auto& on_shelf = look_up(catalogue.tests(), entry.type, "test type");
+  ComposedTest composed{{}, on_shelf.plugin, {}, {}};
+  try {
+    composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: {}", owner, problem.what()));
+  }
+  composed.test = plugins::create(on_shelf, {entry.options, composed.dataset.rows(), entry.data.stress_measure});
+  const TestDescription& bare = composed.test->describe();
+  composed.slots = own_slots(bare.parameters, entry.parameters, prefix, owner);
+  for (std::size_t k = 0; k < std::min(bare.nulls.size(), composed.slots.size()); ++k)
+    composed.slots[k].null = bare.nulls[k];
+  for (const Layer& layer : layers(entry.mechanisms, catalogue, owner, false)) {
+    const auto& applies_to = layer.mechanism->factory.applies_to;
+    if (!applies_to.empty() && std::find(applies_to.begin(), applies_to.end(), entry.type) == applies_to.end()) {
+      throw InputError(fmt::format("{}: the mechanism '{}' does not apply to a test of type '{}'; it applies to: {}",
+                                   owner, layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
+    }
+    composed.test = plugins::wrap(*layer.mechanism, std::move(composed.test), layer.entry->options);
+    append_slots(composed.slots, composed.test->describe().parameters, layer, prefix, owner);
+  }
+  const TestRows& rows = composed.test->rows();
+  if (rows.count != composed.dataset.count || rows.channels.size() != composed.dataset.channels.size()) {
+    throw plugins::PluginFailure(fmt::format("plugin '{}': {} was given {} rows of {} channels and reports {} of {}",
+                                             composed.plugin, owner, composed.dataset.count,
+                                             composed.dataset.channels.size(), rows.count, rows.channels.size()));
+  }
+  return composed;
+}
+
+}  // namespace tunica::calibration

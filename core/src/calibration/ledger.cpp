@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/ledger.hpp"
+
+#include <fmt/format.h>
+
+namespace tunica::calibration {
+
+void Ledger::add(std::span<const double> parameters, double objective, const Status& status, bool jacobian) {
+  const std::uint64_t index = next_index();
+  ++tally_.evaluations;
+  if (jacobian) ++tally_.jacobians;
+  if (status.kind() == Status::Kind::failed) {
+    if (tally_.failures++ == 0) tally_.first_failure = status.reason();
+  } else if (status.kind() == Status::Kind::infeasible) {
+    ++tally_.infeasible;
+  } else if (best_.parameters.empty() || objective < best_.objective) {
+    best_.parameters.assign(parameters.begin(), parameters.end());
+    best_.objective = objective, best_.index = index;
+    improved_at_ = tally_.evaluations;
+  }
+  if (status.ok() && rules_.stop.target && best_.objective <= *rules_.stop.target) stop("target");
+  check_failures(status);
+  if (rules_.stop.stall && tally_.evaluations - improved_at_ >= *rules_.stop.stall) stop("stall");
+  if (tally_.evaluations >= rules_.stop.max_evaluations) stop("max_evaluations");
+}
+
+void Ledger::check_failures(const Status& status) {
+  if (status.kind() != Status::Kind::failed) return;
+  if (rules_.on_failure == experiment::OnFailure::stop) stop(fmt::format("failure: {}", status.reason()));
+  if (!rules_.whole_run) return;
+  const std::uint64_t evaluations = tally_.evaluations, failures = tally_.failures;
+  if (failures == evaluations && evaluations >= nothing_succeeded_after) {
+    stop(fmt::format("nothing succeeded in the first {} evaluations; the first failure: {}", evaluations,
+                     tally_.first_failure));
+  }
+  const double rate = static_cast<double>(failures) / static_cast<double>(evaluations);
+  if (evaluations >= rate_counts_from && rate > rules_.max_failure_rate) {
+    stop(fmt::format("failure rate: {} of {} evaluations failed, more than the limit of {:g} %; the first failure: {}",
+                     failures, evaluations, 100 * rules_.max_failure_rate, tally_.first_failure));
+  }
+}
+
+void Ledger::stop(std::string reason) {
+  if (reason_.empty()) reason_ = std::move(reason);
+}
+
+std::uint64_t Ledger::budget() const {
+  const bool none = stopped() || tally_.evaluations >= rules_.stop.max_evaluations;
+  return none ? 0 : rules_.stop.max_evaluations - tally_.evaluations;
+}
+
+Ledger Ledger::for_one_start() const {
+  Rules rules = rules_;
+  rules.stop.max_evaluations = budget();
+  rules.first_index = 0;
+  rules.whole_run = false;
+  Ledger ledger(std::move(rules));
+  ledger.best_ = best_;
+  return ledger;
+}
+
+}  // namespace tunica::calibration

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "calibration/assembly_parts.hpp"
+
+namespace tunica::calibration {
+namespace {
+
+/// Position of the first number that is not finite, or the size. The loop without branches vectorises.
+std::size_t first_not_finite(std::span<const double> values) {
+  int bad = 0;
+  for (const double value : values) bad |= !(std::abs(value) <= std::numeric_limits<double>::max());
+  if (bad == 0) return values.size();
+  const auto found = std::find_if_not(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return static_cast<std::size_t>(found - values.begin());
+}
+
+/// The test's Jacobian by free parameters for one of its values, times `scale`.
+void write_row(const BoundTest& test, const double* by_slot, std::size_t position, double scale, double* row) {
+  const std::size_t size = test.size();
+  for (const auto& [free, slot] : test.columns) row[free] = scale * by_slot[slot * size + position];
+  for (const std::size_t free : test.untouched) row[free] = 0;
+}
+
+void subtract_row(const BoundTest& test, const double* by_slot, std::size_t position, double scale, double* row) {
+  const std::size_t size = test.size();
+  for (const auto& [free, slot] : test.columns) row[free] -= scale * by_slot[slot * size + position];
+}
+
+}  // namespace
+
+Assembly::Workspace::Workspace(const Parts& parts) : model_parameters(parts.model_parameters.values) {
+  std::size_t largest = 0, jacobian_size = 0;
+  for (const BoundTest& test : parts.tests) {
+    test_parameters.push_back(test.own.values);
+    largest = std::max(largest, test.size());
+    const std::size_t slots = model_parameters.size() + test.own.values.size();
+    jacobian_size = std::max(jacobian_size, test.size() * std::max(slots, parts.free.size()));
+  }
+  predictions.resize(parts.prediction_count);
+  jacobian.resize(jacobian_size);
+  ahead.resize(largest), behind.resize(largest), shifted.resize(parts.free.size());
+}
+
+std::string Assembly::Parts::place(const BoundTest& test, std::size_t position) const {
+  const std::size_t channel = position / test.rows, row = position % test.rows;
+  const auto view = std::find_if(channels.begin(), channels.end(), [&](const ChannelView& candidate) {
+    return candidate.offset == test.offset + channel * test.rows;
+  });
+  return fmt::format("channel '{}', row {} ({} {:.6g})", view->observable, row, view->abscissa_name,
+                     view->abscissa[row]);
+}
+
+Status Assembly::Parts::call(const BoundTest& test, std::span<const double> at, std::span<double> values,
+                             std::span<double> jacobian, Workspace& workspace) const {
+  const auto number = static_cast<std::size_t>(&test - tests.data());
+  std::vector<double>& own = workspace.test_parameters[number];
+  for (const Link& link : model_parameters.links) workspace.model_parameters[link.position] = at[link.index];
+  for (const Link& link : test.own.links) own[link.position] = at[link.index];
+  try {
+    if (Status status = test.test->predict({*model, workspace.model_parameters, own}, {values, jacobian, {}, {}});
+        !status.ok()) {
+      return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
+    }
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("test '{}': plugin '{}' with model plugin '{}' threw: {}", test.name, test.plugin,
+                                      model_plugin, problem.what()));
+  } catch (...) {
+    return Status::failed(
+        fmt::format("test '{}': plugin '{}' with model plugin '{}' threw something that is no "
+                    "std::exception",
+                    test.name, test.plugin, model_plugin));
+  }
+  if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
+    return Status::failed(
+        fmt::format("test '{}': the prediction is {} in {}", test.name, values[bad], place(test, bad)));
+  }
+  return {};
+}
+
+Status Assembly::Parts::predict(const BoundTest& test, std::span<const double> at, std::span<double> values,
+                                bool jacobian, Workspace& workspace) const {
+  const std::size_t size = test.size();
+  if (!jacobian || test.differenced) {
+    if (Status status = call(test, at, values, {}, workspace); !status.ok() || !jacobian) return status;
+    return difference(test, at, values, workspace);
+  }
+  const std::size_t slots = workspace.model_parameters.size() + test.own.values.size();
+  const std::span<double> by_slot(workspace.jacobian.data(), slots * size);
+  if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) return status;
+  for (const auto& [into, from] : test.sums) {
+    for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
+  }
+  // Derivatives by held parameters are nobody's business: only those that count are checked.
+  for (const auto& [index, slot] : test.columns) {
+    const auto column = by_slot.subspan(slot * size, size);
+    if (const std::size_t bad = first_not_finite(column); bad < size) {
+      return Status::failed(fmt::format("test '{}': the derivative by '{}' is {} in {}", test.name, free[index].name,
+                                        column[bad], place(test, bad)));
+    }
+  }
+  return {};
+}
+
+Status Assembly::predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
+                         Workspace& workspace) const {
+  const std::size_t n = parts_->free.size();
+  for (const BoundTest& test : parts_->tests) {
+    const auto values = predictions.subspan(test.offset, test.size());
+    if (Status status = parts_->predict(test, free, values, !jacobian.empty(), workspace); !status.ok()) return status;
+    if (jacobian.empty()) continue;
+    for (std::size_t i = 0; i < test.size(); ++i) {
+      write_row(test, workspace.jacobian.data(), i, 1, &jacobian[(test.offset + i) * n]);
+    }
+  }
+  return {};
+}
+
+Status Assembly::evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
+                          std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const {
+  const std::size_t n = parts_->free.size();
+  double total = 0;
+  auto channel = parts_->fitted.begin();  // sorted by test
+  for (std::size_t t = 0; t < parts_->tests.size(); ++t) {
+    const BoundTest& test = parts_->tests[t];
+    double cost = 0;
+    const bool scored = channel != parts_->fitted.end() && channel->test == t;
+    if (scored) {
+      const auto values = std::span(workspace.predictions).subspan(test.offset, test.size());
+      if (Status status = parts_->predict(test, free, values, !jacobian.empty(), workspace); !status.ok())
+        return status;
+    }
+    for (; channel != parts_->fitted.end() && channel->test == t; ++channel) {
+      cost += channel_cost(*channel, workspace.predictions, residuals);
+      if (jacobian.empty()) continue;
+      for (std::size_t k = 0; k < channel->rows.size(); ++k) {
+        double* row = &jacobian[(channel->block.offset + k) * n];
+        write_row(test, workspace.jacobian.data(), channel->rows[k] - test.offset, channel->own[k], row);
+        if (k > 0 && !channel->previous.empty()) {
+          subtract_row(test, workspace.jacobian.data(), channel->rows[k - 1] - test.offset, channel->previous[k], row);
+        }
+      }
+    }
+    if (!per_test.empty()) per_test[t] = cost;
+    total += cost;
+  }
+  std::size_t at = parts_->residual_count - parts_->priors.size();
+  for (const PriorRow& prior : parts_->priors) {
+    const double residual = (free[prior.index] - prior.mean) / prior.sd;
+    total += residual * residual;
+    if (!residuals.empty()) residuals[at] = residual;
+    if (!jacobian.empty()) {
+      std::fill_n(&jacobian[at * n], n, 0.0);
+      jacobian[at * n + prior.index] = 1 / prior.sd;
+    }
+    ++at;
+  }
+  if (!std::isfinite(total))
+    return Status::failed("the objective overflows: predictions are finite, their squares are not");
+  objective = total;
+  return {};
+}
+
+Status Assembly::diagnostics(std::size_t number, std::span<const double> free,
+                             std::vector<std::pair<std::string, std::vector<double>>>& rows) const {
+  const BoundTest& test = parts_->tests.at(number);
+  const auto& names = test.test->describe().diagnostics;
+  Workspace workspace(*parts_);
+  std::vector<double> values(names.size() * test.rows);
+  if (Status status =
+          parts_->call(test, free, std::span(workspace.predictions).subspan(test.offset, test.size()), {}, workspace);
+      !status.ok()) {
+    return status;
+  }
+  try {
+    const TestOutput output{std::span(workspace.predictions).subspan(test.offset, test.size()), {}, {}, values};
+    if (Status status =
+            test.test->predict({*parts_->model, workspace.model_parameters, workspace.test_parameters[number]}, output);
+        !status.ok()) {
+      return status;
+    }
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
+  }
+  rows.clear();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(k * test.rows);
+    rows.emplace_back(names[k], std::vector<double>(first, first + static_cast<std::ptrdiff_t>(test.rows)));
+  }
+  return {};
+}
+
+}  // namespace tunica::calibration

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/starts.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+
+#include "tunica/random.hpp"
+
+namespace tunica::calibration {
+namespace {
+
+constexpr std::size_t first_block = 8, largest_block = 64;
+
+std::uint64_t seed_of_start(std::uint64_t seed, std::size_t number) {
+  return derive_seed(seed, fmt::format("start {}", number));
+}
+
+}  // namespace
+
+StartProblem::StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from)
+    : search(common, std::move(ledger), replay_from), common_(common), seed_(seed) {}
+
+Status StartProblem::evaluate(std::span<const double> x, double& objective) { return search.evaluate(x, objective); }
+
+void StartProblem::evaluate_batch(std::span<const double> xs, std::span<double> objectives,
+                                  std::span<Status> statuses) {
+  search.evaluate_batch(xs, objectives, statuses);
+}
+
+Status StartProblem::linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                               std::span<double> jacobian) {
+  return search.linearise(x, objective, residuals, jacobian);
+}
+
+void StartProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
+  const std::uint64_t own = seed_;
+  for (std::size_t k = 0; k < count && !should_stop(); ++k) {
+    seed_ = seed_of_start(own, k);
+    body(k, *this);
+  }
+  seed_ = own;
+}
+
+std::uint64_t StartProblem::seed(std::string_view purpose) const { return derive_seed(seed_, purpose); }
+
+void Starts::take(StartProblem& start) {
+  merge_(start.search.made);
+  // A start that the clock or the user ended is not whole: what follows it in order must not be counted.
+  const std::string& reason = start.search.ledger.stop_reason();
+  if (reason == "interrupted" || reason == "max_time") parent_.ledger.stop(reason);
+  start.search.made = {};
+}
+
+void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
+                       const std::function<void(std::size_t, Problem&)>& body) {
+  const Ledger at_begin = parent_.ledger.for_one_start();
+  std::size_t k = 0;
+  // A journal numbers evaluations in the merged order, so starts that it covers run one after the other.
+  for (; k < size && common_.replaying && !parent_.ledger.stopped(); ++k) {
+    StartProblem start(common_, at_begin, seed_of_start(seed, first + k), parent_.ledger.next_index());
+    body(first + k, start);
+    take(start);
+  }
+  std::vector<std::unique_ptr<StartProblem>> starts(size);
+  std::vector<char> finished(size, 0);
+  std::size_t next = k;
+  std::mutex mutex;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(k, size, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t at = range.begin(); at < range.end(); ++at) {
+          starts[at] = std::make_unique<StartProblem>(common_, at_begin, seed_of_start(seed, first + at), std::nullopt);
+          body(first + at, *starts[at]);
+          const std::lock_guard lock(mutex);
+          finished[at] = 1;
+          for (; next < size && finished[next]; ++next) {
+            take(*starts[next]);
+            starts[next].reset();
+          }
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+void Starts::run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body) {
+  for (std::size_t done = 0, block = first_block; done < count && !parent_.should_stop();
+       block = std::min(2 * block, largest_block)) {
+    const std::size_t size = std::min(block, count - done);
+    run_block(done, size, seed, body);
+    done += size;
+  }
+}
+
+}  // namespace tunica::calibration

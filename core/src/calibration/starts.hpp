@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "calibration/search.hpp"
+#include "tunica/optimizer.hpp"
+
+namespace tunica::calibration {
+
+/// The problem one of several independent searches sees. It keeps what it evaluated until somebody merges it, and
+/// stops at the latest where the merged search has: evaluations() and budget() count its own, from the budget there
+/// was when its block of starts began.
+class StartProblem : public Problem {
+ public:
+  StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from);
+
+  [[nodiscard]] std::size_t dimension() const override { return common_.parameters; }
+  [[nodiscard]] std::span<const double> start() const override { return common_.start; }
+  [[nodiscard]] std::span<const ResidualBlock> blocks() const override { return common_.assembly.blocks(); }
+  [[nodiscard]] std::size_t residual_count() const override { return common_.assembly.residual_count(); }
+  [[nodiscard]] std::size_t constraint_count() const override { return 0; }
+  Status evaluate(std::span<const double> x, double& objective) override;
+  void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override;
+  Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                   std::span<double> jacobian) override;
+  Status constraints(std::span<const double>, std::span<double>, std::span<double>) override { return {}; }
+  /// Starts within a start run one after the other on this problem, each with seeds of its own.
+  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
+  [[nodiscard]] bool should_stop() const override { return search.should_stop(); }
+  [[nodiscard]] std::uint64_t evaluations() const override { return search.ledger.tally().evaluations; }
+  [[nodiscard]] std::uint64_t budget() const override { return search.ledger.budget(); }
+  [[nodiscard]] std::uint64_t seed(std::string_view purpose) const override;
+
+  Search search;
+
+ private:
+  Common& common_;
+  std::uint64_t seed_;
+};
+
+/// Runs starts block by block, each block side by side, and merges what they evaluated in the order of the starts.
+///
+/// The outcome is that of one start after the other: a start may have gone on beyond the point where the search as a
+/// whole stops; what lies beyond is discarded and not counted, and later blocks do not run. Blocks have the same
+/// sizes for any number of threads, 8, 16, 32, then 64, so that the bodies see the same too, and work thrown away
+/// stays in proportion to work done.
+///
+/// `merge` takes one start's evaluations; it is called in the order of the starts, never concurrently. `parent` is
+/// what the search as a whole counts.
+class Starts {
+ public:
+  Starts(Common& common, Search& parent, std::function<void(const Evaluations&)> merge)
+      : common_(common), parent_(parent), merge_(std::move(merge)) {}
+  void run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body);
+
+ private:
+  void run_block(std::size_t first, std::size_t size, std::uint64_t seed,
+                 const std::function<void(std::size_t, Problem&)>& body);
+  void take(StartProblem& start);
+
+  Common& common_;
+  Search& parent_;
+  std::function<void(const Evaluations&)> merge_;
+};
+
+}  // namespace tunica::calibration
