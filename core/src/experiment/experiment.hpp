@@ -72,9 +72,9 @@ struct ConstraintEntry {
 
 struct Stop {
   std::uint64_t max_evaluations = 60000;
-  std::optional<double> max_time;       ///< s
-  std::optional<double> target;         ///< objective
-  std::optional<std::uint64_t> stall;   ///< evaluations without improvement
+  std::optional<double> max_time;      ///< s
+  std::optional<double> target;        ///< objective
+  std::optional<std::uint64_t> stall;  ///< evaluations without improvement
 };
 
 struct OptimizerEntry {
@@ -82,7 +82,7 @@ struct OptimizerEntry {
     std::string optimizer;  ///< name of another entry
     std::optional<Stop> stop;
   };
-  std::string name, type;   ///< type is "stages" when stages is not empty
+  std::string name, type;  ///< type is "stages" when stages is not empty
   Options options;
   std::vector<Stage> stages;
 };
@@ -90,7 +90,7 @@ struct OptimizerEntry {
 struct RunEntry {
   std::string model, optimizer;
   std::uint64_t realisations = 1;
-  std::vector<std::string> tests;   ///< names, in file order; all unless overridden
+  std::vector<std::string> tests;  ///< names, in file order; all unless overridden
   ObjectiveType objective = ObjectiveType::standardised_quadratic;
   std::vector<ConstraintEntry> constraints;
   Stop stop;
@@ -105,9 +105,9 @@ struct Experiment {
   std::vector<OptimizerEntry> optimizers;
   std::vector<RunEntry> runs;
   OnFailure on_failure = OnFailure::penalise;
-  double max_failure_rate = 1;             ///< share of failed evaluations above which a run stops
-  std::string diagnosis_json;              ///< the "diagnosis" block as text; empty = none
-  std::string input_json;                  ///< the file with defaults filled in: input.json
+  double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
+  std::string diagnosis_json;   ///< the "diagnosis" block as text; empty = none
+  std::string input_json;       ///< the file with defaults filled in: input.json
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;

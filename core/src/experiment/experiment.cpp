@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "experiment/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include "data/csv.hpp"
+#include "experiment/reader.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+// Names were checked when the file was read; asking for another one is a bug of the caller.
+template <class Entry>
+const Entry& named(const std::vector<Entry>& entries, std::string_view name) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return entry;
+  throw std::out_of_range(fmt::format("the experiment has no entry '{}'", name));
+}
+
+}  // namespace
+
+const ModelEntry& Experiment::model(std::string_view wanted) const { return named(models, wanted); }
+const TestEntry& Experiment::test(std::string_view wanted) const { return named(tests, wanted); }
+const OptimizerEntry& Experiment::optimizer(std::string_view wanted) const { return named(optimizers, wanted); }
+
+Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
+  const JsonDocument document(file, data::read_bytes(file));
+  const Node root(document);
+  if (!root.is_object()) root.fail_expected("an experiment, { \"format\": 1, … },");
+  // The version first: where it differs, other messages would mislead.
+  const Node format = root.require("format", "the experiment file");
+  if (format.json() != 1)
+    format.fail(fmt::format("found format {} where 1 is expected", format.json().dump()),
+                "This version of tunica reads format 1 only.");
+  root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
+                   "stop", "runs", "on_failure", "diagnosis"},
+                  "the experiment file");
+  Experiment experiment;
+  experiment.file = file;
+  experiment.name = file.stem().string();
+  if (const auto node = root.find("$schema")) node->text("the name of a schema");
+  if (const auto node = root.find("name")) experiment.name = node->text("a name");
+  if (const auto node = root.find("seed")) experiment.seed = node->count("a whole number from 0");
+  std::vector<Shared> shared;
+  const Node models = root.require("models", "the experiment file");
+  for (const auto& [name, entry] : models.members("an object with one entry per model"))
+    experiment.models.push_back(read_model(name, entry, catalogue, shared));
+  if (experiment.models.empty())
+    models.fail("no model is given", "Give at least one, for example \"gho\": {\"type\": \"gho\"}.");
+  const Node tests = root.require("tests", "the experiment file");
+  for (const auto& [name, entry] : tests.members("an object with one entry per test"))
+    experiment.tests.push_back(read_test(name, entry, file.parent_path(), catalogue, shared));
+  if (experiment.tests.empty()) tests.fail("no test is given", "Give at least one, with its data.");
+  experiment.optimizers = read_optimizers(root.require("optimizers", "the experiment file"), catalogue);
+  RunDefaults defaults;
+  defaults.tests = entry_names(experiment.tests);
+  if (const auto node = root.find("objective")) defaults.objective = read_objective(*node);
+  if (const auto node = root.find("constraints")) defaults.constraints = read_constraints(*node);
+  if (const auto node = root.find("stop")) defaults.stop = read_stop(*node);
+  if (const auto node = root.find("on_failure")) read_on_failure(*node, experiment);
+  read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
+  check_shared(shared);
+  if (const auto node = root.find("diagnosis")) {
+    check_diagnosis(*node, experiment);
+    experiment.diagnosis_json = node->json().dump();
+  }
+  experiment.input_json = write_input(experiment, catalogue);
+  return experiment;
+}
+
+}  // namespace tunica::experiment

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "experiment/json_node.hpp"
+
+/// The parts of the reader; each takes the node of its block and gives it typed, or throws through the node.
+namespace tunica::experiment {
+
+/// The keys of a shelf of the catalogue, for messages and look-up.
+template <class Shelf>
+std::vector<std::string> names_of(const Shelf& shelf) {
+  std::vector<std::string> names;
+  for (const auto& entry : shelf) names.push_back(entry.first);
+  return names;
+}
+
+template <class Entry>
+std::vector<std::string> entry_names(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+// reader_options.cpp
+/// The options of a plugin object stand as plain keys beside `reserved` ones; declared ones that are absent take their
+/// default. `owner` is "model 'gho'".
+Options read_options(const Node& entry, const std::vector<Option>& declared, std::vector<std::string> reserved,
+                     std::string_view owner);
+
+// reader_parameters.cpp
+/// One parameter in a share group, wherever in the file it stands.
+struct Shared {
+  std::string group, unit;  ///< unit "" = not known before the test is built
+  ParameterSetting setting;
+  Node node;
+};
+
+/// The block "parameters" of `entry`, completed: every declared parameter is fixed, or has bounds, initial and scale.
+ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter>& declared, std::string_view owner,
+                                  std::vector<Shared>& shared);
+/// The same for the own parameters of a test, which are declared only once the test is built on its data: names and
+/// numbers are checked against each other, units by their dimension.
+ParameterSettings read_undeclared_parameters(const Node& entry, std::string_view owner, std::vector<Shared>& shared);
+void check_shared(const std::vector<Shared>& shared);
+
+// reader_models.cpp
+ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
+                      std::vector<Shared>& shared);
+/// Test mechanisms; `test_type` decides which apply.
+std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
+                                                 std::string_view owner, const plugins::Catalogue& catalogue,
+                                                 std::vector<Shared>& shared);
+
+// reader_tests.cpp
+TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
+                    const plugins::Catalogue& catalogue, std::vector<Shared>& shared);
+/// "0:240:6".
+data::RowRange read_row_range(const Node& node);
+
+// reader_optimizers.cpp
+Stop read_stop(const Node& node);
+std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Catalogue& catalogue);
+
+// reader_runs.cpp
+const std::vector<std::string>& objective_names();
+const std::vector<std::string>& on_failure_names();
+const std::vector<std::string>& stress_measure_names();
+ObjectiveType read_objective(const Node& node);
+std::vector<ConstraintEntry> read_constraints(const Node& node);
+void read_on_failure(const Node& node, Experiment& experiment);
+/// What a run takes where it overrides nothing.
+struct RunDefaults {
+  std::vector<std::string> tests;
+  ObjectiveType objective = ObjectiveType::standardised_quadratic;
+  std::vector<ConstraintEntry> constraints;
+  Stop stop;
+};
+/// Tests that a run defines for itself are added to the experiment.
+void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
+               std::vector<Shared>& shared, Experiment& experiment);
+void check_diagnosis(const Node& node, const Experiment& experiment);
+
+// writer.cpp
+/// input.json: the experiment with every default filled in, numbers in base units, file names absolute.
+std::string write_input(const Experiment& experiment, const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::experiment

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiment/reader.hpp"
+#include "experiment/suggest.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+const char* stage_word(Stage stage) {
+  return stage == Stage::test ? "tests" : stage == Stage::data ? "data" : "models";
+}
+
+bool acts_on_model(const MechanismFactory& mechanism) { return mechanism.stage < Stage::test; }
+
+/// The mechanisms of one list, checked by themselves; `suits` refuses those that do not belong there.
+template <class Suits>
+std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string& owner,
+                                            const plugins::Catalogue& catalogue, std::vector<Shared>& shared,
+                                            Suits suits) {
+  std::vector<MechanismEntry> mechanisms;
+  const auto list = entry.find("mechanisms");
+  if (!list) return mechanisms;
+  for (const Node& node : list->elements("a list of mechanisms, [ {\"type\": …}, … ],")) {
+    const std::string of = fmt::format("a mechanism of {}", owner);
+    node.expect_object("a mechanism, {\"type\": …},");
+    const std::string type = node.require("type", of).one_of(names_of(catalogue.mechanisms()), "mechanism");
+    const MechanismFactory& factory = catalogue.mechanisms().find(type)->second.factory;
+    suits(node, factory);
+    if (std::any_of(mechanisms.begin(), mechanisms.end(), [&](const MechanismEntry& m) { return m.type == type; }))
+      node.fail(fmt::format("the mechanism '{}' stands twice in {}", type, owner),
+                "Its parameters would share their names; remove one.");
+    const std::string name = fmt::format("mechanism '{}'", type);
+    MechanismEntry mechanism{type, read_options(node, factory.options, {"type", "parameters"}, name), {}};
+    mechanism.parameters = read_parameters(node, factory.parameters, name, shared);
+    mechanisms.push_back(std::move(mechanism));
+  }
+  return mechanisms;
+}
+
+/// Wraps the model in its mechanisms as a run will, in canonical order, so that a mechanism that cannot apply (for want
+/// of fibres, say) is refused here, with its place.
+void try_mechanisms(const Node& entry, std::unique_ptr<Model> model, const std::vector<MechanismEntry>& mechanisms,
+                    const plugins::Catalogue& catalogue) {
+  std::vector<std::size_t> order(mechanisms.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto stage = [&](std::size_t i) {
+    return catalogue.mechanisms().find(mechanisms[i].type)->second.factory.stage;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return stage(a) < stage(b); });
+  for (const std::size_t i : order) {
+    const auto& [factory, plugin] = catalogue.mechanisms().find(mechanisms[i].type)->second;
+    try {
+      if (factory.wrap_model) model = factory.wrap_model(std::move(model), mechanisms[i].options);
+    } catch (const std::exception& error) {
+      entry.require("mechanisms", "")
+          .element(i)
+          .fail(fmt::format("the mechanism '{}' of plugin {} cannot act on this model", mechanisms[i].type, plugin),
+                error.what());
+    }
+    if (!model) entry.fail(fmt::format("the mechanism '{}' of plugin {} gives no model", mechanisms[i].type, plugin));
+  }
+}
+
+}  // namespace
+
+ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
+                      std::vector<Shared>& shared) {
+  entry.expect_object("a model, {\"type\": …},");
+  entry.check_name(name, "model");
+  const std::string owner = fmt::format("model '{}'", name);
+  const std::string type = entry.require("type", owner).one_of(names_of(catalogue.models()), "model type");
+  const auto& [factory, plugin] = catalogue.models().find(type)->second;
+  ModelEntry model{
+      name, type, read_options(entry, factory.options, {"type", "parameters", "mechanisms"}, owner), {}, {}};
+  std::unique_ptr<Model> instance;
+  try {
+    instance = factory.create(model.options);
+  } catch (const std::exception& error) {
+    entry.fail(fmt::format("the plugin {} refuses {}", plugin, owner), error.what());
+  }
+  if (!instance) entry.fail(fmt::format("the plugin {} gives no model of type '{}'", plugin, type));
+  model.parameters = read_parameters(entry, instance->describe().parameters, owner, shared);
+  model.mechanisms =
+      read_mechanisms(entry, owner, catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {
+        if (!acts_on_model(mechanism))
+          node.fail(
+              fmt::format("the mechanism '{}' acts on {}, not on models", mechanism.id, stage_word(mechanism.stage)),
+              "Write it in the \"mechanisms\" of a test.");
+      });
+  try_mechanisms(entry, std::move(instance), model.mechanisms, catalogue);
+  return model;
+}
+
+std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
+                                                 std::string_view owner, const plugins::Catalogue& catalogue,
+                                                 std::vector<Shared>& shared) {
+  return read_mechanisms(
+      entry, std::string(owner), catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {
+        if (acts_on_model(mechanism))
+          node.fail(fmt::format("the mechanism '{}' acts on models, not on tests", mechanism.id),
+                    "Write it in the \"mechanisms\" of a model.");
+        const auto& types = mechanism.applies_to;
+        if (!types.empty() && std::find(types.begin(), types.end(), test_type) == types.end())
+          node.fail(fmt::format("the mechanism '{}' does not apply to tests of type '{}'", mechanism.id, test_type),
+                    fmt::format("It applies to: {}.", fmt::join(types, ", ")));
+      });
+}
+
+}  // namespace tunica::experiment

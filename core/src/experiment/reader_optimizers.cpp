@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/reader.hpp"
+#include "experiment/suggest.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+OptimizerEntry read_stages(const std::string& name, const Node& entry, const std::vector<std::string>& names) {
+  OptimizerEntry optimizer;
+  optimizer.name = name;
+  optimizer.type = "stages";
+  entry.allow_only({"type", "stages"}, fmt::format("the staged optimizer '{}'", name));
+  if (const auto type = entry.find("type")) type->one_of({"stages"}, "type of a staged optimizer");
+  const Node stages = entry.require("stages", fmt::format("the staged optimizer '{}'", name));
+  for (const Node& node : stages.elements("a list of optimizer names")) {
+    OptimizerEntry::Stage stage;
+    if (node.is_object()) {
+      node.allow_only({"optimizer", "stop"}, "a stage");
+      stage.optimizer = node.require("optimizer", "a stage").one_of(names, "optimizer");
+      if (const auto stop = node.find("stop")) stage.stop = read_stop(*stop);
+    } else {
+      stage.optimizer = node.one_of(names, "optimizer");
+    }
+    if (stage.optimizer == name)
+      node.fail(fmt::format("the stages of the optimizer '{}' name itself", name),
+                "A stage is another entry of \"optimizers\".");
+    optimizer.stages.push_back(std::move(stage));
+  }
+  if (optimizer.stages.empty())
+    stages.fail(fmt::format("the optimizer '{}' has no stages", name), "Name at least one optimizer.");
+  return optimizer;
+}
+
+}  // namespace
+
+Stop read_stop(const Node& node) {
+  node.allow_only({"max_evaluations", "max_time", "target", "stall"}, "\"stop\"");
+  Stop stop;
+  if (const auto child = node.find("max_evaluations"))
+    stop.max_evaluations = child->count("a whole number of evaluations from 1", 1);
+  if (const auto child = node.find("max_time")) {
+    stop.max_time = child->quantity("s", "a time");
+    if (!(*stop.max_time > 0))
+      child->fail(fmt::format("the time limit is {} s", *stop.max_time), "It must be greater than zero.");
+  }
+  if (const auto child = node.find("target"))
+    stop.target = child->number("the objective that is good enough, a number,");
+  if (const auto child = node.find("stall")) stop.stall = child->count("a whole number of evaluations from 1", 1);
+  return stop;
+}
+
+std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Catalogue& catalogue) {
+  const auto entries = node.members("an object with one entry per optimizer");
+  if (entries.empty())
+    node.fail("no optimizer is given", "Give at least one, for example \"lm\": {\"type\": \"ceres_lm\"}.");
+  std::vector<std::string> names;
+  for (const auto& [name, entry] : entries) names.push_back(name);
+  std::vector<OptimizerEntry> optimizers;
+  for (const auto& [name, entry] : entries) {
+    entry.expect_object("an optimizer, {\"type\": …} or {\"stages\": […]},");
+    entry.check_name(name, "optimizer");
+    if (entry.find("stages")) {
+      optimizers.push_back(read_stages(name, entry, names));
+      continue;
+    }
+    const std::string owner = fmt::format("optimizer '{}'", name);
+    OptimizerEntry optimizer;
+    optimizer.name = name;
+    optimizer.type = entry.require("type", owner).one_of(names_of(catalogue.optimizers()), "optimizer type");
+    const auto& [factory, plugin] = catalogue.optimizers().find(optimizer.type)->second;
+    optimizer.options = read_options(entry, factory.options, {"type"}, owner);
+    try {
+      if (!factory.create(optimizer.options))
+        entry.fail(fmt::format("the plugin {} gives no optimizer of type '{}'", plugin, optimizer.type));
+    } catch (const InputError& error) {
+      entry.fail(fmt::format("the plugin {} refuses {}", plugin, owner), error.what());
+    }
+    optimizers.push_back(std::move(optimizer));
+  }
+  // One level only: a stage that is itself staged would make "shared budget" ambiguous.
+  for (const OptimizerEntry& optimizer : optimizers)
+    for (std::size_t i = 0; i < optimizer.stages.size(); ++i) {
+      const auto& stage = optimizer.stages[i].optimizer;
+      const auto other =
+          std::find_if(optimizers.begin(), optimizers.end(), [&](const OptimizerEntry& o) { return o.name == stage; });
+      if (!other->stages.empty())
+        node.require(optimizer.name, "")
+            .require("stages", "")
+            .element(i)
+            .fail(fmt::format("the stage '{}' of '{}' is staged itself", stage, optimizer.name),
+                  "Name the optimizers one by one.");
+    }
+  return optimizers;
+}
+
+}  // namespace tunica::experiment

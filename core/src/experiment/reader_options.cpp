@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "experiment/reader.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+using Kind = Option::Kind;
+
+void check_range(const Node& node, const Option& option, double value) {
+  if (option.min && value < *option.min)
+    node.fail(fmt::format("the option '{}' is {}, less than its least value {}", option.name, value, *option.min),
+              option.doc);
+  if (option.max && value > *option.max)
+    node.fail(fmt::format("the option '{}' is {}, more than its largest value {}", option.name, value, *option.max),
+              option.doc);
+}
+
+Option::Value read_option(const Node& node, const Option& option) {
+  const std::string what = fmt::format("the option '{}'", option.name);
+  switch (option.kind) {
+    case Kind::flag:
+      return node.flag(what + ", true or false,");
+    case Kind::integer: {
+      std::int64_t value = 0;
+      if (node.json().is_number_integer() && !node.json().is_number_unsigned())
+        value = node.json().get<std::int64_t>();
+      else
+        value = static_cast<std::int64_t>(std::min<std::uint64_t>(node.count(what + ", a whole number,"), INT64_MAX));
+      check_range(node, option, static_cast<double>(value));
+      return value;
+    }
+    case Kind::number:
+    case Kind::quantity: {
+      const double value =
+          option.kind == Kind::number ? node.number(what + ", a number,") : node.quantity(option.unit, what);
+      check_range(node, option, value);
+      return value;
+    }
+    case Kind::choice:
+      return node.one_of(option.choices, fmt::format("choice for the option '{}':", option.name));
+    case Kind::text:
+      return node.text(what + ", a text,");
+    case Kind::json:
+      break;
+  }
+  return node.json().dump();
+}
+
+}  // namespace
+
+Options read_options(const Node& entry, const std::vector<Option>& declared, std::vector<std::string> reserved,
+                     std::string_view owner) {
+  for (const Option& option : declared) reserved.push_back(option.name);
+  entry.allow_only(reserved, owner);
+  Options options;
+  for (const Option& option : declared) {
+    if (const auto node = entry.find(option.name))
+      options.set(option.name, read_option(*node, option));
+    else if (option.fallback)
+      options.set(option.name, *option.fallback);
+    else
+      entry.fail(fmt::format("the option '{}' is missing in {}", option.name, owner), option.doc);
+  }
+  return options;
+}
+
+}  // namespace tunica::experiment

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "experiment/reader.hpp"
+#include "experiment/suggest.hpp"
+
+namespace tunica::experiment {
+
+const std::vector<std::string>& objective_names() {
+  static const std::vector<std::string> names = {"standardised_quadratic", "least_squares", "sum_of_norms"};
+  return names;
+}
+
+const std::vector<std::string>& on_failure_names() {
+  static const std::vector<std::string> names = {"penalise", "stop", "retry"};
+  return names;
+}
+
+const std::vector<std::string>& stress_measure_names() {
+  static const std::vector<std::string> names = {"cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"};
+  return names;
+}
+
+namespace {
+
+// The index of a name in one of the lists above is the value of the enumeration.
+template <class Enumeration>
+Enumeration read_choice(const Node& node, const std::vector<std::string>& names, std::string_view noun) {
+  const std::string& name = node.one_of(names, noun);
+  return static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// The sub-critical factor h of the stability constraint: a number, or a table over stretch.
+void check_stability_factor(const Node& node) {
+  constexpr std::string_view expected = "a number from 0 to 1, or a table [[stretch, h], …] with rising stretches,";
+  const auto factor = [&](const Node& h) {
+    if (!h.is_number() || h.number("") < 0 || h.number("") > 1) h.fail_expected(expected);
+  };
+  if (!node.is_array()) return factor(node);
+  const auto rows = node.elements(expected);
+  if (rows.empty()) node.fail_expected(expected);
+  double last = 0;
+  for (const Node& row : rows) {
+    if (!row.is_array() || row.json().size() != 2) row.fail_expected("a pair [stretch, h]");
+    const double stretch = row.element(0).number("a stretch");
+    if (!(stretch > last))
+      row.element(0).fail(fmt::format("the stretch {} does not lie above {}", stretch, last),
+                          "Stretches of the table are positive and rise.");
+    factor(row.element(1));
+    last = stretch;
+  }
+}
+
+std::vector<std::string> read_test_list(const Node& node, const std::filesystem::path& folder,
+                                        const plugins::Catalogue& catalogue, std::vector<Shared>& shared,
+                                        Experiment& experiment) {
+  std::vector<std::string> names;
+  if (node.is_object()) {  // tests of this run's own
+    for (const auto& [name, entry] : node.members("")) {
+      const auto known = entry_names(experiment.tests);
+      if (std::find(known.begin(), known.end(), name) != known.end())
+        entry.fail(fmt::format("the test '{}' is defined before", name),
+                   "Results carry the names of tests, so a test that differs needs another name; to use the same test, "
+                   "list its name.");
+      experiment.tests.push_back(read_test(name, entry, folder, catalogue, shared));
+      names.push_back(name);
+    }
+  } else {
+    for (const Node& child : node.elements("a list of test names, or an object of tests,")) {
+      names.push_back(child.one_of(entry_names(experiment.tests), "test"));
+      if (std::count(names.begin(), names.end(), names.back()) > 1)
+        child.fail(fmt::format("the test '{}' stands twice in the list", names.back()),
+                   "To count it twice, give it \"weight\": 2.");
+    }
+  }
+  if (names.empty()) node.fail("the run has no tests", "Leave \"tests\" out to use all.");
+  return names;
+}
+
+}  // namespace
+
+ObjectiveType read_objective(const Node& node) {
+  if (!node.is_object()) return read_choice<ObjectiveType>(node, objective_names(), "objective");
+  node.allow_only({"type"}, "the objective");
+  return read_choice<ObjectiveType>(node.require("type", "the objective"), objective_names(), "objective");
+}
+
+std::vector<ConstraintEntry> read_constraints(const Node& node) {
+  std::vector<ConstraintEntry> constraints;
+  for (const Node& entry : node.elements("a list of constraints, [ {\"type\": …}, … ],")) {
+    entry.expect_object("a constraint, {\"type\": …},");
+    const std::string type = entry.require("type", "a constraint").one_of({"transverse_stability"}, "constraint");
+    entry.allow_only({"type", "h"}, fmt::format("the constraint '{}'", type));
+    if (const auto h = entry.find("h")) check_stability_factor(*h);
+    constraints.push_back({type, entry.json().dump(), entry.pointer()});
+  }
+  return constraints;
+}
+
+void read_on_failure(const Node& node, Experiment& experiment) {
+  if (!node.is_object()) {
+    experiment.on_failure = read_choice<OnFailure>(node, on_failure_names(), "failure policy");
+    return;
+  }
+  node.allow_only({"policy", "max_rate"}, "\"on_failure\"");
+  if (const auto policy = node.find("policy"))
+    experiment.on_failure = read_choice<OnFailure>(*policy, on_failure_names(), "failure policy");
+  if (const auto rate = node.find("max_rate")) {
+    experiment.max_failure_rate = rate->quantity("1", "a share of failed evaluations");
+    if (!(experiment.max_failure_rate >= 0 && experiment.max_failure_rate <= 1))
+      rate->fail(fmt::format("the share of failed evaluations is {}", experiment.max_failure_rate),
+                 "Expected a number from 0 to 1, or a percentage such as \"50 %\".");
+  }
+}
+
+void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
+               std::vector<Shared>& shared, Experiment& experiment) {
+  const auto entries = node.elements("a list of runs, [ {\"model\": …, \"optimizer\": …}, … ],");
+  if (entries.empty()) node.fail("no run is given", "Give at least one: {\"model\": …, \"optimizer\": …}.");
+  for (const Node& entry : entries) {
+    entry.allow_only({"model", "optimizer", "realisations", "tests", "objective", "constraints", "stop"}, "a run");
+    RunEntry run;
+    run.model = entry.require("model", "a run").one_of(entry_names(experiment.models), "model");
+    run.optimizer = entry.require("optimizer", "a run").one_of(entry_names(experiment.optimizers), "optimizer");
+    if (const auto child = entry.find("realisations"))
+      run.realisations = child->count("a whole number of realisations from 1", 1);
+    const auto tests = entry.find("tests"), objective = entry.find("objective"),
+               constraints = entry.find("constraints"), stop = entry.find("stop");
+    run.tests =
+        tests ? read_test_list(*tests, experiment.file.parent_path(), catalogue, shared, experiment) : defaults.tests;
+    run.objective = objective ? read_objective(*objective) : defaults.objective;
+    run.constraints = constraints ? read_constraints(*constraints) : defaults.constraints;
+    run.stop = stop ? read_stop(*stop) : defaults.stop;
+    const bool fitted = std::any_of(run.tests.begin(), run.tests.end(),
+                                    [&](const std::string& name) { return !experiment.test(name).hold_out.all; });
+    if (!fitted)
+      entry.fail("every test of the run is held out, so there is nothing to fit",
+                 "Set \"hold_out\" to false in at least one.");
+    experiment.runs.push_back(std::move(run));
+  }
+}
+
+void check_diagnosis(const Node& node, const Experiment& experiment) {
+  node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility"}, "\"diagnosis\"");
+  if (const auto child = node.find("model")) child->one_of(entry_names(experiment.models), "model");
+  if (const auto child = node.find("optimizer")) child->one_of(entry_names(experiment.optimizers), "optimizer");
+  if (const auto child = node.find("admissibility")) child->flag("true or false");
+  if (const auto child = node.find("alpha");
+      child && !(child->number("a significance level") > 0 && child->number("") < 1))
+    child->fail(fmt::format("the significance level is {}", child->number("")),
+                "Expected a number between 0 and 1, for example 0.05.");
+  if (const auto child = node.find("mechanisms")) {
+    if (child->is_text())
+      child->one_of({"all"}, "set of mechanisms");
+    else  // some are native to tests, so the catalogue does not know them all
+      for (const Node& name : child->elements("\"all\" or a list of mechanism names"))
+        name.check_name(name.text("the name of a mechanism"), "mechanism");
+  }
+}
+
+}  // namespace tunica::experiment

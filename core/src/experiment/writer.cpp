@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "experiment/reader.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+void add_options(Json& json, const Options& options, const std::vector<Option>& declared) {
+  for (const Option& option : declared) {
+    const Option::Value& value = options.values().find(option.name)->second;
+    if (option.kind == Option::Kind::json)
+      json[option.name] = Json::parse(std::get<std::string>(value));
+    else
+      std::visit([&](const auto& v) { json[option.name] = v; }, value);
+  }
+}
+
+Json written(const ParameterSetting& setting) {
+  Json json = Json::object();
+  const auto add = [&json](const char* key, const std::optional<double>& value) {
+    if (value) json[key] = *value;
+  };
+  add("min", setting.min);
+  add("max", setting.max);
+  add("initial", setting.initial);
+  add("fixed", setting.fixed);
+  if (setting.scale) json["scale"] = *setting.scale == Scale::log ? "log" : "linear";
+  if (setting.share) json["share"] = *setting.share;
+  if (setting.prior) json["prior"] = {{"mean", setting.prior->mean}, {"sd", setting.prior->sd}};
+  return json;
+}
+
+Json written(const ParameterSettings& settings) {
+  Json json = Json::object();
+  for (const auto& [name, setting] : settings) json[name] = written(setting);
+  return json;
+}
+
+std::string written(const data::RowRange& range) {
+  return fmt::format("{}:{}:{}", range.first, range.last ? fmt::format("{}", *range.last) : "", range.step);
+}
+
+Json written(const data::DataRequest& data) {
+  Json json = Json::object();
+  std::vector<std::string> files;
+  for (const auto& file : data.files) files.push_back(std::filesystem::absolute(file).lexically_normal().string());
+  if (files.size() == 1)
+    json["file"] = files.front();
+  else
+    json["files"] = files;
+  for (const auto& [observable, column] : data.columns) json["columns"][observable] = column;
+  json["stress_measure"] = data.stress_measure;
+  json["rows"] = written(data.rows);
+  for (const auto& [column, value] : data.where) json["where"][column] = value;
+  if (data.time_rate) json["time_from"] = {{"rate", *data.time_rate}};
+  for (const auto& [channel, noise] : data.noise)
+    json["noise"][channel] = {
+        {"absolute", noise.absolute}, {"relative", noise.relative}, {"correlation", noise.correlation}};
+  return json;
+}
+
+Json written(const Stop& stop) {
+  Json json = {{"max_evaluations", stop.max_evaluations}};
+  if (stop.max_time) json["max_time"] = *stop.max_time;
+  if (stop.target) json["target"] = *stop.target;
+  if (stop.stall) json["stall"] = *stop.stall;
+  return json;
+}
+
+class Writer {
+ public:
+  explicit Writer(const plugins::Catalogue& catalogue) : catalogue_(catalogue) {}
+
+  [[nodiscard]] Json mechanisms(const std::vector<MechanismEntry>& entries) const {
+    Json list = Json::array();
+    for (const MechanismEntry& entry : entries) {
+      Json json = {{"type", entry.type}};
+      add_options(json, entry.options, catalogue_.mechanisms().find(entry.type)->second.factory.options);
+      json["parameters"] = written(entry.parameters);
+      list.push_back(std::move(json));
+    }
+    return list;
+  }
+
+  [[nodiscard]] Json model(const ModelEntry& entry) const {
+    Json json = {{"type", entry.type}};
+    add_options(json, entry.options, catalogue_.models().find(entry.type)->second.factory.options);
+    json["parameters"] = written(entry.parameters);
+    json["mechanisms"] = mechanisms(entry.mechanisms);
+    return json;
+  }
+
+  [[nodiscard]] Json test(const TestEntry& entry) const {
+    Json json = {{"type", entry.type}};
+    add_options(json, entry.options, catalogue_.tests().find(entry.type)->second.factory.options);
+    json["data"] = written(entry.data);
+    json["weight"] = entry.weights;
+    if (entry.hold_out.rows)
+      json["hold_out"] = written(*entry.hold_out.rows);
+    else
+      json["hold_out"] = entry.hold_out.all;
+    json["parameters"] = written(entry.parameters);
+    json["mechanisms"] = mechanisms(entry.mechanisms);
+    return json;
+  }
+
+  [[nodiscard]] Json optimizer(const OptimizerEntry& entry) const {
+    Json json = Json::object();
+    if (entry.stages.empty()) {
+      json["type"] = entry.type;
+      add_options(json, entry.options, catalogue_.optimizers().find(entry.type)->second.factory.options);
+    }
+    for (const OptimizerEntry::Stage& stage : entry.stages) {
+      Json one = {{"optimizer", stage.optimizer}};
+      if (stage.stop) one["stop"] = written(*stage.stop);
+      json["stages"].push_back(std::move(one));
+    }
+    return json;
+  }
+
+ private:
+  const plugins::Catalogue& catalogue_;
+};
+
+Json written(const RunEntry& run) {
+  Json constraints = Json::array();
+  for (const ConstraintEntry& constraint : run.constraints) constraints.push_back(Json::parse(constraint.json));
+  Json json = Json::object();
+  json["model"] = run.model;
+  json["optimizer"] = run.optimizer;
+  json["realisations"] = run.realisations;
+  json["tests"] = run.tests;
+  json["objective"] = objective_names()[static_cast<std::size_t>(run.objective)];
+  json["constraints"] = std::move(constraints);
+  json["stop"] = written(run.stop);
+  return json;
+}
+
+}  // namespace
+
+std::string write_input(const Experiment& experiment, const plugins::Catalogue& catalogue) {
+  const Writer writer(catalogue);
+  Json json = Json::object();
+  json["format"] = 1;
+  json["name"] = experiment.name;
+  json["seed"] = experiment.seed;
+  for (const ModelEntry& entry : experiment.models) json["models"][entry.name] = writer.model(entry);
+  for (const TestEntry& entry : experiment.tests) json["tests"][entry.name] = writer.test(entry);
+  for (const OptimizerEntry& entry : experiment.optimizers) json["optimizers"][entry.name] = writer.optimizer(entry);
+  for (const RunEntry& run : experiment.runs) json["runs"].push_back(written(run));
+  json["on_failure"] = {{"policy", on_failure_names()[static_cast<std::size_t>(experiment.on_failure)]},
+                        {"max_rate", experiment.max_failure_rate}};
+  if (!experiment.diagnosis_json.empty()) json["diagnosis"] = Json::parse(experiment.diagnosis_json);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace tunica::experiment
