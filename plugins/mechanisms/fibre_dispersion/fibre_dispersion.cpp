@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fibres scattered about their mean direction (Gasser, Ogden, Holzapfel 2006, doi 10.1098/rsif.2005.0073, eq. 4.4):
+// each fibre's own invariant M·CM in the energy becomes κ I1 + (1 − 3κ) M·CM.
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "tunica/hyperelastic.hpp"
+#include "tunica/plugin.hpp"
+
+namespace {
+
+using namespace tunica;
+
+Parameter kappa() {
+  return {"kappa",
+          "1",
+          0.1,
+          0,
+          1. / 3,
+          Scale::linear,
+          "Fibre dispersion: 0 = perfectly aligned, 1/3 = isotropic.",
+          "Gasser, Ogden, Holzapfel 2006, eq. 4.2"};
+}
+
+/// A part of the base model, which it keeps alive; the base's parameters come first, so its indices stay valid.
+class Forwarded : public EnergyPart {
+ public:
+  Forwarded(std::shared_ptr<const Model> base, const EnergyPart& part)
+      : base_(std::move(base)), part_(part), description_(part.describe()) {}
+
+  [[nodiscard]] const Description& describe() const override { return description_; }
+  void invariant(std::span<const double> parameters, Invariant& value,
+                 std::span<Invariant> derivatives) const override {
+    part_.invariant(parameters.first(base_count()), value, derivatives);
+  }
+  void respond(std::span<const double> parameters, const ResponseBatch& batch) const override {
+    part_.respond(parameters.first(base_count()), batch);
+  }
+
+ protected:
+  [[nodiscard]] std::size_t base_count() const { return base_->describe().parameters.size(); }
+
+  std::shared_ptr<const Model> base_;
+  const EnergyPart& part_;
+  Description description_;
+};
+
+/// A fibre part with fibre (M·CM) → fibre (κ I1 + (1 − 3κ) M·CM).
+class Dispersed final : public Forwarded {
+ public:
+  Dispersed(std::shared_ptr<const Model> base, const EnergyPart& part) : Forwarded(std::move(base), part) {
+    description_.invariant_parameters.push_back(base_count());
+  }
+
+  void invariant(std::span<const double> parameters, Invariant& value,
+                 std::span<Invariant> derivatives) const override {
+    const double k = parameters[base_count()];
+    const std::size_t own = derivatives.empty() ? 0 : derivatives.size() - 1;
+    Forwarded::invariant(parameters, value, derivatives.first(own));
+    if (!derivatives.empty()) {
+      derivatives[own] = {.i1 = value.fibre, .fibre = -3 * value.fibre};
+      for (Invariant& derivative : derivatives.first(own)) mix(derivative, k);
+    }
+    mix(value, k);
+  }
+
+ private:
+  static void mix(Invariant& v, double k) {
+    v.i1 += k * v.fibre;
+    v.fibre *= 1 - 3 * k;
+  }
+};
+
+/// Whether the invariant has other directions than the fibre's in it, at the start or by one of the parameters.
+bool is_dispersed(const EnergyPart& part, const ModelDescription& model) {
+  std::vector<double> start;
+  for (const Parameter& parameter : model.parameters) start.push_back(parameter.initial);
+  Invariant value;
+  std::vector<Invariant> derivatives(part.describe().invariant_parameters.size());
+  part.invariant(start, value, derivatives);
+  derivatives.push_back(value);
+  for (const Invariant& v : derivatives) {
+    if (v.i1 != 0 || v.normal != 0) return true;
+  }
+  return false;
+}
+
+class DispersedModel final : public Hyperelastic {
+ public:
+  explicit DispersedModel(const std::shared_ptr<const Model>& base)
+      : Hyperelastic(described(*base), dispersed(base)), base_(base) {}
+
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    if (!at_null(points.parameters) || !response.stress_dp.empty()) return Hyperelastic::evaluate(points, response);
+    MaterialPoints bare = points;
+    bare.parameters = points.parameters.first(points.parameters.size() - 1);
+    return base_->evaluate(bare, response);
+  }
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
+    if (!at_null(points.parameters) || !response.gradient_dp.empty() || !base_->describe().principal_axes)
+      return Hyperelastic::evaluate_axes(points, response);
+    return base_->evaluate_axes({points.count, points.c, points.parameters.first(points.parameters.size() - 1)},
+                                response);
+  }
+
+ private:
+  static bool at_null(std::span<const double> parameters) { return parameters.back() == 0; }
+
+  static ModelDescription described(const Model& base) {
+    ModelDescription description = base.describe();
+    description.parameters.push_back(kappa());
+    description.parameter_derivatives = true;  // from the parts, whatever the base itself offers
+    return description;
+  }
+
+  static std::vector<std::unique_ptr<EnergyPart>> dispersed(const std::shared_ptr<const Model>& base) {
+    const ModelDescription& model = base->describe();
+    std::vector<std::unique_ptr<EnergyPart>> parts;
+    std::size_t fibres = 0;
+    for (const auto& part : base->parts()) {
+      if (part->describe().role != EnergyPart::Role::fibre) {
+        parts.push_back(std::make_unique<Forwarded>(base, *part));
+        continue;
+      }
+      if (is_dispersed(*part, model)) {
+        throw InputError("fibre_dispersion: the fibres of model '" + model.type + "' (part '" + part->describe().name +
+                         "') are dispersed already; expected a model with aligned fibres, for example hgo; use the "
+                         "model's own dispersion parameters, or take the mechanism out");
+      }
+      parts.push_back(std::make_unique<Dispersed>(base, *part));
+      ++fibres;
+    }
+    if (fibres == 0) {
+      throw InputError("fibre_dispersion: model '" + model.type +
+                       "' has no fibre parts to disperse; expected a model with fibres, for example hgo; take the "
+                       "mechanism out or choose another model");
+    }
+    return parts;
+  }
+
+  std::shared_ptr<const Model> base_;
+};
+
+MechanismFactory factory() {
+  MechanismFactory mechanism{
+      .id = "fibre_dispersion",
+      .cause = "The collagen fibres scatter about their mean direction instead of being perfectly aligned.",
+      .stage = tunica::Stage::invariants,
+      .applies_to = {},
+      .parameters = {kappa()},
+      .null = 0,
+      .side = MechanismFactory::Side::positive,
+      .plausible_min = 0,
+      .plausible_max = 1. / 3,
+      .look_alikes = {"matrix_stiffening", "circumferential_fibres", "axial_fibres"},
+      .isolated_by = "transverse stretch of a strip, or imaging of the fibre directions",
+      .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)",
+      .options = {}};
+  mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
+    return std::make_unique<DispersedModel>(std::shared_ptr<const Model>(std::move(base)));
+  };
+  return mechanism;
+}
+
+}  // namespace
+
+TUNICA_PLUGIN("fibre_dispersion", TUNICA_PLUGIN_VERSION) { registry.add(factory()); }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// One Maxwell branch beside the base model, which stays the equilibrium response. With S' = Dev S of the base, the
+// second Piola–Kirchhoff stress of a slow material plus
+//
+//   h(t) = g ∫ e^{−(t−t')/τ} dS'(t'),   at rest until t = 0
+//
+// (Simo 1987, Comput. Methods Appl. Mech. Eng. 60:153, eq. 3.6; Holzapfel 2000, Nonlinear Solid Mechanics, §6.10).
+//
+// Why Dev S and not S: in an incompressible material the energy is known up to a function of the volume, and S up to a
+// multiple of C⁻¹ which the pressure absorbs. It could not absorb the memory of an earlier multiple of an earlier C⁻¹:
+// with S in the integral the prediction would depend on how the energy happens to be written. S' does not.
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "deviator.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::viscoelasticity {
+namespace {
+
+std::vector<Parameter> own_parameters() {
+  return {{"g", "1", 0.3, 0, 10, Scale::linear,
+           "Stiffness of the viscous branch, relative to the equilibrium response.", "Simo 1987, eq. 3.6"},
+          {"tau", "s", 10, 0.001, 100000, Scale::log, "Relaxation time of the viscous branch.", "Simo 1987, eq. 3.6"}};
+}
+
+constexpr std::size_t own_history = 12;  // h, then S', six components each
+
+/// The components of point i in a structure of arrays.
+Tensor load(std::span<const double> from, std::size_t n, std::size_t i) {
+  Tensor t;
+  for (std::size_t c = 0; c < 6; ++c) t[c] = from[c * n + i];
+  return t;
+}
+void store(std::span<double> into, std::size_t n, std::size_t i, const Tensor& t) {
+  for (std::size_t c = 0; c < 6; ++c) into[c * n + i] = t[c];
+}
+
+/// For S' linear over the step, exactly: h₊ = e^{−Δt/τ} h + g φ ΔS', φ = (1 − e^{−Δt/τ})/(Δt/τ).
+struct Step {
+  double decay, slope;  ///< e^{−Δt/τ}, g φ
+  Step(double time_step, double g, double tau) {
+    const double x = time_step / tau;
+    decay = std::exp(-x);
+    slope = x == 0 ? g : g * (-std::expm1(-x) / x);
+  }
+};
+
+/// State: the base's, then h and S' of the last step. No exact parameter derivatives: the host differences paths.
+class Viscoelastic final : public Model {
+ public:
+  explicit Viscoelastic(std::unique_ptr<Model> base) : base_(std::move(base)), description_(base_->describe()) {
+    for (Parameter& parameter : own_parameters()) description_.parameters.push_back(std::move(parameter));
+    description_.history_size += own_history;
+    description_.principal_axes = false;
+    description_.parameter_derivatives = false;
+  }
+
+  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return base_->parts(); }
+
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    if (!response.stress_dp.empty())
+      return Status::failed("viscoelasticity: no parameter derivatives at a single step; difference the whole path");
+    const std::size_t n = points.count, own = points.parameters.size() - 2;
+    const double g = points.parameters[own], tau = points.parameters[own + 1];
+    const std::size_t base_state = n * base_->describe().history_size;
+
+    MaterialPoints bare = points;
+    bare.parameters = points.parameters.first(own);
+    bare.state = points.state.first(points.state.empty() ? 0 : base_state);
+    MaterialResponse out = response;
+    out.state = response.state.first(response.state.empty() ? 0 : base_state);
+    const bool branch = g != 0 && (!response.stress.empty() || !response.tangent.empty());
+    if (!branch && response.state.empty()) return base_->evaluate(bare, out);
+
+    std::vector<double> unwanted;
+    if (response.stress.empty()) {
+      unwanted.resize(6 * n);
+      out.stress = unwanted;
+    }
+    if (Status status = base_->evaluate(bare, out); !status.ok()) return status;
+    Tensor rest{};
+    if (points.state.empty() && g != 0) {
+      if (Status status = deviator_at_rest(bare.parameters, rest); !status.ok()) return status;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Tensor C = load(points.C, n, i), S = load(out.stress, n, i), C_inverse = inverse(C);
+      const Tensor now = deviator(S, C, C_inverse);
+      Tensor h{};
+      if (g != 0 && !points.time_step.empty()) {
+        const Step step(points.time_step[i], g, tau);
+        const auto old = points.state.subspan(bare.state.size());
+        if (!points.state.empty()) h = load(old, n, i);
+        const Tensor before = points.state.empty() ? rest : load(old.subspan(6 * n), n, i);
+        for (std::size_t c = 0; c < 6; ++c) h[c] = step.decay * h[c] + step.slope * (now[c] - before[c]);
+        if (!response.tangent.empty()) add_tangent(response.tangent, n, i, step.slope, S, C, C_inverse);
+        if (!response.stress.empty()) {
+          for (std::size_t c = 0; c < 6; ++c) response.stress[c * n + i] += h[c];
+        }
+      }
+      if (response.state.empty()) continue;
+      store(response.state.subspan(base_state), n, i, h);
+      store(response.state.subspan(base_state + 6 * n), n, i, now);
+    }
+    return {};
+  }
+
+ private:
+  Status deviator_at_rest(std::span<const double> parameters, Tensor& rest) const {
+    const Tensor identity{1, 1, 1, 0, 0, 0};
+    Tensor S{};
+    Status status = base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, {}, {}, {}});
+    rest = deviator(S, identity, identity);
+    return status;
+  }
+
+  /// The tangent consistent with the step: A + g φ 2 ∂S'/∂C.
+  static void add_tangent(std::span<double> tangent, std::size_t n, std::size_t i, double slope, const Tensor& S,
+                          const Tensor& C, const Tensor& C_inverse) {
+    Tangent A;
+    for (std::size_t k = 0; k < 36; ++k) A[k] = tangent[k * n + i];
+    const Tangent change = deviator_tangent(S, A, C, C_inverse);
+    for (std::size_t k = 0; k < 36; ++k) tangent[k * n + i] += slope * change[k];
+  }
+
+  std::unique_ptr<Model> base_;
+  ModelDescription description_;
+};
+
+MechanismFactory factory() {
+  MechanismFactory mechanism{
+      .id = "viscoelasticity",
+      .cause = "Part of the stress relaxes with time: the tissue was pulled faster than it comes to equilibrium.",
+      .stage = tunica::Stage::history,
+      .applies_to = {},
+      .parameters = own_parameters(),
+      .null = 0,
+      .side = MechanismFactory::Side::positive,
+      .plausible_min = 0,
+      .plausible_max = 3,
+      .look_alikes = {"stress_softening", "signal_drift", "force_scale_error"},
+      .isolated_by = "a hold at constant stretch, or a second rate",
+      .reference =
+          "Simo, Comput. Methods Appl. Mech. Eng. 60:153 (1987); Holzapfel, Nonlinear Solid Mechanics (2000), "
+          "section 6.10",
+      .options = {}};
+  mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
+    return std::make_unique<Viscoelastic>(std::move(base));
+  };
+  return mechanism;
+}
+
+}  // namespace
+}  // namespace tunica::viscoelasticity
+
+TUNICA_PLUGIN("viscoelasticity", TUNICA_PLUGIN_VERSION) { registry.add(tunica::viscoelasticity::factory()); }
