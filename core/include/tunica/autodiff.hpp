@@ -9,6 +9,27 @@
 
 #include "tunica/energy_part.hpp"
 
+/// Plain numbers beside jets of jets, as formulas have them; Ceres defines these for the jet's own scalar only.
+namespace ceres {
+template <int N, int M>
+using NestedJet = Jet<Jet<double, N>, M>;
+
+#define TUNICA_NESTED_(op)                                          \
+  template <int N, int M>                                           \
+  NestedJet<N, M> operator op(double s, const NestedJet<N, M>& f) { \
+    return NestedJet<N, M>(Jet<double, N>(s)) op f;                 \
+  }                                                                 \
+  template <int N, int M>                                           \
+  NestedJet<N, M> operator op(const NestedJet<N, M>& f, double s) { \
+    return f op NestedJet<N, M>(Jet<double, N>(s));                 \
+  }
+TUNICA_NESTED_(+)
+TUNICA_NESTED_(-)
+TUNICA_NESTED_(*)
+TUNICA_NESTED_(/)
+#undef TUNICA_NESTED_
+}  // namespace ceres
+
 namespace tunica {
 
 /// ψ, ψ', ψ'' and their parameter derivatives of a law (laws.hpp) from its formula alone: one jet over (x; p) inside

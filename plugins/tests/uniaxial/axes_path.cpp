@@ -12,10 +12,10 @@
 namespace tunica::uniaxial {
 namespace {
 
-constexpr std::size_t node_count = 10;
+constexpr std::size_t node_count = 12;
 /// A relative step of λ2² this small is applied to first order; the error left behind is its square. The nodes only
 /// serve a start, whose error a Newton step squares again.
-constexpr double last_step = 4e-6, last_step_at_nodes = 1e-3;
+constexpr double last_step = 1e-6, last_step_at_nodes = 1e-3;
 constexpr int newton_iterations = 12;
 
 /// Positions of the Hessian components (a, b) in the order tt, zz, rr, tz, zr, tr.

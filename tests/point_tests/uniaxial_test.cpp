@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "support/strip.hpp"
+
+namespace tunica::testing {
+namespace {
+
+/// Set S of Canales et al. 2023: mu, kappa, k1, k2, theta.
+const std::vector<double> set_s{18.668, 0.1367, 24.905, 0.2912, 46.44};
+
+struct Reference {
+  double stretch, circumferential, circumferential_transverse, axial, axial_transverse;
+};
+// physics, section 9: an independent implementation (60 bisections), good to 1e-8 relative.
+constexpr Reference references[] = {{1.1, 6.68600383, 0.94105519, 6.29738969, 0.94282543},
+                                    {1.3, 26.03758025, 0.83502600, 23.65781361, 0.83773439},
+                                    {1.5, 59.13356144, 0.74734160, 52.36950158, 0.74906183},
+                                    {1.8, 159.17183865, 0.64544435, 136.00590423, 0.64539388}};
+
+TEST(Uniaxial, ReproducesTheReferenceValues) {
+  const auto model = make_model("gho");
+  // Four rows start cold; forty start from the interpolated Chebyshev points. Both must hit the values.
+  for (const std::size_t filling : {0u, 40u}) {
+    std::vector<double> stretch = filling > 0 ? evenly(1, 1.8, filling) : std::vector<double>{};
+    for (const Reference& reference : references) stretch.push_back(reference.stretch);
+    const Predicted circ = predict(*make_strip(stretch), *model, set_s);
+    const Predicted axial = predict(*make_strip(stretch, {.direction = "axial"}), *model, set_s);
+    ASSERT_TRUE(circ.status.ok() && axial.status.ok());
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Reference& r = references[i];
+      EXPECT_NEAR(circ.values[filling + i] / r.circumferential, 1, 1e-7);
+      EXPECT_NEAR(axial.values[filling + i] / r.axial, 1, 1e-7);
+      EXPECT_NEAR(circ.diagnostics[filling + i], r.circumferential_transverse, 1e-8);
+      EXPECT_NEAR(axial.diagnostics[filling + i], r.axial_transverse, 1e-8);
+    }
+  }
+}
+
+/// Lateral equilibrium and stress of the gho, once more by bisection in extended precision.
+struct Bisected {
+  long double stress, transverse;
+};
+Bisected bisect(const std::vector<double>& p, double stretch, bool circumferential) {
+  using std::exp;
+  const long double theta = p[4] * std::acos(-1.0L) / 180, c1 = static_cast<long double>(stretch) * stretch;
+  const long double s2 = std::pow(std::sin(theta), 2.0L), k = p[1];
+  const long double along = circumferential ? s2 : 1 - s2;
+  const auto forces = [&](long double u, long double& stress) {
+    const long double c3 = 1 / (c1 * u), e = k * (c1 + u + c3) + (1 - 3 * k) * (along * c1 + (1 - along) * u) - 1;
+    const long double first = e > 0 ? 2 * p[2] * e * exp(p[3] * e * e) : 0;  // both families
+    const long double a1 = k + (1 - 3 * k) * along, a2 = k + (1 - 3 * k) * (1 - along);
+    stress = 2 * (c1 * (p[0] / 2.0L + first * a1) - c3 * (p[0] / 2.0L + first * k));
+    return p[0] / 2.0L * (u - c3) + first * (u * a2 - c3 * k);  // no ∞ − ∞
+  };
+  long double low = -12, high = 12, stress = 0;  // ln u
+  for (int i = 0; i < 100; ++i) {
+    const long double middle = (low + high) / 2;
+    (forces(exp(middle), stress) > 0 ? high : low) = middle;
+  }
+  return {stress, exp((low + high) / 4)};
+}
+
+TEST(Uniaxial, ConvergesForAnyAdmissibleParametersOrSaysThatItOverflows) {
+  // 4000 sets over the whole box (seed 5, deterministic), stretch 0.6 to 2.5. Either the answer is bisection's to
+  // 1e-9, or the evaluation failed and bisection confirms that a double cannot hold the stress.
+  const auto model = make_model("gho");
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::size_t failures = 0;
+  for (int draw = 0; draw < 4000; ++draw) {
+    std::vector<double> p;
+    for (const Parameter& parameter : model->describe().parameters)
+      p.push_back(parameter.scale == Scale::log ? parameter.min * std::pow(parameter.max / parameter.min, unit(engine))
+                                                : parameter.min + (parameter.max - parameter.min) * unit(engine));
+    const bool circumferential = unit(engine) < 0.5;
+    const std::vector<double> stretch = evenly(draw % 4 == 0 ? 0.6 : 1, 1 + 1.5 * unit(engine), draw % 2 == 0 ? 5 : 40);
+    const auto strip = make_strip(stretch, {.direction = circumferential ? "circumferential" : "axial"});
+    const Predicted out = predict(*strip, *model, p);
+    if (!out.status.ok()) {
+      ++failures;
+      EXPECT_EQ(out.status.kind(), Status::Kind::failed);
+      EXPECT_NE(out.status.reason().find("row "), std::string::npos) << out.status.reason();
+      long double largest = 0;
+      for (const double l : stretch) largest = std::max(largest, std::abs(bisect(p, l, circumferential).stress));
+      EXPECT_GT(largest, 1e290L) << out.status.reason() << " p = " << p[0] << " " << p[1] << " " << p[2] << " " << p[3]
+                                 << " " << p[4];
+      continue;
+    }
+    for (std::size_t i = 0; i < stretch.size(); ++i) {
+      const Bisected exact = bisect(p, stretch[i], circumferential);
+      ASSERT_NEAR(out.values[i], static_cast<double>(exact.stress),
+                  1e-9 * (p[0] + std::abs(static_cast<double>(exact.stress))))
+          << "row " << i << " stretch " << stretch[i] << " p = " << p[0] << " " << p[1] << " " << p[2] << " " << p[3]
+          << " " << p[4];
+    }
+  }
+  EXPECT_GT(failures, 0u);  // the box does reach overflow, so that path was taken
+  EXPECT_LT(failures, 400u);
+}
+
+class UniaxialDerivatives : public ::testing::TestWithParam<std::tuple<const char*, const char*, double>> {};
+
+TEST_P(UniaxialDerivatives, AgreeWithDifferences) {
+  const auto [direction, measure, misalignment] = GetParam();
+  const auto model = make_model("gho");
+  const std::vector<double> stretch = evenly(1.02, 1.7, 25);
+  const StripSetup setup{direction, {"transverse_stretch", "stress", "normal_stretch"}, measure, {}};
+  const auto strip = make_strip(stretch, setup);
+  const Predicted at = predict(*strip, *model, set_s, misalignment, true);
+  ASSERT_TRUE(at.status.ok()) << at.status.reason();
+  const std::size_t rows = at.values.size(), n = stretch.size();
+  const auto scale = [&](std::size_t channel, std::span<const double> column) {
+    double largest = 1e-6;
+    for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(column[channel * n + i]));
+    return largest;
+  };
+  for (std::size_t j = 0; j <= set_s.size(); ++j) {
+    std::vector<double> up = set_s, down = set_s;
+    const double h = j < set_s.size() ? 1e-5 * set_s[j] : 1e-3;
+    double turn_up = misalignment, turn_down = misalignment;
+    if (j < set_s.size())
+      up[j] += h, down[j] -= h;
+    else
+      turn_up += h, turn_down -= h;
+    const Predicted above = predict(*strip, *model, up, turn_up), below = predict(*strip, *model, down, turn_down);
+    const std::span<const double> column(at.jacobian.data() + j * rows, rows);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        EXPECT_NEAR(column[k * n + i], (above.values[k * n + i] - below.values[k * n + i]) / (2 * h),
+                    1e-6 * scale(k, column) + 1e-13 * scale(k, at.values) / h)
+            << "parameter " << j << " channel " << k << " row " << i;
+  }
+  std::vector<double> up = stretch, down = stretch;
+  for (std::size_t i = 0; i < n; ++i) up[i] += 1e-6, down[i] -= 1e-6;
+  const Predicted above = predict(*make_strip(up, setup), *model, set_s, misalignment),
+                  below = predict(*make_strip(down, setup), *model, set_s, misalignment);
+  for (std::size_t i = 0; i < rows; ++i)
+    EXPECT_NEAR(at.abscissa_derivative[i], (above.values[i] - below.values[i]) / 2e-6,
+                1e-6 * std::max(1., std::abs(at.abscissa_derivative[i])))
+        << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, UniaxialDerivatives,
+                         ::testing::Combine(::testing::Values("circumferential", "axial"),
+                                            ::testing::Values("cauchy", "first_piola_kirchhoff",
+                                                              "second_piola_kirchhoff"),
+                                            ::testing::Values(0., 4.)));
+
+TEST(Uniaxial, TensorsGiveWhatTheAxesGive) {
+  const auto model = make_model("holzapfel_2015");
+  const std::vector<double> p{22, 0.2, 0.4, 15, 0.5, 60}, stretch = evenly(0.9, 1.8, 30);
+  for (const char* direction : {"circumferential", "axial"}) {
+    const auto strip = make_strip(stretch, {.direction = direction, .channels = {"stress", "transverse_stretch"}});
+    const Predicted axes = predict(*strip, *model, p, 0, true), tensors = predict(*strip, *model, p, 1e-7, true);
+    ASSERT_TRUE(axes.status.ok() && tensors.status.ok()) << tensors.status.reason();
+    for (std::size_t i = 0; i < axes.values.size(); ++i) {
+      EXPECT_NEAR(axes.values[i], tensors.values[i], 1e-9 * (1 + std::abs(axes.values[i])));
+      EXPECT_NEAR(axes.abscissa_derivative[i], tensors.abscissa_derivative[i],
+                  1e-8 * (1 + std::abs(axes.abscissa_derivative[i])));
+    }
+    for (std::size_t i = 0; i < p.size() * axes.values.size(); ++i)
+      EXPECT_NEAR(axes.jacobian[i], tensors.jacobian[i], 1e-7 * (1 + std::abs(axes.jacobian[i]))) << i;
+  }
+}
+
+TEST(Uniaxial, SeesTheFamiliesApartOnAMisalignedSpecimen) {
+  // Even in the angle: the mirrored specimen is the same one. And turning by 90° swaps the directions.
+  const auto model = make_model("gho");
+  const std::vector<double> stretch = evenly(1, 1.6, 20);
+  const auto circ = make_strip(stretch), axial = make_strip(stretch, {.direction = "axial"});
+  const Predicted plus = predict(*circ, *model, set_s, 7), minus = predict(*circ, *model, set_s, -7);
+  const Predicted straight = predict(*circ, *model, set_s), turned = predict(*circ, *model, set_s, 90),
+                  other = predict(*axial, *model, set_s);
+  for (std::size_t i = 1; i < stretch.size(); ++i) {
+    EXPECT_NEAR(plus.values[i], minus.values[i], 1e-10 * plus.values[i]);
+    EXPECT_GT(std::abs(plus.values[i] - straight.values[i]), 1e-5 * straight.values[i]);
+    EXPECT_NEAR(turned.values[i], other.values[i], 1e-9 * other.values[i]);
+  }
+}
+
+TEST(Uniaxial, NeoHookeHasItsClosedForm) {
+  const auto model = make_model("neo_hooke");
+  const std::vector<double> stretch = evenly(0.5, 4, 50);
+  const Predicted cauchy = predict(*make_strip(stretch), *model, {7});
+  const Predicted nominal = predict(*make_strip(stretch, {.measure = "first_piola_kirchhoff"}), *model, {7});
+  const Predicted second = predict(*make_strip(stretch, {.measure = "second_piola_kirchhoff"}), *model, {7});
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    const double l = stretch[i], exact = 7 * (l * l - 1 / l);
+    EXPECT_NEAR(cauchy.values[i], exact, 1e-10 * (1 + std::abs(exact)));
+    EXPECT_NEAR(nominal.values[i], exact / l, 1e-10 * (1 + std::abs(exact)));
+    EXPECT_NEAR(second.values[i], exact / (l * l), 1e-10 * (1 + std::abs(exact)));
+    EXPECT_NEAR(cauchy.diagnostics[i], 1 / std::sqrt(l), 1e-10);
+  }
+}
+
+TEST(Uniaxial, TakesOtherAbscissaeThanTheBoundOnes) {
+  const auto model = make_model("gho");
+  const std::vector<double> bound = evenly(1, 1.5, 20), other = evenly(1.01, 1.6, 20);
+  const auto strip = make_strip(bound);
+  std::vector<double> values(20);
+  const double zero = 0;
+  const std::span<const double> abscissa[] = {other};
+  ASSERT_TRUE(strip->predict({*model, set_s, {&zero, 1}, abscissa}, {values, {}, {}, {}}).ok());
+  const Predicted direct = predict(*make_strip(other), *model, set_s);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(values[i], direct.values[i], 1e-9 * (1 + direct.values[i]));
+}
+
+TEST(Uniaxial, IsTheSameFromEveryThread) {
+  const auto model = make_model("gho");
+  const auto strip = make_strip(evenly(1, 1.8, 40));
+  std::array<std::vector<double>, 4> results;
+  std::vector<std::thread> threads;
+  for (auto& result : results)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 200; ++k) {
+        std::vector<double> p = set_s;
+        p[0] *= 1 + 0.01 * k;
+        const Predicted out = predict(*strip, *model, p);
+        result.insert(result.end(), out.values.begin(), out.values.end());
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  for (const auto& result : results) EXPECT_EQ(result, results[0]);
+}
+
+TEST(Uniaxial, RefusesRowsItCannotSimulate) {
+  const auto message = [](const std::vector<double>& stretch, std::vector<double> time) -> std::string {
+    try {
+      make_strip(stretch, {.time = std::move(time)});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(message({1, -0.2}, {}).find("row 2 has stretch"), std::string::npos);
+  EXPECT_NE(message({1, 1.1, 1.2}, {0, 2, 1}).find("time runs backwards at row 3"), std::string::npos);
+  EXPECT_NE(message({}, {}).find("no rows"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tunica::testing
