@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "shelf.hpp"
+#include "strip.hpp"
 
 namespace tunica {
 namespace {
@@ -13,13 +13,7 @@ const std::vector<double> stretches{1.0, 1.1, 1.3, 1.5};
 const std::vector<double> parameters{18.668, 0.1367, 24.905, 0.2912, 46.44};  // gho, set S
 
 std::unique_ptr<Test> strip(const std::vector<std::string>& channels) {
-  const auto& entry = testing::catalogue().tests().at("uniaxial");
-  TestSetup setup{testing::defaults(entry.factory.options), {}, "first_piola_kirchhoff"};
-  setup.options.set("direction", std::string("circumferential"));
-  setup.rows.count = stretches.size();
-  setup.rows.abscissae = {{"stretch", stretches}};
-  setup.rows.channels = channels;
-  return plugins::create(entry, setup);
+  return testing::strip(stretches, channels, {}, "first_piola_kirchhoff");
 }
 
 std::unique_ptr<Test> offset_strip(const std::vector<std::string>& channels) {

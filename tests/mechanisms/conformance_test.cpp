@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A model inside a mechanism is a model: every property of support/model_conformance.hpp holds for it too. One seed,
+// so the outcome is deterministic, and was a pass when this was committed.
+#include <gtest/gtest.h>
+
+#include "shelf.hpp"
+#include "support/model_conformance.hpp"
+
+namespace tunica::testing {
+namespace {
+
+using Case = std::tuple<const char*, const char*, Property>;  // mechanism, fibre_switch
+
+class DecoratedModel : public ::testing::TestWithParam<Case> {};
+
+TEST_P(DecoratedModel, KeepsTheProperties) {
+  const auto& [mechanism, fibre_switch, property] = GetParam();
+  EXPECT_EQ(property.check(*wrapped(mechanism, model("hgo", fibre_switch)), 20230211), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, DecoratedModel,
+                         ::testing::Combine(::testing::Values("fibre_dispersion", "viscoelasticity"),
+                                            ::testing::Values("strain", "none"),
+                                            ::testing::ValuesIn(model_properties())),
+                         [](const auto& at) {
+                           return std::string(std::get<0>(at.param)) + "_" + std::get<1>(at.param) + "_" +
+                                  std::get<2>(at.param).name;
+                         });
+
+}  // namespace
+}  // namespace tunica::testing
