@@ -99,7 +99,7 @@ void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& 
   json finished = json::array();
   for (const auto& [task, result] : checkpoint.finished) finished.push_back(to_json(task, result));
   const json document = {{"format", checkpoint_format}, {"facts", checkpoint.facts}, {"finished", std::move(finished)}};
-  write_atomically(checkpoint_file(directory), document.dump(1) + '\n');
+  write_atomically(checkpoint_file(directory), document.dump(1, ' ', false, json::error_handler_t::replace) + '\n');
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& directory) {

@@ -79,7 +79,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
       result.best = best;
     result.converged = outcome.converged;
     result.reason = one_line(outcome.reason);
-    result.stop_reason = problem.stop_reason();
+    result.stop_reason = one_line(problem.stop_reason());
     const bool spent = result.tally.evaluations >= shared.max_evaluations;
     const bool stage_ended =
         result.stop_reason.empty() || result.stop_reason == "stall" ||

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "comparison/estimate.hpp"
+#include "comparison/text.hpp"
+#include "execution/plan.hpp"
+#include "exit_codes.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+using comparison::columns;
+using comparison::hanging;
+using comparison::pad;
+
+void print_tests(const calibration::Assembly& assembly) {
+  for (const auto& channel : assembly.channels()) {
+    const auto held_out = std::count(channel.fitted.begin(), channel.fitted.end(), false);
+    const auto [low, high] = std::minmax_element(channel.measured.begin(), channel.measured.end());
+    const auto [first, last] = std::minmax_element(channel.abscissa.begin(), channel.abscissa.end());
+    std::string text = fmt::format("{} rows", channel.count);
+    if (held_out > 0) text += fmt::format(" ({} held out)", held_out);
+    if (channel.count > 0)
+      text +=
+          fmt::format(", {:.4g} … {:.4g} {} over {} {:.4g} … {:.4g} {}", *low, *high, channel.unit,
+                      channel.abscissa_name, *first, *last, channel.abscissa_unit == "1" ? "" : channel.abscissa_unit);
+    text += fmt::format(", weight {:g}", channel.weight);
+    text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
+                          : std::string(", noise estimated");
+    fmt::print("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable), text));
+  }
+}
+
+void print_parameters(const calibration::Assembly& assembly) {
+  std::size_t width = 9;
+  for (const auto& parameter : assembly.parameters()) width = std::max(width, columns(parameter.name));
+  for (const auto& parameter : assembly.fixed_parameters()) width = std::max(width, columns(parameter.name));
+  fmt::print("  {}  {:<6} {:>10} {:>10} {:>10}  scale\n", pad("parameter", width), "unit", "initial", "min", "max");
+  for (const auto& parameter : assembly.parameters())
+    fmt::print("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", pad(parameter.name, width), parameter.unit,
+               parameter.initial, parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear",
+               parameter.prior ? fmt::format(", prior {:g} ± {:g}", parameter.prior->mean, parameter.prior->sd) : "");
+  for (const auto& parameter : assembly.fixed_parameters())
+    fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", pad(parameter.name, width), parameter.unit, parameter.value);
+}
+
+/// Median time of one evaluation in µs, over a fifth of a second at most.
+double time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
+  using Clock = std::chrono::steady_clock;
+  auto workspace = assembly.make_workspace();
+  std::vector<double> per_test(tests), times;
+  double objective = 0;
+  const auto end = Clock::now() + std::chrono::milliseconds(200);
+  for (auto now = Clock::now(); now < end && times.size() < 1001;) {
+    static_cast<void>(assembly.evaluate(free, objective, per_test, {}, {}, *workspace));
+    const auto after = Clock::now();
+    times.push_back(std::chrono::duration<double, std::micro>(after - now).count());
+    now = after;
+  }
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
+}
+
+/// False when the initial point cannot be evaluated.
+bool print_initial_point(const execution::PlannedRun& run) {
+  const auto& assembly = *run.assembly;
+  std::vector<double> free;
+  for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
+  std::vector<double> per_test(run.entry->tests.size());
+  auto workspace = assembly.make_workspace();
+  double objective = 0;
+  const auto status = assembly.evaluate(free, objective, per_test, {}, {}, *workspace);
+  if (status.kind() == Status::Kind::failed) {
+    fmt::print("{}\n", hanging("  the initial point cannot be evaluated: ", status.reason()));
+    return false;
+  }
+  fmt::print("  at the initial point: objective {:.6g}", objective);
+  if (per_test.size() > 1)
+    for (std::size_t test = 0; test < per_test.size(); ++test)
+      fmt::print("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
+  fmt::print("\n  one evaluation takes {:.3g} µs; derivatives are {}\n",
+             time_evaluation(assembly, free, per_test.size()), assembly.jacobian_is_exact() ? "exact" : "differenced");
+  for (const auto& sentence : comparison::identifiability_of(assembly, free))
+    fmt::print("{}\n", hanging("  set-up: ", sentence));
+  return true;
+}
+
+int check(const GlobalOptions& global, const std::string& file) {
+  const Session session(global);
+  const auto experiment = session.read(file);
+  const auto plan = execution::make_plan(experiment, session.catalogue());
+  fmt::print("{}: {} models, {} tests, {} runs, seed {}\n", experiment.name, experiment.models.size(),
+             experiment.tests.size(), experiment.runs.size(), experiment.seed);
+  std::vector<std::string> warnings = plan.warnings;
+  for (const auto& run : plan.runs)
+    for (const auto& warning : run.assembly->warnings())
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  for (const auto& warning : warnings) fmt::print("{}\n", hanging("  ! ", warning));
+  bool good = true;
+  for (const auto& run : plan.runs) {
+    fmt::print("\n{}: {} realisations of at most {} evaluations\n", run.label, run.entry->realisations,
+               run.entry->stop.max_evaluations);
+    print_tests(*run.assembly);
+    print_parameters(*run.assembly);
+    good = print_initial_point(run) && good;
+  }
+  fmt::print("\n{}\n", good ? fmt::format("In order. Next: tunica run {}", file)
+                            : std::string("A start cannot be evaluated; searches would have to leave it first."));
+  return good ? done : not_converged;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto file = std::make_shared<std::string>();
+  auto* verb = app.add_subcommand("check", "Dry run: names, units, data, bounds, the initial point, identifiability");
+  verb->add_option("experiment", *file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->footer(
+      "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n\nWrites "
+      "nothing.");
+  verb->callback([&global, &action, file] { action = [&global, file] { return check(global, *file); }; });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "comparison/text.hpp"
+#include "data/nearest.hpp"
+#include "exit_codes.hpp"
+#include "plugins/guarded.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+using comparison::hanging;
+
+std::string text_of(const Option::Value& value) {
+  return std::visit(
+      [](const auto& content) -> std::string {
+        if constexpr (std::is_same_v<std::decay_t<decltype(content)>, bool>)
+          return content ? "true" : "false";
+        else
+          return fmt::format("{}", content);
+      },
+      value);
+}
+
+std::string kind_of(const Option& option) {
+  switch (option.kind) {
+    case Option::Kind::flag:
+      return "true or false";
+    case Option::Kind::integer:
+      return "integer";
+    case Option::Kind::number:
+      return "number";
+    case Option::Kind::quantity:
+      return fmt::format("quantity in {}", option.unit);
+    case Option::Kind::choice:
+      return fmt::format("{}", fmt::join(option.choices, " | "));
+    case Option::Kind::text:
+      return "text";
+    case Option::Kind::json:
+      return "JSON";
+  }
+  return {};
+}
+
+void print_options(const std::vector<Option>& options) {
+  if (!options.empty()) fmt::print("\noptions\n");
+  for (const auto& option : options) {
+    std::string text = kind_of(option);
+    if (option.min) text += fmt::format(", at least {}", *option.min);
+    if (option.max) text += fmt::format(", at most {}", *option.max);
+    text += option.fallback ? fmt::format("; default {}", text_of(*option.fallback)) : std::string("; must be given");
+    fmt::print("{}\n", hanging(fmt::format("  {:<18} ", option.name), fmt::format("{} ({})", option.doc, text)));
+  }
+}
+
+void print_parameters(const std::vector<Parameter>& parameters, const std::vector<double>& nulls = {}) {
+  if (parameters.empty()) return;
+  fmt::print("\nparameters\n  {:<18} {:<8} {:>10} {:>10} {:>10}  scale\n", "name", "unit", "initial", "min", "max");
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto& parameter = parameters[i];
+    fmt::print("  {:<18} {:<8} {:>10.6g} {:>10.6g} {:>10.6g}  {}\n", parameter.name, parameter.unit, parameter.initial,
+               parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear");
+    std::string text = parameter.doc;
+    if (i < nulls.size() && !std::isnan(nulls[i]))
+      text += fmt::format(" An imperfection: held at {} unless the experiment frees it.", nulls[i]);
+    if (!parameter.reference.empty()) text += fmt::format(" [{}]", parameter.reference);
+    if (!text.empty()) fmt::print("{}\n", hanging("      ", text));
+  }
+}
+
+/// Options with their defaults; where the user must give one, the first that is allowed, since the object is made
+/// only to be asked what it is.
+Options any_options(const std::vector<Option>& options) {
+  Options values;
+  for (const auto& option : options) {
+    if (option.fallback)
+      values.set(option.name, *option.fallback);
+    else if (option.kind == Option::Kind::choice && !option.choices.empty())
+      values.set(option.name, option.choices.front());
+    else if (option.kind == Option::Kind::number || option.kind == Option::Kind::quantity)
+      values.set(option.name, option.min.value_or(option.max.value_or(1.0)));
+    else if (option.kind == Option::Kind::integer)
+      values.set(option.name, static_cast<std::int64_t>(option.min.value_or(1.0)));
+  }
+  return values;
+}
+
+void print_head(const std::string& kind, const std::string& name, const std::string& doc, const std::string& reference,
+                const std::string& plugin) {
+  fmt::print("{} ({}, plugin {})\n{}\n", name, kind, plugin, hanging("  ", doc));
+  if (!reference.empty()) fmt::print("{}\n", hanging("  Reference: ", reference));
+}
+
+void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
+  const auto& factory = entry.factory;
+  print_head("model", factory.type, factory.doc, factory.reference, entry.plugin);
+  const auto model = plugins::create(entry, any_options(factory.options));
+  const auto& description = model->describe();
+  print_parameters(description.parameters);
+  print_options(factory.options);
+  if (description.history_size > 0)
+    fmt::print("\nremembers its history: {} numbers a point\n", description.history_size);
+  for (const auto& part : model->parts())
+    fmt::print("{}energy part: {}\n", part == model->parts().front() ? "\n" : "", part->describe().name);
+}
+
+void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
+  const auto& factory = entry.factory;
+  print_head("test", factory.type, factory.doc, factory.reference, entry.plugin);
+  fmt::print("\nobservables that a data column can be mapped to\n");
+  TestSetup setup;
+  setup.options = any_options(factory.options);
+  setup.stress_measure = "cauchy";
+  setup.rows.count = 1;
+  const std::vector<double> one{1.0};
+  for (const auto& observable : factory.observables) {
+    const char* role = observable.role == Observable::Role::abscissa ? "prescribed"
+                       : observable.role == Observable::Role::time   ? "clock"
+                                                                     : "measured";
+    fmt::print("{}\n", hanging(fmt::format("  {:<18} {:<8} ", observable.name, observable.unit),
+                               fmt::format("{}{}. {}", role, observable.required ? ", required" : "", observable.doc)));
+    if (observable.role == Observable::Role::abscissa) setup.rows.abscissae.push_back({observable.name, one});
+    if (observable.role == Observable::Role::channel) setup.rows.channels.push_back(observable.name);
+  }
+  try {
+    const auto test = plugins::create(entry, setup);
+    print_parameters(test->describe().parameters, test->describe().nulls);
+  } catch (const InputError& problem) {
+    // A test is made from options and data; which parameters it has can depend on them.
+    fmt::print("\nparameters: shown by `tunica check` for an experiment ({})\n", problem.what());
+  }
+  print_options(factory.options);
+}
+
+void print(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {
+  const auto& factory = entry.factory;
+  print_head("optimizer", factory.type, factory.doc, factory.reference, entry.plugin);
+  const auto optimizer = plugins::create(entry, any_options(factory.options));
+  const auto& needs = optimizer->needs();
+  std::vector<std::string> words;
+  if (needs.residuals) words.push_back("sees residuals");
+  if (needs.gradient) words.push_back("uses derivatives");
+  if (needs.constraints) words.push_back("handles constraints itself");
+  if (needs.batch) words.push_back("evaluates populations in parallel");
+  words.push_back(needs.random ? "depends on the seed" : "uses no random numbers");
+  fmt::print("{}\n", hanging("  ", fmt::format("{}.", fmt::join(words, "; "))));
+  print_options(factory.options);
+}
+
+void print(const plugins::Catalogue::Entry<MechanismFactory>& entry) {
+  const auto& factory = entry.factory;
+  print_head("mechanism", factory.id, factory.cause, factory.reference, entry.plugin);
+  print_parameters(factory.parameters);
+  const char* side = factory.side == MechanismFactory::Side::positive ? "at or above it"
+                     : factory.side == MechanismFactory::Side::both   ? "on both sides"
+                                                                      : "on both sides, even";
+  fmt::print("\n  absent at {} = {}; acts {}; plausible from {} to {}\n",
+             factory.parameters.empty() ? "amplitude" : factory.parameters.front().name, factory.null, side,
+             factory.plausible_min, factory.plausible_max);
+  if (!factory.applies_to.empty()) fmt::print("  applies to: {}\n", fmt::join(factory.applies_to, ", "));
+  if (!factory.look_alikes.empty())
+    fmt::print("{}\n", hanging("  looks like: ", fmt::format("{}", fmt::join(factory.look_alikes, ", "))));
+  if (!factory.isolated_by.empty()) fmt::print("{}\n", hanging("  isolated by: ", factory.isolated_by));
+  print_options(factory.options);
+}
+
+template <class Shelf>
+bool print_if_there(const Shelf& shelf, const std::string& name, std::vector<std::string>& known) {
+  for (const auto& [key, entry] : shelf) known.push_back(key);
+  const auto found = shelf.find(name);
+  if (found == shelf.end()) return false;
+  print(found->second);
+  return true;
+}
+
+int describe(const GlobalOptions& global, const std::string& name) {
+  const Session session(global);
+  const auto& catalogue = session.catalogue();
+  std::vector<std::string> known;
+  bool found = print_if_there(catalogue.models(), name, known);
+  found = print_if_there(catalogue.tests(), name, known) || found;
+  found = print_if_there(catalogue.optimizers(), name, known) || found;
+  found = print_if_there(catalogue.mechanisms(), name, known) || found;
+  if (!found) throw InputError(fmt::format("nothing is called '{}'. {}", name, data::suggestion(name, known)));
+  return done;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto name = std::make_shared<std::string>();
+  auto* verb = app.add_subcommand("describe", "Describe a model, test, optimizer or mechanism");
+  verb->add_option("name", *name, "As `tunica list` shows it")->required();
+  verb->footer("Examples:\n  tunica describe gho\n  tunica describe uniaxial\n  tunica describe ceres_lm");
+  verb->callback([&global, &action, name] { action = [&global, name] { return describe(global, *name); }; });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace tunica::app {
+
+/// What the process returns; scripts rely on it.
+enum ExitCode : int {
+  done = 0,
+  not_converged = 1,  ///< ran, but a run has no result, broke its constraints or was given up
+  invalid_input = 2,
+  plugin_refused = 3,
+  internal_error = 4,
+  interrupted = 130  ///< saved; go on with --resume
+};
+
+}  // namespace tunica::app

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "comparison/fit_table.hpp"
+#include "comparison/provenance.hpp"
+#include "comparison/ranking_table.hpp"
+#include "comparison/result_json.hpp"
+#include "comparison/summary.hpp"
+#include "execution/files.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/run_directory.hpp"
+#include "execution/runner.hpp"
+#include "exit_codes.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct RunOptions {
+  std::string file, directory;
+  unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
+  std::optional<std::uint64_t> seed;
+  bool resume = false;
+};
+
+/// The seed of the command line, in the experiment and in the input.json it is documented by.
+void override_seed(experiment::Experiment& experiment, std::uint64_t seed) {
+  experiment.seed = seed;
+  auto input = nlohmann::ordered_json::parse(experiment.input_json);
+  input["seed"] = seed;
+  experiment.input_json = input.dump(2) + '\n';
+}
+
+std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
+  return fmt::format("tunica run {} -o {} --resume", options.file, directory.string());
+}
+
+/// 1 when a run has nothing to show, broke its constraints or was given up by the failure policy.
+ExitCode judge(const comparison::Summary& summary) {
+  for (const auto& run : summary.runs)
+    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.stop_reason.rfind("failure", 0) == 0)
+      return not_converged;
+  return done;
+}
+
+std::string next_step(const comparison::Summary& summary, const std::string& file) {
+  const auto first = std::find_if(summary.ranking.begin(), summary.ranking.end(),
+                                  [](const auto& entry) { return entry.rank.has_value(); });
+  if (first == summary.ranking.end())
+    return fmt::format("tunica check {}   evaluates the initial point and shows what fails", file);
+  return fmt::format("tunica simulate {} --model {} --parameters <results>/result.json -o <folder>", file,
+                     summary.runs[first->run].model);
+}
+
+int run(const GlobalOptions& global, const RunOptions& options) {
+  const Session session(global);
+  auto experiment = session.read(options.file);
+  if (options.seed) override_seed(experiment, *options.seed);
+  const auto plan = execution::make_plan(experiment, session.catalogue());
+  const std::optional<std::filesystem::path> requested =
+      options.directory.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.directory);
+  const auto directory = options.resume ? execution::RunDirectory::reopen(requested, experiment.name)
+                                        : execution::RunDirectory::create(requested, experiment.name);
+  if (!global.quiet)
+    fmt::print(stderr, "{} {}: {} runs, {} searches, {} threads\n", options.resume ? "resuming" : "writing to",
+               directory.path().string(), plan.runs.size(), plan.tasks.size(), options.threads);
+
+  execution::RunSettings settings;
+  settings.directory = directory.path();
+  settings.threads = options.threads;
+  settings.resume = options.resume;
+  settings.progress = global.quiet ? execution::Progress::Style::none : execution::Progress::style_of_stderr();
+  execution::Execution outcome;
+  {
+    const execution::InterruptWatch watch;
+    outcome = execution::execute(plan, settings);
+  }
+  if (!outcome.write_failure.empty()) {
+    fmt::print(stderr, "error: {}:\n  {}\n", outcome.write_failure, resume_command(options, directory.path()));
+    return interrupted;
+  }
+  if (outcome.interrupted) {
+    fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
+               resume_command(options, directory.path()));
+    return interrupted;
+  }
+
+  const auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
+  const auto provenance = comparison::provenance_of(plan, session.catalogue(), options.threads);
+  comparison::write_fit_tables(directory.path(), plan, summary);
+  execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
+  fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
+             comparison::ranking_table(summary));
+  const auto code = judge(summary);
+  if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
+    fmt::print(stderr, "error: no evaluation succeeded; the first reason: {}\n", summary.runs.front().status.reason());
+  fmt::print("\nResults: {}\nNext:    {}\n", (directory.path() / "result.json").string(),
+             next_step(summary, options.file));
+  return code;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  auto* verb = app.add_subcommand("run", "Calibrate every entry of \"runs\" and compare them");
+  verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
+      ->type_name("DIR");
+  verb->add_option("-j,--threads", options->threads, "Threads, for realisations and population members together")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str()
+      ->type_name("N");
+  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")->type_name("S");
+  verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
+  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+  verb->footer(
+      "Examples:\n"
+      "  tunica run experiment.json\n"
+      "  tunica run experiment.json -o results/a -j 4 --seed 7\n"
+      "  tunica run experiment.json -o results/a --resume\n\n"
+      "Writes result.json, evaluations.csv (live), fit_<test>.csv, input.json, run.log and checkpoint.json.");
+  verb->callback([&global, &action, options] { action = [&global, options] { return run(global, *options); }; });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tunica/error.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+std::string describe(const plugins::Refusal& refusal) {
+  return fmt::format("plugin {} was refused: {}", refusal.file.string(), refusal.reason);
+}
+
+/// Every text under a key "type" in the file, as far as it can be read.
+std::set<std::string> types_named_in(const std::filesystem::path& file) {
+  std::set<std::string> types;
+  std::ifstream stream(file);
+  const auto document = nlohmann::json::parse(stream, nullptr, false, true);
+  const auto collect = [&](const auto& self, const nlohmann::json& value) -> void {
+    if (value.is_object() && value.contains("type") && value["type"].is_string()) types.insert(value["type"]);
+    if (value.is_structured())
+      for (const auto& child : value) self(self, child);
+  };
+  if (!document.is_discarded()) collect(collect, document);
+  return types;
+}
+
+}  // namespace
+
+Session::Session(const GlobalOptions& options) {
+  std::vector<std::filesystem::path> folders;
+  for (const std::filesystem::path path : options.plugin_paths) {
+    if (!std::filesystem::exists(path))
+      throw InputError(fmt::format("--plugin-path {}: no such file or folder", path.string()));
+    if (std::filesystem::is_directory(path)) {
+      folders.push_back(path);
+      continue;
+    }
+    try {
+      loaded_.push_back(plugins::load_file(path, catalogue_, options.allow_world_writable_plugins));
+    } catch (const plugins::Refused& refused) {
+      throw PluginRefused(fmt::format("--plugin-path {}: {}", path.string(), refused.what()));
+    }
+  }
+  auto search = plugins::default_search_path(folders);
+  search.allow_world_writable = options.allow_world_writable_plugins;
+  const std::size_t named = loaded_.size();
+  auto report = plugins::load_all(search, catalogue_);
+  loaded_.insert(loaded_.end(), report.loaded.begin(), report.loaded.end());
+  for (auto& refusal : report.refused) {
+    // The same file met again on the search path is the one that is loaded already.
+    const bool again =
+        std::any_of(loaded_.begin(), loaded_.begin() + static_cast<std::ptrdiff_t>(named), [&](const auto& entry) {
+          std::error_code error;
+          return std::filesystem::equivalent(entry.file, refusal.file, error);
+        });
+    if (again) continue;
+    if (!options.quiet) fmt::print(stderr, "warning: {}\n", describe(refusal));
+    refused_.push_back(std::move(refusal));
+  }
+}
+
+std::vector<std::string> Session::refusals() const {
+  std::vector<std::string> lines;
+  for (const auto& refusal : refused_) lines.push_back(describe(refusal));
+  return lines;
+}
+
+experiment::Experiment Session::read(const std::filesystem::path& file) const {
+  try {
+    return experiment::read_experiment(file, catalogue_);
+  } catch (const InputError& problem) {
+    if (refused_.empty()) throw;
+    const auto types = types_named_in(file);
+    for (const auto& refusal : refused_) {
+      const std::string type = refusal.file.stem().string();
+      const bool provided = catalogue_.models().count(type) + catalogue_.tests().count(type) +
+                                catalogue_.optimizers().count(type) + catalogue_.mechanisms().count(type) >
+                            0;
+      if (types.count(type) > 0 && !provided)
+        throw PluginRefused(
+            fmt::format("{}\nThe type '{}' is missing because its {}", problem.what(), type, describe(refusal)));
+    }
+    throw;
+  }
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison/simulation.hpp"
+#include "execution/run_directory.hpp"
+#include "exit_codes.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct SimulateOptions {
+  std::string file, model, parameters, directory;
+  double noise = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+int simulate(const GlobalOptions& global, const SimulateOptions& options) {
+  const Session session(global);
+  const auto experiment = session.read(options.file);
+  comparison::SimulationRequest request;
+  request.model = options.model;
+  if (!options.parameters.empty()) request.parameters = options.parameters;
+  request.noise = options.noise;
+  request.seed = options.seed.value_or(experiment.seed);
+  const auto tables = comparison::simulate(experiment, session.catalogue(), request);
+  const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
+  for (const auto& table : tables) fmt::print("{}\n", comparison::write_table(directory.path(), table).string());
+  return done;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<SimulateOptions>();
+  auto* verb = app.add_subcommand("simulate", "Predict every test and write it like the data: DIR/<test>.csv");
+  verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_option("--model", options->model, "Name of a model in the experiment")->required()->type_name("M");
+  verb->add_option("--parameters", options->parameters,
+                   "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
+      ->type_name("FILE");
+  verb->add_option("--noise", options->noise, "Relative noise: y (1 + R N(0, 1))")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("R");
+  verb->add_option("--seed", options->seed, "Seed of the noise instead of the experiment's")->type_name("S");
+  verb->add_option("-o,--output", options->directory, "New folder")->required()->type_name("DIR");
+  verb->footer(
+      "Examples:\n"
+      "  tunica simulate experiment.json --model gho -o predicted\n"
+      "  tunica simulate experiment.json --model gho --parameters results/a/result.json -o predicted\n"
+      "  tunica simulate experiment.json --model gho --noise 0.02 --seed 3 -o synthetic");
+  verb->callback([&global, &action, options] { action = [&global, options] { return simulate(global, *options); }; });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "session.hpp"
+
+/// One function a verb: declares its arguments, and puts what it does into `action`, which returns the exit code.
+namespace tunica::app {
+
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, GlobalOptions& global, Action& action);
+void add_check(CLI::App& app, GlobalOptions& global, Action& action);
+void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);
+void add_list(CLI::App& app, GlobalOptions& global, Action& action);
+void add_describe(CLI::App& app, GlobalOptions& global, Action& action);
+void add_schema(CLI::App& app, GlobalOptions& global, Action& action);
+
+}  // namespace tunica::app

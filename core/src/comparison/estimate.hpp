@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "comparison/summary.hpp"
+
+namespace tunica::comparison {
+
+/// Fills in what the best point of a run says: it is evaluated again, from nothing, and must give what the search
+/// recorded (otherwise a warning); parameters with confidence intervals and bounds, quality of the fit per channel,
+/// identifiability in words.
+void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
+              const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings);
+
+/// What the data fix at this point and what they do not, in sentences.
+std::vector<std::string> identifiability_of(const calibration::Assembly& assembly, std::span<const double> free);
+
+}  // namespace tunica::comparison

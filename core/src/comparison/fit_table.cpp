@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/fit_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <vector>
+
+#include "execution/evaluation_table.hpp"
+#include "execution/files.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+using Diagnostics = std::vector<std::pair<std::string, std::vector<double>>>;
+
+/// What one run predicts for one test.
+struct Fit {
+  std::string label;
+  std::vector<const calibration::ChannelView*> channels;
+  std::vector<double> predictions;  ///< of all tests
+  Diagnostics diagnostics;
+};
+
+std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, const std::string& test) {
+  std::vector<Fit> fits;
+  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
+    const auto& tests = plan.runs[run].entry->tests;
+    const auto position = std::find(tests.begin(), tests.end(), test);
+    if (!summary.runs[run].has_result || position == tests.end()) continue;
+    const auto& assembly = *plan.runs[run].assembly;
+    Fit fit;
+    fit.label = summary.runs[run].label;
+    for (const auto& channel : assembly.channels())
+      if (channel.test == test) fit.channels.push_back(&channel);
+    std::vector<double> free;
+    for (const auto& parameter : summary.runs[run].parameters) free.push_back(parameter.value);
+    fit.predictions.resize(assembly.prediction_count());
+    auto workspace = assembly.make_workspace();
+    if (fit.channels.empty() || !assembly.predict(free, fit.predictions, {}, *workspace).ok()) continue;
+    if (!assembly.diagnostics(static_cast<std::size_t>(position - tests.begin()), free, fit.diagnostics).ok())
+      fit.diagnostics.clear();
+    fits.push_back(std::move(fit));
+  }
+  return fits;
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+std::string file_name(const std::string& test) {
+  std::string name;
+  for (const char c : test) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '-';
+  return "fit_" + name + ".csv";
+}
+
+}  // namespace
+
+std::string fit_table(const execution::Plan& plan, const Summary& summary, const std::string& test) {
+  const auto fits = fits_of(plan, summary, test);
+  if (fits.empty()) return {};
+  std::vector<std::string> diagnostics;
+  for (const auto& fit : fits)
+    for (const auto& [name, values] : fit.diagnostics)
+      if (std::find(diagnostics.begin(), diagnostics.end(), name) == diagnostics.end()) diagnostics.push_back(name);
+
+  const auto& first = *fits.front().channels.front();
+  std::string text = fmt::format("run,{} [{}]", first.abscissa_name, first.abscissa_unit);
+  for (const auto* channel : fits.front().channels)
+    text += fmt::format(",{0} [{1}],{0}.predicted [{1}]", channel->observable, channel->unit);
+  text += ",held_out";
+  for (const auto& name : diagnostics) text += ',' + name;
+  text += '\n';
+  for (const auto& fit : fits) {
+    const auto& lead = *fit.channels.front();
+    for (std::size_t row = 0; row < lead.count; ++row) {
+      text += execution::csv_cell(fit.label) + ',' + number(lead.abscissa[row]);
+      for (const auto* channel : fit.channels)
+        text += ',' + number(channel->measured[row]) + ',' + number(fit.predictions[channel->offset + row]);
+      text += lead.fitted[row] ? ",0" : ",1";
+      for (const auto& name : diagnostics) {
+        const auto found = std::find_if(fit.diagnostics.begin(), fit.diagnostics.end(),
+                                        [&](const auto& entry) { return entry.first == name; });
+        text += ',';
+        if (found != fit.diagnostics.end() && row < found->second.size()) text += number(found->second[row]);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+void write_fit_tables(const std::filesystem::path& directory, const execution::Plan& plan, const Summary& summary) {
+  for (const auto& test : plan.experiment->tests) {
+    const std::string text = fit_table(plan, summary, test.name);
+    if (!text.empty()) execution::write_atomically(directory / file_name(test.name), text);
+  }
+}
+
+}  // namespace tunica::comparison

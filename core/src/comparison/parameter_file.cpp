@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/parameter_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "data/nearest.hpp"
+#include "data/units.hpp"
+#include "execution/files.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+using nlohmann::json;
+
+/// {name: value} of the best-ranked run of the model in a result.json.
+json from_result(const json& document, const std::string& model, const std::string& file) {
+  for (const auto& entry : document.at("ranking"))
+    for (const auto& run : document.at("runs"))
+      if (run.at("run") == entry.at("run") && run.at("model") == model && !run.at("best").is_null()) {
+        json values = json::object();
+        for (const auto& [name, parameter] : run.at("best").at("parameters").items())
+          values[name] = parameter.at("value");
+        return values;
+      }
+  throw InputError(fmt::format("{}: no run of the model '{}' has a result in it", file, model));
+}
+
+double value_of(const json& value, const std::string& unit, const std::string& where) {
+  try {
+    if (value.is_number()) return value.get<double>();
+    if (value.is_string()) return data::parse_quantity(value.get<std::string>(), unit);
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: {}", where, problem.what()));
+  }
+  throw InputError(
+      fmt::format("{}: found {}, expected a number or a quantity such as \"10.4 kPa\"", where, value.dump()));
+}
+
+}  // namespace
+
+std::vector<double> read_parameters(const std::filesystem::path& path, const std::string& model,
+                                    const calibration::Assembly& assembly) {
+  const std::string file = path.string();
+  json values;
+  try {
+    values = json::parse(execution::read_text(path), nullptr, true, true);
+    if (values.is_object() && values.contains("runs") && values.contains("ranking"))
+      values = from_result(values, model, file);
+  } catch (const json::exception& problem) {
+    throw InputError(
+        fmt::format("{}: is neither a result.json nor an object {{name: value}}: {}", file, problem.what()));
+  }
+  if (!values.is_object())
+    throw InputError(fmt::format("{}: found {}, expected an object {{name: value}}", file, values.type_name()));
+
+  const auto& parameters = assembly.parameters();
+  const auto& fixed = assembly.fixed_parameters();
+  std::vector<double> free;
+  std::vector<std::string> known;
+  for (const auto& parameter : parameters) free.push_back(parameter.initial), known.push_back(parameter.name);
+  for (const auto& parameter : fixed) known.push_back(parameter.name);
+  for (const auto& [name, value] : values.items()) {
+    const std::string where = fmt::format("{}: {}", file, name);
+    const auto named = [&name = name](const auto& parameter) { return parameter.name == name; };
+    const auto found = std::find_if(parameters.begin(), parameters.end(), named);
+    if (found != parameters.end()) {
+      free[static_cast<std::size_t>(found - parameters.begin())] = value_of(value, found->unit, where);
+      continue;
+    }
+    const auto held = std::find_if(fixed.begin(), fixed.end(), named);
+    if (held == fixed.end())
+      throw InputError(
+          fmt::format("{}: the model '{}' has no such parameter. {}", where, model, data::suggestion(name, known)));
+    const double wanted = value_of(value, held->unit, where);
+    if (std::abs(wanted - held->value) > 1e-12 * std::abs(held->value))
+      throw InputError(
+          fmt::format("{}: found {}, but the experiment holds it fixed at {} {}; take it out of one of the two files",
+                      where, wanted, held->value, held->unit));
+  }
+  return free;
+}
+
+}  // namespace tunica::comparison

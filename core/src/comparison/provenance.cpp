@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/version.h>
+#include <tbb/version.h>
+
+#include <Eigen/Core>
+#include <boost/version.hpp>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "data/sha256.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::comparison {
+
+std::string version() { return TUNICA_VERSION; }
+
+Provenance provenance_of(const execution::Plan& plan, const plugins::Catalogue& catalogue, unsigned threads) {
+  Provenance result;
+  const auto& experiment = *plan.experiment;
+  result.version = version();
+  std::set<std::string> used, data;
+  const auto use = [&used](const auto& shelf, const std::string& type) {
+    const auto found = shelf.find(type);
+    if (found != shelf.end()) used.insert(found->second.plugin);
+  };
+  for (const auto& model : experiment.models) {
+    use(catalogue.models(), model.type);
+    for (const auto& mechanism : model.mechanisms) use(catalogue.mechanisms(), mechanism.type);
+  }
+  for (const auto& test : experiment.tests) {
+    use(catalogue.tests(), test.type);
+    for (const auto& mechanism : test.mechanisms) use(catalogue.mechanisms(), mechanism.type);
+  }
+  for (const auto& run : plan.runs) {
+    for (const auto& stage : run.stages) used.insert(stage.optimizer->plugin);
+    data.insert(run.assembly->data_hashes().begin(), run.assembly->data_hashes().end());
+  }
+  result.plugins.assign(used.begin(), used.end());
+  result.data.assign(data.begin(), data.end());
+  result.compiler = "g++ " __VERSION__;
+  result.libraries = {
+      {"boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
+      {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"nlohmann_json",
+       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"onetbb", TBB_runtime_version()},
+      {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)}};
+  result.seed = experiment.seed;
+  result.input_sha256 = data::sha256(experiment.input_json);
+  result.threads = threads;
+  result.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                            fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  return result;
+}
+
+}  // namespace tunica::comparison

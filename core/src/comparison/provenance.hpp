@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "execution/plan.hpp"
+
+namespace tunica::comparison {
+
+/// Where a result comes from: enough to get it again.
+struct Provenance {
+  std::string version;               ///< of tunica
+  std::vector<std::string> plugins;  ///< "gho 0.1.0", those in use, sorted
+  std::string compiler;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+  std::uint64_t seed = 0;
+  std::string input_sha256;       ///< of input.json as it was written
+  std::vector<std::string> data;  ///< "circ.csv sha256:…"
+  unsigned threads = 1;
+  std::string date;  ///< UTC, ISO 8601
+};
+
+std::string version();
+Provenance provenance_of(const execution::Plan& plan, const plugins::Catalogue& catalogue, unsigned threads);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/result_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tunica::comparison {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+template <class Value>
+json or_null(const std::optional<Value>& value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json interval(const std::optional<Interval>& value) {
+  return value ? json::array({value->first, value->second}) : json(nullptr);
+}
+
+json statistics(const SampleStatistics& sample) {
+  if (sample.count == 0) return {{"mean", nullptr}, {"sd", nullptr}, {"ci95", nullptr}};
+  return {{"mean", sample.mean}, {"sd", or_null(sample.sd)}, {"ci95", interval(sample.ci95)}};
+}
+
+const char* word(Estimate::Bound bound) { return bound == Estimate::Bound::lower ? "lower" : "upper"; }
+
+json best(const RunSummary& run) {
+  json parameters = json::object();
+  for (const auto& parameter : run.parameters)
+    parameters[parameter.name] = {
+        {"value", parameter.value},
+        {"unit", parameter.unit},
+        {"ci95", interval(parameter.ci95)},
+        {"at_bound", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(word(parameter.at_bound))},
+        {"min", parameter.min},
+        {"max", parameter.max}};
+  json per_test = json::object();
+  for (std::size_t test = 0; test < run.tests.size(); ++test) {
+    json channels = json::array();
+    for (const auto& quality : run.quality)
+      if (quality.test == run.tests[test])
+        channels.push_back({{"channel", quality.channel},
+                            {"held_out", quality.held_out},
+                            {"rows", quality.count},
+                            {"unit", quality.unit},
+                            {"rmse", quality.rmse},
+                            {"r2", or_null(quality.r2)},
+                            {"nmad", or_null(quality.nmad)}});
+    per_test[run.tests[test]] = {{"cost", test < run.per_test.size() ? json(run.per_test[test]) : json(nullptr)},
+                                 {"channels", std::move(channels)}};
+  }
+  return {{"parameters", std::move(parameters)}, {"objective", run.objective},
+          {"per_test", std::move(per_test)},     {"stable", nullptr},  // not assessed
+          {"status", name(run.status.kind())},   {"reason", run.status.reason()},
+          {"realisation", run.best_realisation}, {"evaluation", run.best_id}};
+}
+
+json run_json(const RunSummary& run) {
+  json fixed = json::object();
+  for (const auto& parameter : run.fixed)
+    fixed[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
+  json over_parameters = json::object();
+  for (const auto& parameter : run.parameters)
+    over_parameters[parameter.name] = statistics(parameter.over_realisations);
+  json over_realisations = statistics(run.objectives);
+  over_realisations["success_rate"] = run.success_rate;
+  over_realisations["success_threshold"] = run.has_result ? json(run.threshold) : json(nullptr);
+  over_realisations["parameters"] = std::move(over_parameters);
+  return {{"run", run.label},
+          {"model", run.model},
+          {"optimizer", run.optimizer},
+          {"tests", run.tests},
+          {"realisations", run.realisations},
+          {"best", run.has_result ? best(run) : json(nullptr)},
+          {"fixed", std::move(fixed)},
+          {"statistics", std::move(over_realisations)},
+          {"evaluations", run.evaluations},
+          {"jacobians", run.jacobians},
+          {"failures", run.failures},
+          {"infeasible", run.infeasible},
+          {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
+          {"converged", run.converged},
+          {"ended_by", run.stop_reason.empty() ? run.reason : run.stop_reason},
+          {"seconds", run.seconds}};
+}
+
+}  // namespace
+
+std::string result_json(const Summary& summary, const Provenance& provenance) {
+  json runs = json::array(), ranking = json::array(), libraries = json::object();
+  for (const auto& run : summary.runs) runs.push_back(run_json(run));
+  for (const auto& entry : summary.ranking) {
+    const auto& run = summary.runs[entry.run];
+    ranking.push_back({{"rank", or_null(entry.rank)},
+                       {"run", run.label},
+                       {"group", run.group},
+                       {"objective", run.has_result ? json(run.objective) : json(nullptr)},
+                       {"failures", run.failures}});
+  }
+  for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
+  const json document = {{"format", 1},
+                         {"name", summary.name},
+                         {"warnings", summary.warnings},
+                         {"ranking", std::move(ranking)},
+                         {"identifiability", summary.identifiability},
+                         {"runs", std::move(runs)},
+                         {"provenance",
+                          {{"tunica", provenance.version},
+                           {"plugins", provenance.plugins},
+                           {"compiler", provenance.compiler},
+                           {"libraries", std::move(libraries)},
+                           {"seed", provenance.seed},
+                           {"input_sha256", provenance.input_sha256},
+                           {"data", provenance.data},
+                           {"threads", provenance.threads},
+                           {"date", provenance.date}}}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace tunica::comparison

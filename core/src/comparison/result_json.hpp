@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "comparison/provenance.hpp"
+#include "comparison/summary.hpp"
+
+namespace tunica::comparison {
+
+/// result.json, as schemas/tunica-result.schema.json says: warnings first, base units, `ci95` null where the data do
+/// not fix a parameter. Only seconds, date and threads differ between two runs with the same input and seed.
+std::string result_json(const Summary& summary, const Provenance& provenance);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+
+#include "calibration/assembly.hpp"
+#include "comparison/parameter_file.hpp"
+#include "data/dataset.hpp"
+#include "data/nearest.hpp"
+#include "data/units.hpp"
+#include "execution/evaluation_table.hpp"
+#include "execution/files.hpp"
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+/// All tests with this model; what a run says beyond that does not enter predictions.
+experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, const std::string& model) {
+  std::vector<std::string> models;
+  for (const auto& entry : experiment.models) models.push_back(entry.name);
+  if (std::find(models.begin(), models.end(), model) == models.end())
+    throw InputError(
+        fmt::format("--model {}: the experiment has no such model. {}", model, data::suggestion(model, models)));
+  experiment::RunEntry run;
+  run.model = model;
+  for (const auto& test : experiment.tests) run.tests.push_back(test.name);
+  run.objective = experiment::ObjectiveType::least_squares;
+  return run;
+}
+
+/// y (1 + R N(0, 1)); the generators are Boost's, whose numbers are the same with every standard library.
+void add_noise(std::vector<double>& values, double relative, std::uint64_t seed) {
+  if (relative == 0) return;
+  boost::random::mt19937_64 generator(seed);
+  boost::random::normal_distribution<double> normal;
+  for (double& value : values) value *= 1 + relative * normal(generator);
+}
+
+const std::vector<double>* measured_column(const data::Dataset& dataset, const std::string& observable) {
+  for (const auto& [name, values] : dataset.abscissae)
+    if (name == observable) return &values;
+  return observable == "time" && !dataset.time.empty() ? &dataset.time : nullptr;
+}
+
+}  // namespace
+
+std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                     const SimulationRequest& request) {
+  const auto run = all_tests_with(experiment, request.model);
+  const calibration::Assembly assembly(experiment, run, catalogue);
+  std::vector<double> free;
+  if (request.parameters)
+    free = read_parameters(*request.parameters, request.model, assembly);
+  else
+    for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
+
+  std::vector<double> predictions(assembly.prediction_count());
+  auto workspace = assembly.make_workspace();
+  const Status status = assembly.predict(free, predictions, {}, *workspace);
+  if (!status.ok())
+    throw InputError(fmt::format("the model cannot be evaluated at these parameters: {}", status.reason()));
+
+  std::vector<SimulatedTable> tables;
+  for (const auto& test : experiment.tests) {
+    const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    const auto dataset = data::read_dataset(test.data, observables);
+    auto& table = tables.emplace_back();
+    table.test = test.name;
+    for (const auto& [observable, source] : dataset.source_columns) {
+      const auto& [column, source_unit] = source;
+      const auto declared = std::find_if(observables.begin(), observables.end(),
+                                         [&name = observable](const auto& o) { return o.name == name; });
+      const std::string base = declared == observables.end() ? "1" : declared->unit;
+      const std::string unit = source_unit.empty() ? base : source_unit;
+      std::vector<double> values;
+      const auto channel =
+          std::find_if(assembly.channels().begin(), assembly.channels().end(),
+                       [&, &name = observable](const auto& c) { return c.test == test.name && c.observable == name; });
+      if (channel != assembly.channels().end()) {
+        const auto begin = predictions.begin() + static_cast<std::ptrdiff_t>(channel->offset);
+        values.assign(begin, begin + static_cast<std::ptrdiff_t>(channel->count));
+        add_noise(values, request.noise,
+                  derive_seed(request.seed, fmt::format("simulate {} {}", test.name, observable)));
+      } else if (const auto* measured = measured_column(dataset, observable)) {
+        values = *measured;
+      } else {
+        continue;
+      }
+      for (double& value : values) value = data::convert(value, base, unit);
+      table.headers.push_back(fmt::format("{} [{}]", column, unit));
+      table.columns.push_back(std::move(values));
+    }
+  }
+  return tables;
+}
+
+std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table) {
+  std::string text;
+  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + execution::csv_cell(table.headers[c]);
+  text += '\n';
+  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      text += fmt::format("{}{}", c ? "," : "", table.columns[c][row]);
+    text += '\n';
+  }
+  const auto file = directory / (table.test + ".csv");
+  execution::write_atomically(file, text);
+  return file;
+}
+
+}  // namespace tunica::comparison

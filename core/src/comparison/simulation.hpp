@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+/// What a model predicts for the tests of an experiment, in the form of the data.
+namespace tunica::comparison {
+
+struct SimulationRequest {
+  std::string model;
+  std::optional<std::filesystem::path> parameters;  ///< a result.json, or {name: value or "value unit"}
+  double noise = 0;                                 ///< relative
+  std::uint64_t seed = 1;
+};
+
+/// One test, with the column names and units of its data file.
+struct SimulatedTable {
+  std::string test;
+  std::vector<std::string> headers;  ///< "stretch [1]"
+  std::vector<std::vector<double>> columns;
+};
+
+/// Every test of the experiment with the model. Parameters that the file does not name keep their fixed or initial
+/// value; a name that the model does not have is an error. Noise is drawn per test and channel by name, so that one
+/// test's does not depend on which others there are. Throws InputError.
+std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                     const SimulationRequest& request);
+
+/// Writes directory/<test>.csv and returns its path.
+std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table);
+
+}  // namespace tunica::comparison

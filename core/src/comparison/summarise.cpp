@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "comparison/estimate.hpp"
+#include "comparison/ranking.hpp"
+#include "comparison/summary.hpp"
+#include "comparison/warnings.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+/// The realisation with the best evaluated point; the first of equals.
+const execution::RealisationResult* best_of(const execution::RunResult& result) {
+  const execution::RealisationResult* best = nullptr;
+  for (const auto& realisation : result.realisations)
+    if (!realisation.best.parameters.empty() && (!best || realisation.best.objective < best->best.objective))
+      best = &realisation;
+  return best;
+}
+
+void add_counts(const execution::RunResult& result, RunSummary& summary) {
+  std::vector<double> objectives;
+  for (const auto& realisation : result.realisations) {
+    summary.evaluations += realisation.tally.evaluations;
+    summary.jacobians += realisation.tally.jacobians;
+    summary.failures += realisation.tally.failures;
+    summary.infeasible += realisation.tally.infeasible;
+    summary.seconds += realisation.seconds;
+    if (summary.first_failure.empty()) summary.first_failure = realisation.tally.first_failure;
+    if (!realisation.best.parameters.empty()) objectives.push_back(realisation.best.objective);
+  }
+  summary.realisations = result.realisations.size();
+  summary.objectives = sample_statistics(objectives);
+}
+
+RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunResult& result,
+                         std::vector<std::string>& warnings) {
+  RunSummary summary;
+  summary.label = run.label;
+  summary.model = run.entry->model;
+  summary.optimizer = run.entry->optimizer;
+  summary.tests = run.entry->tests;
+  summary.group = group_of(*run.entry);
+  summary.fixed = run.assembly->fixed_parameters();
+  add_counts(result, summary);
+  const auto* best = best_of(result);
+  const auto* told = best ? best : result.realisations.empty() ? nullptr : &result.realisations.front();
+  if (told) {
+    summary.converged = told->converged;
+    summary.reason = told->reason;
+    summary.stop_reason = told->stop_reason;
+  }
+  if (!best) {
+    summary.status = Status::failed(summary.first_failure.empty() ? "nothing was evaluated" : summary.first_failure);
+    return summary;
+  }
+  summary.has_result = true;
+  summary.best_realisation = best->realisation;
+  summary.best_id = best->best.index + 1;
+  summary.objective = best->best.objective;
+  estimate(*run.assembly, *best, result, summary, warnings);
+  return summary;
+}
+
+}  // namespace
+
+Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
+                  std::vector<std::string> warnings) {
+  Summary summary;
+  summary.name = plan.experiment->name;
+  std::vector<std::string> mismatches;
+  for (std::size_t run = 0; run < plan.runs.size(); ++run)
+    summary.runs.push_back(summarise_run(plan.runs[run], results[run], mismatches));
+  count_successes(plan, results, summary.runs);
+  summary.ranking = rank(summary.runs);
+  for (const auto& run : summary.runs)
+    for (const auto& sentence : run.identifiability) summary.identifiability.push_back(run.label + ": " + sentence);
+
+  const auto add = [&](const std::string& warning) {
+    auto& all = summary.warnings;
+    if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+  };
+  for (const auto& warning : mismatches) add(warning);
+  for (const auto& warning : warnings_of(plan, summary.runs)) add(warning);
+  for (const auto& warning : warnings) add(warning);
+  for (const auto& warning : plan.warnings) add(warning);
+  for (const auto& run : plan.runs)
+    for (const auto& warning : run.assembly->warnings()) add(warning);
+  return summary;
+}
+
+}  // namespace tunica::comparison

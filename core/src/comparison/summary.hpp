@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "comparison/statistics.hpp"
+#include "execution/plan.hpp"
+#include "execution/results.hpp"
+
+namespace tunica::comparison {
+
+using Interval = std::pair<double, double>;
+
+/// One parameter at the best point of a run.
+struct Estimate {
+  enum class Bound { none, lower, upper };
+  std::string name, unit;
+  double value = 0, min = 0, max = 0;
+  std::optional<Interval> ci95;  ///< from the noise of the data; none where they do not fix it
+  Bound at_bound = Bound::none;
+  SampleStatistics over_realisations;
+};
+
+/// Measures of one channel over its fitted, or its held-out, rows.
+struct Quality {
+  std::string test, channel, unit;
+  bool held_out = false;
+  std::size_t count = 0;
+  double rmse = 0;             ///< in the unit of the channel
+  std::optional<double> r2;    ///< 1 − SSE/SST; none when the measured values do not vary
+  std::optional<double> nmad;  ///< per cent: 100 ⟨|e − p|⟩ / max(⟨|e|⟩, ⟨|p|⟩)
+};
+
+struct RunSummary {
+  std::string label, model, optimizer;
+  std::vector<std::string> tests;
+  std::string group;        ///< runs of one group have the same objective on the same tests and can be ranked
+  bool has_result = false;  ///< some evaluation succeeded
+  Status status;            ///< of the best point, evaluated again; failed with the first reason without result
+  double objective = 0;     ///< of the best evaluated point
+  std::vector<double> per_test;
+  std::vector<Estimate> parameters;
+  std::vector<calibration::FixedParameter> fixed;
+  std::vector<Quality> quality;
+  std::vector<std::string> identifiability;  ///< sentences
+
+  std::uint64_t realisations = 0, best_realisation = 0, best_id = 0;  ///< both from 1, as in evaluations.csv
+  SampleStatistics objectives;                                        ///< of the realisations that have a result
+  double success_rate = 0, threshold = 0;
+  std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
+  std::string first_failure;
+  bool converged = false;  ///< of the best realisation, in the optimiser's own word
+  std::string reason, stop_reason;
+  double seconds = 0;  ///< Σ over realisations
+};
+
+struct Ranked {
+  std::size_t run = 0;              ///< index in Summary::runs
+  std::optional<std::size_t> rank;  ///< within its group, from 1; none without a result
+};
+
+/// What a run of an experiment has shown.
+struct Summary {
+  std::string name;
+  std::vector<RunSummary> runs;
+  std::vector<Ranked> ranking;  ///< group after group; runs without a result last in theirs, never left out
+  std::vector<std::string> warnings;
+  std::vector<std::string> identifiability;
+};
+
+/// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `warnings` come
+/// from outside (refused plugins) and go before those of the plan and the data.
+Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
+                  std::vector<std::string> warnings);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/text.hpp"
+
+#include <algorithm>
+
+namespace tunica::comparison {
+
+std::size_t columns(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string pad(std::string_view text, std::size_t width) {
+  const std::size_t used = columns(text);
+  return std::string(text) + std::string(used < width ? width - used : 0, ' ');
+}
+
+std::string pad_left(std::string_view text, std::size_t width) {
+  const std::size_t used = columns(text);
+  return std::string(used < width ? width - used : 0, ' ') + std::string(text);
+}
+
+std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
+  const std::size_t indent = columns(lead);
+  std::string result(lead);
+  std::size_t used = indent;
+  bool first_word = true;
+  while (!text.empty()) {
+    const std::size_t end = text.find_first_of(" \n");
+    const std::string_view word = text.substr(0, end);
+    const bool line_end = end != std::string_view::npos && text[end] == '\n';
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (!word.empty()) {
+      const std::size_t length = columns(word);
+      if (!first_word && used + 1 + length > width) {
+        result += '\n' + std::string(indent, ' ');
+        used = indent;
+        first_word = true;
+      }
+      if (!first_word) result += ' ', ++used;
+      result += word;
+      used += length;
+      first_word = false;
+    }
+    if (line_end) {
+      result += '\n' + std::string(indent, ' ');
+      used = indent;
+      first_word = true;
+    }
+  }
+  return result;
+}
+
+}  // namespace tunica::comparison

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace tunica::comparison {
+
+namespace {
+
+void warn_of_bounds(const RunSummary& run, std::vector<std::string>& warnings) {
+  for (const auto& parameter : run.parameters) {
+    if (parameter.at_bound == Estimate::Bound::none) continue;
+    const bool upper = parameter.at_bound == Estimate::Bound::upper;
+    const std::string unit = parameter.unit == "1" ? "" : ' ' + parameter.unit;
+    warnings.push_back(
+        fmt::format("{}: {} = {:.6g}{} IS AT ITS {} BOUND ({:.6g}{}): the best value may lie beyond it; "
+                    "widen the bound if physics allows it, else doubt the model",
+                    run.label, parameter.name, parameter.value, unit, upper ? "UPPER" : "LOWER",
+                    upper ? parameter.max : parameter.min, unit));
+  }
+}
+
+void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings) {
+  if (run.failures == 0 || !run.has_result) return;
+  const double share =
+      100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
+  warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.2g} %); the first: {}", run.label, run.failures,
+                                 run.evaluations, share, run.first_failure));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
+  std::vector<std::string> warnings;
+  for (const auto& run : runs)
+    if (!run.has_result)
+      warnings.push_back(fmt::format("{}: NO RESULT: {}", run.label,
+                                     run.evaluations == 0 ? "nothing was evaluated"
+                                                          : fmt::format("all {} evaluations failed; the first: {}",
+                                                                        run.evaluations, run.first_failure)));
+  for (const auto& run : runs)
+    if (run.has_result && run.status.kind() == Status::Kind::infeasible)
+      warnings.push_back(fmt::format("{}: the best point BREAKS A CONSTRAINT: {}", run.label, run.status.reason()));
+  for (const auto& run : runs) warn_of_bounds(run, warnings);
+  for (const auto& run : runs) warn_of_failures(run, warnings);
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const auto& entry = *plan.runs[run].entry;
+    if (entry.stop.max_time)
+      warnings.push_back(
+          fmt::format("{}: max_time is set: where it ends a search the result depends on the speed of the "
+                      "machine, and a repetition may differ",
+                      runs[run].label));
+    const auto& parameters = plan.runs[run].assembly->parameters();
+    const auto priors =
+        std::count_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.prior.has_value(); });
+    if (priors > 0)
+      warnings.push_back(fmt::format("{}: {} of its parameters have a prior, which is part of the objective",
+                                     runs[run].label, priors));
+  }
+  std::set<std::string> groups;
+  for (const auto& run : runs) groups.insert(run.group);
+  if (groups.size() > 1)
+    warnings.push_back(
+        "the runs differ in objective or tests, so that their objectives cannot be compared; they are ranked "
+        "within groups");
+  return warnings;
+}
+
+}  // namespace tunica::comparison
