@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# bin/tunica, lib/<multiarch>/tunica/plugins/*.so (installed by tunica_add_plugin) and include/tunica.
-if(TARGET tunica)
-  install(TARGETS tunica RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+# include/tunica; apps/tunica installs bin/tunica, tunica_add_plugin() lib/<multiarch>/tunica/plugins/*.so.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/tunica DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

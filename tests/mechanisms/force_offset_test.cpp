@@ -4,7 +4,8 @@
 
 #include <cstring>
 
-#include "strip.hpp"
+#include "shelf.hpp"
+#include "support/strip.hpp"
 
 namespace tunica {
 namespace {
@@ -13,7 +14,7 @@ const std::vector<double> stretches{1.0, 1.1, 1.3, 1.5};
 const std::vector<double> parameters{18.668, 0.1367, 24.905, 0.2912, 46.44};  // gho, set S
 
 std::unique_ptr<Test> strip(const std::vector<std::string>& channels) {
-  return testing::strip(stretches, channels, {}, "first_piola_kirchhoff");
+  return testing::make_strip(stretches, {.channels = channels, .measure = "first_piola_kirchhoff"});
 }
 
 std::unique_ptr<Test> offset_strip(const std::vector<std::string>& channels) {

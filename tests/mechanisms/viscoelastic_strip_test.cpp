@@ -2,26 +2,29 @@
 #include <gtest/gtest.h>
 
 #include "deformations.hpp"
-#include "strip.hpp"
+#include "shelf.hpp"
+#include "support/strip.hpp"
 
 // The mechanism inside a simulated test: state carried from row to row, lateral equilibrium with the overstress.
 namespace tunica {
 namespace {
 
-std::vector<double> predict(const Test& test, const Model& model, const std::vector<double>& parameters) {
-  std::vector<double> values(test.rows().count * test.rows().channels.size());
-  const Status status = test.predict({model, parameters, std::vector<double>{0}, {}}, {values, {}, {}, {}});
-  EXPECT_TRUE(status.ok()) << status.reason();
-  return values;
+using testing::make_strip;
+
+std::vector<double> values_of(const Test& test, const Model& model, const std::vector<double>& parameters) {
+  const testing::Predicted predicted = testing::predict(test, model, parameters);
+  EXPECT_TRUE(predicted.status.ok()) << predicted.status.reason();
+  return predicted.values;
 }
 
 TEST(ViscoelasticStrip, RelaxesAtConstantStretchAsTheClosedFormDoes) {
   // Held at once from rest, an isotropic strip: σ(t) = (1 + g e^{−t/τ}) μ (λ² − 1/λ).
   constexpr double mu = 12, g = 0.8, tau = 5, stretch = 1.4;
   const std::vector<double> time{0, 0.5, 2, 10, 200};
-  const auto test = testing::strip(std::vector<double>(5, stretch), {"stress", "transverse_stretch"}, time);
+  const auto test =
+      make_strip(std::vector<double>(5, stretch), {.channels = {"stress", "transverse_stretch"}, .time = time});
   const auto viscous = testing::wrapped("viscoelasticity", testing::model("neo_hooke"));
-  const std::vector<double> values = predict(*test, *viscous, {mu, g, tau});
+  const std::vector<double> values = values_of(*test, *viscous, {mu, g, tau});
   for (std::size_t i = 0; i < 5; ++i) {
     const double expected = (1 + g * std::exp(-time[i] / tau)) * mu * (stretch * stretch - 1 / stretch);
     EXPECT_NEAR(values[i], expected, 1e-9 * expected) << time[i] << " s";
@@ -32,11 +35,11 @@ TEST(ViscoelasticStrip, RelaxesAtConstantStretchAsTheClosedFormDoes) {
 TEST(ViscoelasticStrip, IsAtEquilibriumWithoutTime) {
   const std::vector<double> stretch{1, 1.1, 1.3, 1.5}, hgo{18.7, 24.9, 0.9, 46};
   const std::vector<double> with_branch{18.7, 24.9, 0.9, 46, 0.8, 5};
-  const auto test = testing::strip(stretch, {"stress", "transverse_stretch"});
+  const auto test = make_strip(stretch, {.channels = {"stress", "transverse_stretch"}});
   const auto viscous = testing::wrapped("viscoelasticity", testing::model("hgo"));
-  EXPECT_LE(
-      testing::relative_difference(predict(*test, *viscous, with_branch), predict(*test, *testing::model("hgo"), hgo)),
-      1e-9);
+  EXPECT_LE(testing::relative_difference(values_of(*test, *viscous, with_branch),
+                                         values_of(*test, *testing::model("hgo"), hgo)),
+            1e-9);
 }
 
 TEST(ViscoelasticStrip, IsStifferTheFasterItIsPulled) {
@@ -44,7 +47,7 @@ TEST(ViscoelasticStrip, IsStifferTheFasterItIsPulled) {
   const auto viscous = testing::wrapped("viscoelasticity", testing::model("hgo"));
   const auto last_stress = [&](double duration) {
     const std::vector<double> time{0, duration / 3, 2 * duration / 3, duration};
-    return predict(*testing::strip(stretch, {"stress"}, time), *viscous, with_branch).back();
+    return values_of(*make_strip(stretch, {.time = time}), *viscous, with_branch).back();
   };
   EXPECT_GT(last_stress(0.1), 1.2 * last_stress(10));
   EXPECT_GT(last_stress(10), 1.2 * last_stress(1000));

@@ -122,7 +122,7 @@ TEST(Refusal, WorldWritableFile) {
   EXPECT_EQ(reason_for(file),
             "the file can be written by every user, so that any of them could run code as you; expected a file "
             "writable by its owner only; run: chmod o-w '" +
-                file.string() + "' (or pass --allow-world-writable)");
+                file.string() + "' (or pass --allow-world-writable-plugins)");
   EXPECT_EQ(reason_for(file, true), "loaded") << "the override";
 }
 
@@ -134,7 +134,7 @@ TEST(Refusal, WorldWritableFolder) {
   EXPECT_EQ(reason_for(file),
             "its folder can be written by every user, so that any of them could replace it; expected a folder "
             "writable by its owner only; run: chmod o-w '" +
-                open.string() + "' (or pass --allow-world-writable)");
+                open.string() + "' (or pass --allow-world-writable-plugins)");
   EXPECT_EQ(reason_for(file, true), "loaded") << "the override";
 }
 

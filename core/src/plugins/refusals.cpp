@@ -76,7 +76,7 @@ std::string refuse_file(const fs::path& file, bool allow_world_writable) {
   if (writable_by_others(file)) {
     return fmt::format(
         "the file can be written by every user, so that any of them could run code as you; expected a "
-        "file writable by its owner only; run: chmod o-w '{}' (or pass --allow-world-writable)",
+        "file writable by its owner only; run: chmod o-w '{}' (or pass --allow-world-writable-plugins)",
         file.string());
   }
   const fs::path real = fs::canonical(file, error);
@@ -85,7 +85,7 @@ std::string refuse_file(const fs::path& file, bool allow_world_writable) {
       return fmt::format(
           "its folder can be written by every user, so that any of them could replace it; expected a "
           "folder writable by its owner only; run: chmod o-w '{}' (or pass "
-          "--allow-world-writable)",
+          "--allow-world-writable-plugins)",
           folder.string());
     }
   }
