@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search.hpp"
+
+#include <cmath>
+
+namespace tunica::es {
+
+Search::Search(Problem& problem, const Settings& settings, Random& random)
+    : problem_(problem),
+      settings_(settings),
+      random_(random),
+      n_(problem.dimension()),
+      steps_(Variation::steps_each(settings.adaptation, n_)),
+      parents_(settings.parents, n_, steps_),
+      survivors_(settings.parents, n_, steps_),
+      offspring_(settings.offspring, n_, steps_),
+      variation_(settings_, n_),
+      objectives_(settings.offspring),
+      statuses_(settings.offspring),
+      order_(settings.parents + settings.offspring) {}
+
+End Search::run(bool from_start) {
+  if (const auto end = initialise(from_start)) return *end;
+  Fitness reference = *best_;
+  std::size_t stalled = 0;
+  while (true) {
+    variation_.prepare(parents_, parent_count_);
+    if (variation_.spread() < settings_.step_tolerance) return End::small_step;
+    if (alike()) return End::alike;
+    const std::size_t count = batch_size();
+    for (std::size_t i = 0; i < count; ++i) variation_.make(parents_, parent_count_, offspring_, i, random_);
+    evaluate(count);
+    if (problem_.should_stop()) return End::stopped;
+    select(count);
+    variation_.learn(parents_, parent_count_, first_mutant_);
+    // Progress is measured from where it was last seen, so that a slow descent adds up.
+    const double enough = settings_.tolerance * std::abs(reference.objective);
+    if (best_->kind < reference.kind || best_->objective < reference.objective - enough) {
+      reference = *best_;
+      stalled = 0;
+    } else if (++stalled >= settings_.stall_generations) {
+      return End::stalled;
+    }
+  }
+}
+
+/// Uniform in the box. Where little can be evaluated, several populations may have to be drawn.
+std::optional<End> Search::initialise(bool from_start) {
+  constexpr int attempts = 10;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const std::size_t count = batch_size();
+    if (count == 0) return End::stopped;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::ranges::generate(offspring_.position(i), [this] { return random_.uniform(); });
+      std::ranges::fill(offspring_.steps(i), settings_.initial_step);
+    }
+    if (from_start && attempt == 0) std::ranges::copy(problem_.start(), offspring_.position(0).begin());
+    evaluate(count);
+    if (problem_.should_stop()) return End::stopped;
+    select(count);
+    first_mutant_ = index_;
+    if (parent_count_ > 0) return std::nullopt;
+  }
+  return End::nothing_succeeded;
+}
+
+std::size_t Search::batch_size() const {
+  if (problem_.should_stop()) return 0;
+  return static_cast<std::size_t>(std::min<std::uint64_t>(settings_.offspring, problem_.budget()));
+}
+
+bool Search::alike() const {
+  const Fitness &first = parents_.fitness(0), &last = parents_.fitness(parent_count_ - 1);
+  return parent_count_ == settings_.parents && parent_count_ > 1 && first.kind == last.kind &&
+         last.objective - first.objective <= Settings::alike * std::abs(first.objective);
+}
+
+void Search::evaluate(std::size_t count) {
+  problem_.evaluate_batch(offspring_.positions(count), {objectives_.data(), count}, {statuses_.data(), count});
+  for (std::size_t i = 0; i < count; ++i) {
+    const Status& status = statuses_[i];
+    const bool failed = status.kind() == Status::Kind::failed;
+    if (failed && first_failure_.empty()) first_failure_ = status.reason();
+    offspring_.fitness(i) = {status.kind(), failed ? 0.0 : objectives_[i], index_++};
+    if (!failed && (!best_ || offspring_.fitness(i) < *best_)) best_ = offspring_.fitness(i);
+  }
+}
+
+/// Failed individuals are left out, so that there may be fewer parents than asked for; where a whole generation of
+/// comma selection failed, its parents live on.
+void Search::select(std::size_t count) {
+  // Candidates are numbered parents first, then offspring.
+  const auto fitness = [this](std::size_t i) -> const Fitness& {
+    return i < parent_count_ ? parents_.fitness(i) : offspring_.fitness(i - parent_count_);
+  };
+  std::size_t candidates = 0;
+  for (std::size_t i = settings_.selection == Selection::plus ? 0 : parent_count_; i < parent_count_ + count; ++i) {
+    if (fitness(i).kind != Status::Kind::failed) order_[candidates++] = i;
+  }
+  if (candidates == 0) return;
+  const std::size_t selected = std::min(settings_.parents, candidates);
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(selected),
+                    order_.begin() + static_cast<std::ptrdiff_t>(candidates),
+                    [&](std::size_t a, std::size_t b) { return fitness(a) < fitness(b); });
+  for (std::size_t k = 0; k < selected; ++k) {
+    const std::size_t i = order_[k];
+    if (i < parent_count_) {
+      survivors_.copy(k, parents_, i);
+    } else {
+      survivors_.copy(k, offspring_, i - parent_count_);
+    }
+  }
+  std::swap(parents_, survivors_);
+  parent_count_ = selected;
+}
+
+}  // namespace tunica::es

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace tunica::es {
+
+enum class Selection { plus, comma };
+enum class Adaptation { isotropic, axes, covariance };
+enum class Recombination { global, intermediate, discrete, none };
+enum class Bounds { reflect, clamp, resample };
+
+/// The options of the strategy, checked and typed; plugin.cpp declares them with their defaults. Lengths are
+/// fractions of the unit box.
+struct Settings {
+  std::size_t parents, offspring;
+  Selection selection;
+  Adaptation adaptation;
+  Recombination recombination;
+  Bounds bounds;
+  double initial_step;
+  std::size_t restarts;
+  double restart_growth;          ///< factor on parents and offspring at every restart
+  std::size_t stall_generations;  ///< a search ends after so many generations without progress
+  double tolerance;               ///< relative improvement that counts as progress
+  double step_tolerance;          ///< a search ends when the mean mutation is shorter
+
+  /// A search ends when the parents' objectives differ by less, relatively: only rounding is left to select by.
+  static constexpr double alike = 1e-12;
+};
+
+}  // namespace tunica::es
