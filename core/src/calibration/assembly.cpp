@@ -221,7 +221,7 @@ void Assembly::from_unit(std::span<const double> x, std::span<double> free) cons
     const Map& map = parts_->maps[j];
     const double value =
         map.logarithmic ? std::exp(map.log_min + x[j] * map.log_span) : map.min + x[j] * (map.max - map.min);
-    free[j] = std::clamp(value, map.min, map.max);  // rounding must not leave the bounds
+    free[j] = x[j] <= 0 ? map.min : x[j] >= 1 ? map.max : std::clamp(value, map.min, map.max);  // not out by rounding
   }
 }
 

@@ -119,8 +119,8 @@ bool Search::replay(std::span<const double> x, std::size_t slot) {
   }
   for (std::size_t j = 0; j < n; ++j) {
     if (same_bits(entry_.parameters[j], free[j])) continue;
-    contradict(slot, fmt::format("{} was {:.17g} and is now {:.17g}", common_.assembly.parameters()[j].name,
-                                 entry_.parameters[j], free[j]));
+    contradict(slot, fmt::format("{} was {} and is now {}", common_.assembly.parameters()[j].name, entry_.parameters[j],
+                                 free[j]));
     return false;
   }
   std::copy(entry_.per_test.begin(), entry_.per_test.end(),
@@ -234,7 +234,7 @@ Status Search::linearise(std::span<const double> x, double& objective, std::span
     contradict(slot,
                fmt::format("its status was '{}' and is now '{}'", name(status_before.kind()), name(status.kind())));
   } else if (replayed && status.kind() != Status::Kind::failed && !same_bits(before, made.objectives[slot])) {
-    contradict(slot, fmt::format("the objective was {:.17g} and is now {:.17g}", before, made.objectives[slot]));
+    contradict(slot, fmt::format("the objective was {} and is now {}", before, made.objectives[slot]));
   }
   if (!replayed) made.seconds[slot] = common_.watch.seconds();
   count(x, call);
