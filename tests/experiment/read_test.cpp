@@ -1,24 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
-#include "experiment/design_example.hpp"
-#include "experiment/experiment.hpp"
-#include "experiment/fake_catalogue.hpp"
-#include "tunica/error.hpp"
+#include "experiment/reading.hpp"
 
 namespace tunica::experiment {
 namespace {
 
-struct ReadExperiment : ::testing::Test {
-  ReadExperiment() {
-    static_cast<void>(folder.write("circ.csv", testing::circ_csv));
-    static_cast<void>(folder.write("inflation.csv", testing::inflation_csv));
-  }
-  [[nodiscard]] Experiment read(std::string_view text) const {
-    return read_experiment(folder.write("experiment.json", text), testing::fake_catalogue());
-  }
-  testing::Folder folder;
-};
+struct ReadExperiment : testing::Reading {};
 
 TEST_F(ReadExperiment, ReadsTheExampleOfTheDesign) {
   const Experiment e = read(testing::design_example);

@@ -40,9 +40,11 @@ class Scanner {
   }
 
  private:
-  [[noreturn]] void fail(std::size_t offset, std::string_view what, std::string_view help) const {
+  [[noreturn]] void fail(std::size_t offset, std::string_view what, std::string_view help,
+                         std::string_view pointer = {}) const {
     const auto [line, column] = place_of(text_, offset);
-    throw InputError(fmt::format("{}: {} (line {}, column {}). {}", file_.string(), what, line, column, help));
+    throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", file_.string(), what, pointer,
+                                 pointer.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help));
   }
 
   [[nodiscard]] char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -101,12 +103,13 @@ class Scanner {
       const std::string key = string();
       const std::string child = child_pointer(pointer, key);
       if (const auto first = offsets_.find(child); first != offsets_.end())
-        fail(key_at, fmt::format("the key '{}' stands twice in the same object ({})", excerpt(key), child),
+        fail(key_at, fmt::format("the key '{}' stands twice in the same object", excerpt(key)),
              fmt::format("It was given before in line {}; names must differ. Remove or rename one.",
-                         place_of(text_, first->second).line));
+                         place_of(text_, first->second).line),
+             child);
       skip_space();
       if (here() != ':')
-        fail(at_, fmt::format("found {} where ':' is expected after the key '{}'", found(), excerpt(key)), "");
+        fail(at_, fmt::format("found {} where ':' is expected after the key '{}'", found(), excerpt(key)), {});
       ++at_;
       skip_space();
       value(child, depth + 1);
@@ -168,7 +171,7 @@ class Scanner {
     if (token == "true" || token == "false" || token == "null") return;
     if (!token.empty() && (token[0] == '-' || (token[0] >= '0' && token[0] <= '9'))) {
       if (Json::accept(token)) return;
-      fail(begin, fmt::format("'{}' is not a number as JSON writes it", excerpt(token)),
+      fail(begin, fmt::format("'{}' is not a number as JSON writes it, or too large for one", excerpt(token)),
            "Quantities with units stand in double quotes: \"3.71 mm\".");
     }
     at_ = begin;
