@@ -31,10 +31,10 @@ class Progress {
   Progress(Style style, const Plan& plan, const std::vector<Meter>& meters);
   /// Draws when it is time to; `last` takes the bar off the screen again.
   void draw(bool last = false);
-
- private:
+  /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left.
   [[nodiscard]] std::string text(double seconds) const;
 
+ private:
   Style style_;
   bool colour_;
   const Plan& plan_;

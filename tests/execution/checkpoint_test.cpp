@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/checkpoint.hpp"
+
+#include <gmock/gmock.h>
+
+#include "execution/folder.hpp"
+#include "tunica/error.hpp"
+
+using namespace tunica;
+using execution::Checkpoint;
+using ::testing::HasSubstr;
+
+namespace {
+
+std::string refusal(const std::filesystem::path& folder) {
+  return trial::message_of<InputError>([&] { execution::read_checkpoint(folder); });
+}
+
+}  // namespace
+
+TEST(Checkpoint, ReadsBackWhatItWrote) {
+  const trial::Folder folder;
+  Checkpoint checkpoint;
+  checkpoint.facts = {{"the seed", "7"}};
+  execution::RealisationResult result;
+  result.realisation = 4;
+  result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};
+  result.tally = {120, 30, 5, 2, "row 3: \"no\" root"};
+  result.converged = true;
+  result.reason = "step below tolerance";
+  result.stop_reason = "stall";
+  result.seconds = 1.5;
+  checkpoint.finished.emplace_back(3, result);
+  execution::write_checkpoint(folder.path(), checkpoint);
+  const auto read = execution::read_checkpoint(folder.path());
+  EXPECT_EQ(read.facts, checkpoint.facts);
+  ASSERT_EQ(read.finished.size(), 1u);
+  const auto& [task, back] = read.finished.front();
+  EXPECT_EQ(task, 3u);
+  EXPECT_TRUE(back.finished);
+  EXPECT_EQ(back.realisation, 4u);
+  EXPECT_EQ(back.best.parameters, result.best.parameters);
+  EXPECT_EQ(back.best.objective, result.best.objective);
+  EXPECT_EQ(back.best.index, 17u);
+  EXPECT_EQ(back.tally.evaluations, 120u);
+  EXPECT_EQ(back.tally.jacobians, 30u);
+  EXPECT_EQ(back.tally.failures, 5u);
+  EXPECT_EQ(back.tally.infeasible, 2u);
+  EXPECT_EQ(back.tally.first_failure, result.tally.first_failure);
+  EXPECT_TRUE(back.converged);
+  EXPECT_EQ(back.reason, result.reason);
+  EXPECT_EQ(back.stop_reason, "stall");
+  EXPECT_EQ(back.seconds, 1.5);
+}
+
+TEST(Checkpoint, SaysWhatIsWrongWithAFile) {
+  const trial::Folder folder;
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("there is no checkpoint.json, so no run to resume"));
+  folder.write("checkpoint.json", "{\"format\": 1,");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("cannot be understood"));
+  folder.write("checkpoint.json", "{\"format\": 9, \"facts\": {}, \"finished\": []}");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 1"));
+}
+
+TEST(Checkpoint, NamesEveryChange) {
+  const trial::Folder folder;
+  folder.write("input.json", R"({"stop": {"max_evaluations": 10}, "name": "a"})");
+  const auto message = trial::message_of<InputError>([&] {
+    execution::refuse_changes(folder.path(),
+                              {{"the experiment file", "1"}, {"the plugin of es", "es 0.1.0"}, {"the data a.csv", "x"}},
+                              {{"the experiment file", "2"}, {"the plugin of es", "es 0.2.0"}, {"the data b.csv", "x"}},
+                              R"({"name": "a", "seed": 3})");
+  });
+  EXPECT_THAT(message, HasSubstr("/stop"));
+  EXPECT_THAT(message, HasSubstr("/seed (was absent, is 3)"));
+  EXPECT_THAT(message, HasSubstr("the plugin of es changed (was es 0.1.0, is es 0.2.0)"));
+  EXPECT_THAT(message, HasSubstr("the data b.csv is new"));
+  EXPECT_THAT(message, HasSubstr("the data a.csv is gone"));
+}
+
+TEST(Checkpoint, LetsAnUnchangedRunThrough) {
+  const trial::Folder folder;
+  EXPECT_NO_THROW(execution::refuse_changes(folder.path(), {{"the seed", "1"}}, {{"the seed", "1"}}, "{}"));
+}

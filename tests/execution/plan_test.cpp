@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include "execution/folder.hpp"
+#include "execution/laboratory.hpp"
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+using namespace tunica;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+std::string refusal(const trial::Laboratory& laboratory) {
+  return trial::message_of<InputError>([&] { laboratory.plan(); });
+}
+
+}  // namespace
+
+TEST(Plan, LabelsRunsAndDerivesTheirSeedsByName) {
+  trial::Laboratory laboratory;
+  laboratory.bench.experiment.seed = 7;
+  laboratory.add_run("walk", 10, 2);
+  laboratory.add_run("compass");
+  laboratory.add_run("walk", 20);
+  const auto plan = laboratory.plan();
+  EXPECT_EQ(plan.runs[0].label, "m/walk");
+  EXPECT_EQ(plan.runs[1].label, "m/compass");
+  EXPECT_EQ(plan.runs[2].label, "m/walk#2");
+  EXPECT_EQ(plan.runs[2].seed, derive_seed(7, "run m/walk#2"));
+  ASSERT_EQ(plan.tasks.size(), 4u);
+  EXPECT_EQ(plan.tasks[1].realisation, 2u);
+  EXPECT_EQ(plan.tasks[3].run, 2u);
+}
+
+TEST(Plan, RefusesToFitNothing) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk");
+  for (const char* name : {"a", "b", "c"}) laboratory.bench.parameter(name).fixed = 1;
+  EXPECT_THAT(refusal(laboratory), HasSubstr("run m/walk: every parameter is fixed"));
+}
+
+TEST(Plan, RefusesAnOptimiserThatNeedsResidualsWhereThereAreNone) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("residual");
+  laboratory.bench.experiment.tests.front().hold_out.all = true;
+  EXPECT_THAT(refusal(laboratory), HasSubstr("'residual' (residual) works on residuals, and the objective has none"));
+  laboratory.bench.experiment.runs.front().optimizer = "walk";
+  EXPECT_THAT(refusal(laboratory), HasSubstr("no row is left to fit"));
+}
+
+TEST(Plan, RefusesStagesWithinStages) {
+  trial::Laboratory laboratory;
+  auto& optimizers = laboratory.bench.experiment.optimizers;
+  optimizers.push_back(fakes::optimizer_entry("stages"));
+  optimizers.back().name = "inner";
+  optimizers.back().stages = {{"walk", {}}};
+  optimizers.push_back(fakes::optimizer_entry("stages"));
+  optimizers.back().name = "outer";
+  optimizers.back().stages = {{"inner", {}}};
+  laboratory.add_run("outer");
+  EXPECT_THAT(refusal(laboratory), HasSubstr("optimizers.outer: the stage 'inner' has stages itself"));
+}
+
+TEST(Plan, NamesATypeThatNoPluginProvides) {
+  trial::Laboratory laboratory;
+  laboratory.bench.experiment.optimizers.push_back(fakes::optimizer_entry("annealing"));
+  laboratory.add_run("annealing");
+  EXPECT_THAT(refusal(laboratory), HasSubstr("no plugin provides the type 'annealing'"));
+}
+
+TEST(Plan, WarnsOfRealisationsThatAreAllTheSame) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("compass", 100, 5);
+  EXPECT_THAT(laboratory.plan().warnings, ElementsAre(HasSubstr("its 5 realisations are all the same")));
+}

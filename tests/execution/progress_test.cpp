@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "execution/laboratory.hpp"
+
+using namespace tunica;
+using execution::Meter;
+using execution::Progress;
+
+TEST(Progress, WritesTimesAsClocksDo) {
+  EXPECT_EQ(execution::clock_text(7.4), "0:07");
+  EXPECT_EQ(execution::clock_text(750), "12:30");
+  EXPECT_EQ(execution::clock_text(3 * 3600 + 5 * 60), "3:05:00");
+}
+
+TEST(Progress, CountsAndKeepsTheBestSuccess) {
+  Meter meter;
+  const std::vector<double> none;
+  const Status ok, failed = Status::failed("no");
+  meter.count({0, none, 5, none, ok, 0});
+  meter.count({1, none, 1, none, failed, 0});
+  meter.count({2, none, 4, none, ok, 0});
+  EXPECT_EQ(meter.evaluations, 3u);
+  EXPECT_EQ(meter.best, 4);
+}
+
+TEST(Progress, ShowsShareRateBestAndTimeLeft) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk", 1000, 2);
+  const auto plan = laboratory.plan();
+  std::vector<Meter> meters(2);
+  meters[0].evaluations = 1000;
+  meters[0].best = 2.5;
+  meters[0].finished = true;
+  meters[1].evaluations = 500;
+  meters[1].running = true;
+  const Progress progress(Progress::Style::lines, plan, meters);
+  EXPECT_EQ(progress.text(3), " 75 %  1 of 2 searches  500 /s  m/walk: best 2.5  at most 0:01 left");
+}

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/runner.hpp"
+
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "execution/folder.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/laboratory.hpp"
+#include "tunica/error.hpp"
+
+using namespace tunica;
+using execution::Execution;
+using ::testing::HasSubstr;
+
+namespace {
+
+Execution run(const trial::Laboratory& laboratory, const std::filesystem::path& folder, unsigned threads = 1,
+              bool resume = false) {
+  const auto plan = laboratory.plan();
+  execution::RunSettings settings;
+  settings.directory = folder;
+  settings.threads = threads;
+  settings.resume = resume;
+  return execution::execute(plan, settings);
+}
+
+/// evaluations.csv without its last column, the time.
+std::string rows(const std::filesystem::path& folder) {
+  std::string text;
+  std::istringstream stream(trial::text_of(folder / "evaluations.csv"));
+  for (std::string line; std::getline(stream, line);) text += line.substr(0, line.rfind(',')) + '\n';
+  return text;
+}
+
+void expect_equal(const Execution& a, const Execution& b) {
+  ASSERT_EQ(a.runs.size(), b.runs.size());
+  for (std::size_t run = 0; run < a.runs.size(); ++run)
+    for (std::size_t k = 0; k < a.runs[run].realisations.size(); ++k) {
+      const auto &left = a.runs[run].realisations[k], &right = b.runs[run].realisations[k];
+      EXPECT_EQ(left.best.parameters, right.best.parameters);
+      EXPECT_EQ(left.best.objective, right.best.objective);
+      EXPECT_EQ(left.best.index, right.best.index);
+      EXPECT_EQ(left.tally.evaluations, right.tally.evaluations);
+      EXPECT_EQ(left.stop_reason, right.stop_reason);
+      EXPECT_EQ(left.reason, right.reason);
+    }
+}
+
+struct Many : trial::Laboratory {
+  Many() {
+    add_run("walk", 500, 5);
+    add_run("compass", 300);
+  }
+};
+
+}  // namespace
+
+TEST(Runner, GivesTheSameRowsForAnyNumberOfThreads) {
+  const Many laboratory;
+  const trial::Folder one, two;
+  const auto first = run(laboratory, one.path(), 1), second = run(laboratory, two.path(), 2);
+  expect_equal(first, second);
+  EXPECT_EQ(rows(one.path()), rows(two.path()));
+  EXPECT_FALSE(first.interrupted);
+  EXPECT_EQ(first.runs[0].realisations[0].tally.evaluations, 500u);
+  EXPECT_NE(first.runs[0].realisations[0].best.parameters, first.runs[0].realisations[1].best.parameters);
+}
+
+// Cuts the journal at every possible kind of place; the resumed run must not differ from the one that was left alone.
+TEST(Runner, ResumesToTheIdenticalResult) {
+  const Many laboratory;
+  const trial::Folder whole;
+  const auto expected = run(laboratory, whole.path());
+  const std::string journal = trial::text_of(whole.path() / "evaluations.csv");
+  auto checkpoint = nlohmann::json::parse(trial::text_of(whole.path() / "checkpoint.json"));
+  // With all of them marked as finished too: without their rows, as after a loss of power, they must not count.
+  const std::string all_finished = checkpoint.dump();
+  checkpoint["finished"] = nlohmann::json::array();
+  for (const std::size_t cut :
+       {std::size_t{0}, std::size_t{40}, journal.size() / 7, journal.size() / 2, journal.size() - 1}) {
+    for (const std::string& finished : {checkpoint.dump(), all_finished}) {
+      const trial::Folder part;
+      part.write("evaluations.csv", journal.substr(0, cut));
+      part.write("checkpoint.json", finished);
+      part.write("input.json", laboratory.bench.experiment.input_json);
+      expect_equal(run(laboratory, part.path(), 2, true), expected);
+      EXPECT_EQ(rows(part.path()), rows(whole.path())) << "cut at byte " << cut << " of " << journal.size();
+    }
+  }
+}
+
+TEST(Runner, DoesNotRunFinishedRealisationsAgain) {
+  const Many laboratory;
+  const trial::Folder folder;
+  const auto expected = run(laboratory, folder.path());
+  fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("evaluated again"); });
+  expect_equal(run(laboratory, folder.path(), 1, true), expected);
+}
+
+TEST(Runner, RefusesToResumeWhatHasChanged) {
+  Many laboratory;
+  const trial::Folder folder;
+  EXPECT_THAT(trial::message_of<InputError>([&] { run(laboratory, folder.path(), 1, true); }),
+              HasSubstr("there is no checkpoint.json, so no run to resume"));
+  run(laboratory, folder.path());
+  laboratory.bench.experiment.input_json = "{\"name\": \"fake\", \"stop\": {\"max_evaluations\": 200}}";
+  laboratory.bench.experiment.seed = 99;
+  const auto message = trial::message_of<InputError>([&] { run(laboratory, folder.path(), 1, true); });
+  EXPECT_THAT(message, HasSubstr("/stop/max_evaluations (was 100, is 200)"));
+  EXPECT_THAT(message, HasSubstr("the seed changed (was 1, is 99)"));
+  EXPECT_THAT(message, HasSubstr("Put it back as it was, or start anew"));
+}
+
+TEST(Runner, RefusesToResumeWithOtherData) {
+  const Many laboratory;
+  const trial::Folder folder;
+  run(laboratory, folder.path());
+  execution::AppendFile(laboratory.bench.experiment.tests.front().data.files.front()).append("1.5,9,90\n");
+  EXPECT_THAT(trial::message_of<InputError>([&] { run(laboratory, folder.path(), 1, true); }),
+              HasSubstr("the data curve.csv changed"));
+}
+
+TEST(Runner, SavesOnCtrlCAndGoesOnFromThere) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk", 20000, 3);
+  const trial::Folder whole, cut;
+  const auto expected = run(laboratory, whole.path());
+  {
+    const execution::InterruptWatch watch;
+    std::atomic<int> calls = 0;
+    fakes::set_behaviour([&](double, std::span<double>, Status&) {
+      if (++calls == 25000) std::raise(SIGINT);
+    });
+    const auto interrupted = run(laboratory, cut.path());
+    EXPECT_TRUE(interrupted.interrupted);
+    EXPECT_TRUE(interrupted.runs[0].realisations[0].finished);
+    EXPECT_FALSE(interrupted.runs[0].realisations[1].finished);
+  }
+  fakes::set_behaviour({});
+  const execution::InterruptWatch watch;
+  const auto resumed = run(laboratory, cut.path(), 1, true);
+  EXPECT_FALSE(resumed.interrupted);
+  expect_equal(resumed, expected);
+  EXPECT_EQ(rows(cut.path()), rows(whole.path()));
+}
+
+TEST(Runner, SharesTheBudgetBetweenStagesAndStartsFromTheBest) {
+  trial::Laboratory laboratory;
+  auto& optimizers = laboratory.bench.experiment.optimizers;
+  optimizers.push_back(fakes::optimizer_entry("stages"));
+  optimizers.back().name = "hybrid";
+  experiment::Stop own;
+  own.max_evaluations = 40;
+  optimizers.back().stages = {{"walk", own}, {"compass", {}}};
+  laboratory.add_run("hybrid", 200);
+  laboratory.add_run("walk", 40);
+  const trial::Folder folder;
+  const auto execution = run(laboratory, folder.path());
+  const auto& hybrid = execution.runs[0].realisations[0];
+  EXPECT_LE(hybrid.tally.evaluations, 200u);
+  EXPECT_GT(hybrid.tally.evaluations, 41u);
+  EXPECT_GE(hybrid.best.index, 40u);
+  // The second stage begins at the best point of the first: evaluation 41 repeats it.
+  const auto plan = laboratory.plan();
+  const auto table = plan.table();
+  std::istringstream stream(trial::text_of(folder.path() / "evaluations.csv"));
+  std::string line;
+  std::getline(stream, line);
+  execution::EvaluationTable::Row row;
+  calibration::Replayed entry;
+  double best = 1e300, first_of_second = 0;
+  for (int id = 1; id <= 41; ++id) {
+    std::getline(stream, line);
+    table.parse(line, row);
+    table.values(row, entry);
+    if (id <= 40) best = std::min(best, entry.objective);
+    first_of_second = entry.objective;
+  }
+  EXPECT_NEAR(first_of_second, best, 1e-9 * best);
+}
+
+TEST(Runner, ReportsTheFirstReasonWhenNothingSucceeds) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk", 5000);
+  fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("row 2: no root"); });
+  const trial::Folder folder;
+  const auto execution = run(laboratory, folder.path());
+  const auto& result = execution.runs[0].realisations[0];
+  EXPECT_TRUE(result.best.parameters.empty());
+  EXPECT_EQ(result.tally.failures, result.tally.evaluations);
+  EXPECT_LT(result.tally.evaluations, 5000u);
+  EXPECT_THAT(result.tally.first_failure, HasSubstr("row 2: no root"));
+  EXPECT_THAT(trial::text_of(folder.path() / "run.log"), HasSubstr("row 2: no root"));
+}
