@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "descent.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::ceres_lm {
+namespace {
+
+/// Residuals and Jacobian at the last point asked for. Ceres asks for the costs of a trial point first and for
+/// derivatives once it is accepted, block by block; all of these are one evaluation of the problem. The Jacobian is
+/// always taken along: most trial points are accepted, and exact Jacobians cost half an evaluation or less.
+class LastPoint {
+ public:
+  LastPoint(Problem& problem, Descent& descent)
+      : problem_(problem),
+        descent_(descent),
+        residuals_(problem.residual_count()),
+        jacobian_(problem.residual_count() * problem.dimension()) {}
+
+  /// False when the point cannot be evaluated or must not be entered, or the problem has stopped.
+  bool move_to(std::span<const double> x) {
+    if (std::ranges::equal(x, x_)) return usable_;
+    if (problem_.should_stop()) return false;
+    x_.assign(x.begin(), x.end());
+    double objective = 0;
+    const Status status = problem_.linearise(x, objective, residuals_, jacobian_);
+    feasible_ = status.ok();
+    usable_ = feasible_ || (status.kind() == Status::Kind::infeasible && !stay_feasible_);
+    if (status.kind() == Status::Kind::failed) {
+      descent_.failure = status.reason();
+    } else if (!descent_.evaluated || feasible_ > descent_.feasible ||
+               (feasible_ == descent_.feasible && objective < descent_.objective)) {
+      descent_.x = x_;
+      descent_.objective = objective;
+      descent_.feasible = feasible_;
+      descent_.evaluated = true;
+    }
+    return usable_;
+  }
+  /// The last point is where the descent now stands.
+  void accept() { stay_feasible_ = stay_feasible_ || feasible_; }
+  [[nodiscard]] std::span<const double> residuals() const { return residuals_; }
+  [[nodiscard]] std::span<const double> jacobian() const { return jacobian_; }
+
+ private:
+  Problem& problem_;
+  Descent& descent_;
+  std::vector<double> x_, residuals_, jacobian_;
+  bool usable_ = false, feasible_ = false, stay_feasible_ = false;
+};
+
+class BlockCost : public ceres::CostFunction {
+ public:
+  BlockCost(LastPoint& last, const ResidualBlock& block, std::size_t n) : last_(last), block_(block), n_(n) {
+    set_num_residuals(static_cast<int>(block.size));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
+  }
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    if (!last_.move_to({parameters[0], n_})) return false;
+    std::ranges::copy(last_.residuals().subspan(block_.offset, block_.size), residuals);
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      std::ranges::copy(last_.jacobian().subspan(block_.offset * n_, block_.size * n_), jacobians[0]);
+    }
+    return true;
+  }
+
+ private:
+  LastPoint& last_;
+  const ResidualBlock block_;
+  const std::size_t n_;
+};
+
+/// 2 w ρ(s), since Ceres halves: its cost is then the objective. ρ(s) = s, or ρ(s) = √(s + ε²) − ε with
+/// ρ' = 1/(2√(s + ε²)), ρ'' = −1/(4 (s + ε²)^(3/2)).
+///
+/// Where ρ'' < 0 Ceres leaves the second-order term out (its Corrector, after Triggs et al. 2000), which amounts to
+/// iteratively reweighted least squares. Residuals √(2w‖r‖) r/‖r‖, whose Gauss–Newton matrix has half of that term,
+/// were tried on the lamb aorta and gained nothing: see docs/optimizers.md.
+class BlockLoss : public ceres::LossFunction {
+ public:
+  explicit BlockLoss(const ResidualBlock& block)
+      : weight_(block.weight), root_(block.loss == ResidualBlock::Loss::root) {}
+  void Evaluate(double s, double rho[3]) const override {
+    constexpr double e = Problem::root_smoothing;
+    const double root = std::sqrt(s + e * e);
+    rho[0] = 2 * weight_ * (root_ ? root - e : s);
+    rho[1] = 2 * weight_ * (root_ ? 0.5 / root : 1);
+    rho[2] = 2 * weight_ * (root_ ? -0.25 / (root * root * root) : 0);
+  }
+
+ private:
+  const double weight_;
+  const bool root_;
+};
+
+class Observer : public ceres::IterationCallback {
+ public:
+  Observer(const Problem& problem, LastPoint& last) : problem_(problem), last_(last) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    if (iteration.iteration == 0 || iteration.step_is_successful) last_.accept();
+    return problem_.should_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Problem& problem_;
+  LastPoint& last_;
+};
+
+ceres::Solver::Options solver_options(int max_iterations, const Settings& settings) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.num_threads = 1;  // the host runs starts side by side
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = max_iterations;
+  options.max_num_consecutive_invalid_steps = 10;
+  // Measured on 300 random starts of the lamb aorta: Ceres' own values (1e4 and 20) need 60 % more evaluations a
+  // success, as the first, nearly undamped steps jump to the bounds and the line search along the box lingers there.
+  options.initial_trust_region_radius = 10;
+  options.max_num_line_search_step_size_iterations = 2;
+  options.function_tolerance = settings.function_tolerance;
+  options.gradient_tolerance = settings.gradient_tolerance;
+  options.parameter_tolerance = settings.parameter_tolerance;
+  return options;
+}
+
+Descent::End end_of(const ceres::Solver::Summary& summary, const Problem& problem, const Descent& descent) {
+  if (summary.termination_type == ceres::CONVERGENCE) return Descent::End::converged;
+  if (problem.should_stop()) return Descent::End::stopped;
+  if (summary.termination_type == ceres::NO_CONVERGENCE) return Descent::End::out_of_iterations;
+  return descent.evaluated ? Descent::End::blocked : Descent::End::not_started;
+}
+
+}  // namespace
+
+Descent descend(Problem& problem, std::span<const double> x, int max_iterations, const Settings& settings) {
+  const std::size_t n = problem.dimension();
+  Descent descent{.x = {x.begin(), x.end()}};
+  if (problem.should_stop()) return descent;
+  LastPoint last(problem, descent);
+  std::vector<double> point(x.begin(), x.end());
+  ceres::Problem least_squares;
+  for (const ResidualBlock& block : problem.blocks()) {
+    if (block.size == 0) continue;
+    least_squares.AddResidualBlock(new BlockCost(last, block, n), new BlockLoss(block), point.data());
+  }
+  for (int j = 0; j < static_cast<int>(n); ++j) {
+    least_squares.SetParameterLowerBound(point.data(), j, 0);
+    least_squares.SetParameterUpperBound(point.data(), j, 1);
+  }
+  Observer observer(problem, last);
+  ceres::Solver::Options options = solver_options(max_iterations, settings);
+  options.callbacks.push_back(&observer);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &least_squares, &summary);
+  descent.end = end_of(summary, problem, descent);
+  return descent;
+}
+
+}  // namespace tunica::ceres_lm
