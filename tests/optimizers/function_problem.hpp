@@ -46,7 +46,7 @@ class FunctionProblem : public Problem {
   std::vector<double> best_point;  ///< best ok point
   double best = std::numeric_limits<double>::infinity();
   std::uint64_t best_at = 0;  ///< evaluations made when it was found
-  std::uint64_t jacobians = 0, failures = 0;
+  std::uint64_t jacobians = 0, failures = 0, batches = 0;
   std::uint64_t refused = 0;  ///< evaluations asked for after should_stop() or beyond the budget
   std::uint64_t outside = 0;  ///< points outside the unit box, or not finite
   double level = -std::numeric_limits<double>::infinity();
@@ -64,6 +64,7 @@ class FunctionProblem : public Problem {
 
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override {
     const std::size_t n = dimension(), count = objectives.size();
+    ++batches;
     const bool stopped = should_stop();
     const std::uint64_t allowed = stopped ? 0 : std::min<std::uint64_t>(count, budget());
     if (settings_.remember)

@@ -65,6 +65,16 @@ struct HolzapfelStrip {
     return first ? mu * (s1 - s3) + S(2) * w * (loading * s1 - normal * s3)
                  : mu * (s2 - s3) + S(2) * w * (transverse * s2 - normal * s3);
   }
+  /// σ22 and its derivative with respect to l2.
+  double transverse_equilibrium(double l, double l2, double& slope) const {
+    const double s1 = l * l, s2 = l2 * l2, s3 = 1 / (s1 * s2), ds2 = 2 * l2, ds3 = -2 * s3 / l2;
+    const double e = loading * s1 + transverse * s2 + normal * s3 - 1, de = transverse * ds2 + normal * ds3;
+    const double x = e > 0 ? 2 * k1 * std::exp(k2 * e * e) : 0;
+    const double w = x * e, dw = x * (1 + 2 * k2 * e * e) * de;
+    const double arm = transverse * s2 - normal * s3, darm = transverse * ds2 - normal * ds3;
+    slope = mu * (ds2 - ds3) + 2 * (dw * arm + w * darm);
+    return mu * (s2 - s3) + 2 * w * arm;
+  }
 };
 
 /// The two-strip calibration of the newborn lamb aorta with `sum_of_norms`: six parameters, a valley along which
@@ -96,26 +106,19 @@ inline std::optional<Function> lamb_aorta(bool strict = false) {
       const HolzapfelStrip<double> plain(p, strip.circumferential);
       const HolzapfelStrip<Jet> exact(q, strip.circumferential);
       const std::size_t offset = strip.circumferential ? 0 : rows;
-      double l2 = 1, low = 0.2, high = 2;
+      double l2 = 1;
       for (std::size_t i = 0; i < rows; ++i) {
         const double l = strip.stretch[i];
-        low = 0.1, high = 3;
-        double slope = 1;
+        double low = 0.1, high = 3, slope = 1;
         for (int iteration = 0; iteration < 60; ++iteration) {
-          const ceres::Jet<double, 1> trial(l2, 0);
-          const double k1 = plain.k1, k2 = plain.k2;
-          const ceres::Jet<double, 1> s1(l * l), s2 = trial * trial, s3 = 1.0 / (s1 * s2);
-          const ceres::Jet<double, 1> e = plain.loading * s1 + plain.transverse * s2 + plain.normal * s3 - 1.0;
-          const ceres::Jet<double, 1> w = e.a > 0 ? 2 * k1 * e * exp(k2 * e * e) : ceres::Jet<double, 1>(0);
-          const ceres::Jet<double, 1> g = plain.mu * (s2 - s3) + 2.0 * w * (plain.transverse * s2 - plain.normal * s3);
-          slope = g.v[0];
-          if (!(std::abs(g.a) < 1e300)) return false;
-          (g.a > 0 ? high : low) = l2;
-          double next = l2 - g.a / slope;
-          if (!(next > low && next < high)) next = 0.5 * (low + high);
+          const double g = plain.transverse_equilibrium(l, l2, slope);
+          if (!(std::abs(g) < 1e300)) return false;
+          (g > 0 ? high : low) = l2;
+          double next = l2 - g / slope;
+          if (!(next >= low && next <= high)) next = 0.5 * (low + high);
           const double step = std::abs(next - l2);
           l2 = next;
-          if (step < 1e-10) break;
+          if (step < 1e-9) break;
         }
         if (jacobian.empty()) {
           r[offset + i] = plain.stress(l, l2, true) - strip.stress[i];

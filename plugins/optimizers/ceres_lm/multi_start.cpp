@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "descent.hpp"
@@ -100,13 +101,20 @@ Optimizer::Outcome MultiStart::minimise(Problem& problem) {
   if (evaluated == 0) {
     const auto tried = std::ranges::find_if(descents, [](const Descent& descent) { return !descent.failure.empty(); });
     if (tried == descents.end()) return {false, "stopped before the first evaluation"};
-    return {false,
-            fmt::format("none of the {} starts could be evaluated, nor the points drawn in their place; a reason: {}",
-                        settings_.starts, tried->failure)};
+    return {false, problem.should_stop()
+                       ? fmt::format("stopped before any start could be evaluated; a reason: {}", tried->failure)
+                       : fmt::format("none of the {} starts could be evaluated, nor the points drawn in their place; a "
+                                     "reason: {}",
+                                     settings_.starts, tried->failure)};
   }
+  // Starts that agree are the reader's evidence that the optimum is not a local one.
+  const auto agree = std::ranges::count_if(descents, [&](const Descent& descent) {
+    return descent.evaluated && descent.feasible == best.feasible &&
+           descent.objective - best.objective <= 1e-6 * std::abs(best.objective);
+  });
   return {best.end == Descent::End::converged,
-          fmt::format("{}{} of {} starts could be evaluated; the best was start {}: {}",
-                      problem.should_stop() ? "stopped; " : "", evaluated, settings_.starts, order[0] + 1,
+          fmt::format("{}{} of {} starts could be evaluated, {} came to the best objective; the best was start {}: {}",
+                      problem.should_stop() ? "stopped; " : "", evaluated, settings_.starts, agree, order[0] + 1,
                       words(best.end))};
 }
 

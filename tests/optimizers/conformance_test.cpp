@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optimizers/conformance.hpp"
+
+namespace tunica::testing {
+
+INSTANTIATE_TEST_SUITE_P(
+    Es, OptimizerConformance,
+    ::testing::Values(
+        Subject{.label = "plus", .type = "es"},
+        Subject{.label = "comma", .type = "es", .options = {{"selection", "comma"}}},
+        Subject{.label = "isotropic", .type = "es", .options = {{"adaptation", "isotropic"}}, .oblique = false},
+        Subject{.label = "axes_discrete",
+                .type = "es",
+                .options = {{"adaptation", "axes"}, {"recombination", "discrete"}, {"selection", "comma"}},
+                .oblique = false},
+        Subject{.label = "resample_intermediate",
+                .type = "es",
+                .options = {{"bounds", "resample"}, {"recombination", "intermediate"}}},
+        Subject{.label = "clamp_one_parent",
+                .type = "es",
+                .options = {{"bounds", "clamp"}, {"recombination", "none"}, {"restart_growth", 2.0}}}),
+    label);
+
+INSTANTIATE_TEST_SUITE_P(
+    CeresLm, OptimizerConformance,
+    ::testing::Values(Subject{.label = "latin_hypercube", .type = "ceres_lm", .budget = 3000},
+                      Subject{.label = "sobol", .type = "ceres_lm", .options = {{"sampling", "sobol"}}, .budget = 3000},
+                      Subject{.label = "screened",
+                              .type = "ceres_lm",
+                              .options = {{"screening_iterations", std::int64_t{6}}},
+                              .budget = 3000}),
+    label);
+
+}  // namespace tunica::testing

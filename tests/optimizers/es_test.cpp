@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "optimizers/allocations.hpp"
+#include "optimizers/functions.hpp"
+#include "optimizers/lamb_aorta.hpp"
+#include "optimizers/plugin_under_test.hpp"
+
+namespace tunica::testing {
+namespace {
+
+TEST(Es, RefusesCommaSelectionWithoutSurplusOffspring) {
+  try {
+    make_optimizer("es", {{"selection", "comma"}, {"offspring", std::int64_t{30}}});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "'offspring' is 30 and 'parents' 30: with 'selection' \"comma\" the parents are chosen among the "
+                 "offspring, so there must be more of these; about four times as many is usual");
+  }
+}
+
+TEST(Es, EvaluatesTheStartFirst) {
+  FunctionProblem problem(sphere(3), {.budget = 200, .remember = true});
+  make_optimizer("es")->minimise(problem);
+  EXPECT_EQ(std::vector<double>(problem.asked.begin(), problem.asked.begin() + 3), sphere(3).start);
+}
+
+TEST(Es, AllocatesNothingInItsGenerations) {
+  const auto count = [](std::uint64_t budget) {
+    FunctionProblem problem(rosenbrock(6), {.budget = budget});
+    const auto optimizer = make_optimizer("es", {{"restarts", std::int64_t{0}}});
+    const std::uint64_t before = allocations();
+    optimizer->minimise(problem);
+    return allocations() - before;
+  };
+  const std::uint64_t few = count(1200);
+  EXPECT_GT(few, 0u) << "the plugin's allocations are not seen here";
+  EXPECT_EQ(few, count(6000));
+}
+
+TEST(Es, CostsLittleBesideTheEvaluations) {
+  FunctionProblem problem(sphere(6), {.budget = 120000});
+  const auto optimizer = make_optimizer("es", {{"restarts", std::int64_t{1000}}});
+  const auto begin = std::chrono::steady_clock::now();
+  optimizer->minimise(problem);
+  const double microseconds =
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() / 120000;
+  RecordProperty("microseconds_per_evaluation", std::to_string(microseconds));
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // 0.2 µs on one core with the sphere included; the bound leaves room for a busy machine.
+  EXPECT_LE(microseconds, 2);
+#endif
+}
+
+TEST(Es, RestartsUntilTheyAreExhausted) {
+  FunctionProblem problem(sphere(2), {});
+  const auto outcome = make_optimizer("es", {{"restarts", std::int64_t{2}}})->minimise(problem);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_TRUE(outcome.reason.starts_with("all 3 searches ended; the one that found the best point: "))
+      << outcome.reason;
+}
+
+TEST(Es, SaysThatTheBestSearchHadConvergedWhenItIsStoppedLater) {
+  FunctionProblem problem(sphere(2), {.budget = 20000});
+  const auto outcome = make_optimizer("es", {{"restarts", std::int64_t{1000}}})->minimise(problem);
+  EXPECT_TRUE(outcome.reason.starts_with("stopped in search ")) << outcome.reason;
+  EXPECT_EQ(problem.evaluations(), 20000u);
+}
+
+TEST(Es, GrowingRestartsLeaveTheLocalMinimaOfRastrigin) {
+  // 18 of 20 seeds within 100 000 evaluations when this was written; of three seeds one at least is expected to
+  // succeed, false alarm 1e-3 for a fresh choice of seeds (these are fixed).
+  int solved = 0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    FunctionProblem problem(rastrigin(6), {.budget = 100000, .seed = seed, .target = 1e-8});
+    make_optimizer("es", {{"restart_growth", 2.0}})->minimise(problem);
+    solved += problem.best <= 1e-8;
+  }
+  EXPECT_GE(solved, 1);
+}
+
+TEST(Es, FollowsTheValleyOfTheLambAorta) {
+  const auto function = lamb_aorta();
+  if (!function) GTEST_SKIP() << "the measured strips are not at hand: set TUNICA_DATA_DIR to the data folder";
+  // 40 of 40 seeds reached 66.101 when this was written, the slowest after 14 800 evaluations: the chance that one
+  // of four fresh seeds fails is below 0.3 at 95 % confidence, and these seeds are fixed.
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    FunctionProblem problem(*function, {.budget = 30000, .seed = seed, .target = 66.101});
+    const auto outcome = make_optimizer("es")->minimise(problem);
+    EXPECT_LE(problem.best, 66.101) << "seed " << seed << ": " << outcome.reason;
+  }
+}
+
+TEST(Es, DoesNotFollowItWithUncorrelatedSteps) {
+  const auto function = lamb_aorta();
+  if (!function) GTEST_SKIP() << "the measured strips are not at hand: set TUNICA_DATA_DIR to the data folder";
+  // Why covariance is the default: 0 of 20 seeds when this was written.
+  FunctionProblem problem(*function, {.budget = 10000, .target = 66.101});
+  make_optimizer("es", {{"adaptation", "axes"}})->minimise(problem);
+  EXPECT_GT(problem.best, 66.101);
+}
+
+}  // namespace
+}  // namespace tunica::testing
