@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-tunica, source = sys.argv[1], pathlib.Path(sys.argv[2])
+tunica, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 blocks = re.findall(r"```json\n(.*?)```", (source / "README.md").read_text(encoding="utf-8"), re.S)
 assert len(blocks) == 1, f"the README has {len(blocks)} JSON blocks, expected one"
 lines = blocks[0].strip().count("\n") + 1
