@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "experiment/experiment.hpp"
+#include "experiment/reader.hpp"
+#include "experiment/schema_parts.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+Json text_schema(std::string_view description) { return {{"description", description}, {"type", "string"}}; }
+Json choice_schema(std::string_view description, const std::vector<std::string>& names) {
+  return {{"description", description}, {"enum", names}};
+}
+Json count_schema(std::string_view description, int at_least) {
+  return {{"description", description}, {"type", "integer"}, {"minimum", at_least}};
+}
+Json list_schema(std::string_view description, Json items) {
+  return {{"description", description}, {"type", "array"}, {"items", std::move(items)}};
+}
+
+// What users name; dots join the parts of parameter names.
+const char* const name_pattern = "^[^-. /\\\\][^. /\\\\]*$";
+
+// Stands in its place rather than in the definitions: valijson refuses every object whose propertyNames lie behind a
+// $ref.
+Json named_entries(std::string_view description, Json entry) {
+  Json schema = {{"description", description},
+                 {"type", "object"},
+                 {"minProperties", 1},
+                 {"additionalProperties", std::move(entry)}};
+  schema["propertyNames"]["pattern"] = name_pattern;
+  return schema;
+}
+
+void define_parameter(Json& definitions) {
+  Json free = Json::object();
+  free["min"] = quantity_schema("Lower bound.");
+  free["max"] = quantity_schema("Upper bound.");
+  free["initial"] = quantity_schema("Start of the search.");
+  free["scale"] =
+      choice_schema("How the search divides the range; log needs a lower bound above zero.", {"linear", "log"});
+  free["share"] = {{"description", "Parameters with the same group are one unknown."},
+                   {"type", "string"},
+                   {"pattern", name_pattern}};
+  free["prior"] = object_schema("A normal prior.",
+                                {{"mean", quantity_schema("Mean.")}, {"sd", quantity_schema("Standard deviation.")}},
+                                {"mean", "sd"});
+  definitions["parameter"] = {
+      {"description", "A parameter: searched between bounds, or held at `fixed`, which excludes the other keys."}};
+  definitions["parameter"]["anyOf"] =
+      Json::array({object_schema("Searched.", std::move(free)),
+                   object_schema("Held.", {{"fixed", quantity_schema("The value held.")}}, {"fixed"})});
+}
+
+void define_data(Json& definitions) {
+  definitions["stress_measure"] = choice_schema("Which stress the data give (default cauchy).", stress_measure_names());
+  definitions["row_range"] = {{"description", "first:last:step, counted from 0, last not included."},
+                              {"type", "string"},
+                              {"pattern", "^[0-9]*:[0-9]*(:[0-9]*)?$"}};
+  definitions["rows"] = reference("row_range", "The rows to use, of those that match `where`.");
+  definitions["where"] = {{"description", "Column → value: only rows that match all."},
+                          {"type", "object"},
+                          {"additionalProperties", {{"type", {"string", "number"}}}}};
+  definitions["time_from"] = object_schema(
+      "Time from the path of the abscissa, where none was recorded.",
+      {{"rate", quantity_schema("Change of the first abscissa per second, for example \"0.01/s\".")}}, {"rate"});
+  definitions["noise"] = object_schema(
+      "σ² = absolute² + (relative·y)².",
+      {{"absolute", quantity_schema("Standard deviation in the channel's unit.")},
+       {"relative", quantity_schema("Standard deviation as a share of the value.")},
+       {"correlation",
+        {{"description", "Between neighbouring rows."}, {"type", "number"}, {"minimum", -1}, {"maximum", 1}}}});
+  definitions["weight"] = {
+      {"description", "Weight in the objective: one, or one per channel in the order of `columns` (default 1)."}};
+  definitions["weight"]["anyOf"] = Json::array(
+      {{{"type", "number"}, {"minimum", 0}}, {{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}}});
+  definitions["hold_out"] = {
+      {"description",
+       "Kept out of the fit, predicted and scored: all rows, or a range of the rows used (default false)."}};
+  definitions["hold_out"]["anyOf"] = Json::array({{{"type", "boolean"}}, reference("row_range")});
+}
+
+void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
+  definitions["stop"] =
+      object_schema("When a search ends; means the same for every optimizer.",
+                    {{"max_evaluations", count_schema("Evaluations of the objective (default 60000).", 1)},
+                     {"max_time", quantity_schema("Time [s], for example \"10 min\"; gives up determinism.")},
+                     {"target", {{"description", "An objective that is good enough."}, {"type", "number"}}},
+                     {"stall", count_schema("Evaluations without improvement.", 1)}});
+  Json stage = object_schema("A stage with its own stop.",
+                             {{"optimizer", text_schema("Name of another optimizer.")}, {"stop", reference("stop")}},
+                             {"optimizer"});
+  Json stages = list_schema("Optimizers one after the other, each from the best point so far.", Json::object());
+  stages["items"]["anyOf"] = Json::array({{{"type", "string"}}, std::move(stage)});
+  stages["minItems"] = 1;
+  definitions["staged"] = object_schema("Several optimizers in turn.",
+                                        {{"type", {{"const", "stages"}}}, {"stages", std::move(stages)}}, {"stages"});
+  Json optimizer = {{"description", "An optimizer of a type, or stages."}, {"type", "object"}};
+  optimizer["if"]["required"] = {"stages"};
+  optimizer["then"] = reference("staged");
+  optimizer["else"] = by_type("optimizer", names_of(catalogue.optimizers()), "An optimizer.");
+  definitions["optimizer"] = std::move(optimizer);
+
+  definitions["objective"] = {{"description", "What is minimised (default standardised_quadratic)."}};
+  definitions["objective"]["anyOf"] = Json::array(
+      {choice_schema("Its type.", objective_names()),
+       object_schema("As an object.", {{"type", choice_schema("Its type.", objective_names())}}, {"type"})});
+  Json factor = {{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
+  Json pair = {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}};
+  pair["items"] = Json::array({{{"type", "number"}, {"exclusiveMinimum", 0}}, factor});
+  Json h = {{"description", "1 is the criterion itself; a number, or a table [[stretch, h], …]."}};
+  Json table = list_schema("h over stretch.", std::move(pair));
+  table["minItems"] = 1;
+  h["anyOf"] = Json::array({std::move(factor), std::move(table)});
+  definitions["constraints"] =
+      list_schema("Conditions on the parameters.",
+                  object_schema("The transverse stretch falls as the strip is pulled.",
+                                {{"type", {{"const", "transverse_stability"}}}, {"h", std::move(h)}}, {"type"}));
+}
+
+Json run_schema() {
+  Json tests = {{"description", "The tests of this run: names, or tests of its own (default: all)."}};
+  tests["anyOf"] =
+      Json::array({list_schema("Names.", {{"type", "string"}}), named_entries("Tests of its own.", reference("test"))});
+  return object_schema("One calibration: a model, fitted by an optimizer.",
+                       {{"model", text_schema("Name of a model.")},
+                        {"optimizer", text_schema("Name of an optimizer.")},
+                        {"realisations", count_schema("Repetitions with other seeds (default 1).", 1)},
+                        {"tests", std::move(tests)},
+                        {"objective", reference("objective")},
+                        {"constraints", reference("constraints")},
+                        {"stop", reference("stop")}},
+                       {"model", "optimizer"});
+}
+
+Json diagnosis_schema() {
+  Json mechanisms = {{"description", "Which causes to consider (default all)."}};
+  mechanisms["anyOf"] =
+      Json::array({choice_schema("Every one.", {"all"}), list_schema("Names.", {{"type", "string"}})});
+  return object_schema(
+      "What the simulation gets wrong, and why.",
+      {{"model", text_schema("Name of a model.")},
+       {"optimizer", text_schema("Name of an optimizer.")},
+       {"alpha",
+        {{"description", "Significance level."}, {"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}}},
+       {"mechanisms", std::move(mechanisms)},
+       {"admissibility", {{"description", "Lost stability changes the verdict."}, {"type", "boolean"}}}});
+}
+
+Json on_failure_schema() {
+  Json schema = {{"description", "What to do when an evaluation fails (default penalise)."}};
+  schema["anyOf"] = Json::array(
+      {choice_schema("The policy.", on_failure_names()),
+       object_schema("With a limit.",
+                     {{"policy", choice_schema("The policy.", on_failure_names())},
+                      {"max_rate", quantity_schema("Share of failed evaluations above which a run stops.")}})});
+  return schema;
+}
+
+}  // namespace
+
+std::string compose_schema(const plugins::Catalogue& catalogue) {
+  Json definitions = Json::object();
+  define_parameter(definitions);
+  define_data(definitions);
+  define_search(definitions, catalogue);
+  definitions["test"] = by_type("test", names_of(catalogue.tests()), "A test and its data.");
+  define_plugins(definitions, catalogue);
+
+  Json properties = Json::object();
+  properties["$schema"] = text_schema("This schema, for editors.");
+  properties["format"] = {{"description", "Version of the file format."}, {"const", 1}};
+  properties["name"] = text_schema("Name of the experiment (default: the file's).");
+  properties["seed"] = count_schema("Root of all random numbers (default 1).", 0);
+  properties["models"] =
+      named_entries("The models to calibrate, by name.", by_type("model", names_of(catalogue.models()), "A model."));
+  properties["tests"] = named_entries("The tests to fit, by name.", reference("test"));
+  properties["objective"] = reference("objective");
+  properties["constraints"] = reference("constraints");
+  properties["optimizers"] = named_entries("The optimizers to use, by name.", reference("optimizer"));
+  properties["stop"] = reference("stop");
+  properties["runs"] = list_schema("What to calibrate; the runs are compared.", run_schema());
+  properties["runs"]["minItems"] = 1;
+  properties["on_failure"] = on_failure_schema();
+  properties["diagnosis"] = diagnosis_schema();
+
+  Json schema = Json::object();
+  schema["$schema"] = "http://json-schema.org/draft-07/schema#";
+  schema["title"] = "tunica experiment file";
+  schema.update(
+      object_schema("Written by `tunica schema` from what the loaded plugins declare. Quantities are numbers in base "
+                    "units (kPa, mm, mN, "
+                    "s, deg) or text with a unit, as in \"3.71 mm\".",
+                    std::move(properties), {"format", "models", "tests", "optimizers", "runs"}));
+  schema["definitions"] = std::move(definitions);
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace tunica::experiment

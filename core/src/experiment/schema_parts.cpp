@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "experiment/schema_parts.hpp"
+
+#include <fmt/format.h>
+
+namespace tunica::experiment {
+
+Json object_schema(std::string_view description, Json properties, const std::vector<std::string>& required) {
+  Json schema = {{"description", description},
+                 {"type", "object"},
+                 {"properties", std::move(properties)},
+                 {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = required;
+  return schema;
+}
+
+Json reference(std::string_view name, std::string_view description) {
+  Json target = Json::object();
+  target["$ref"] = fmt::format("#/definitions/{}", name);
+  if (description.empty()) return target;
+  // Draft 7 ignores whatever stands beside a $ref.
+  Json schema = {{"description", description}};
+  schema["allOf"] = Json::array({std::move(target)});
+  return schema;
+}
+
+Json quantity_schema(std::string_view description) {
+  return {{"description", description}, {"type", {"number", "string"}}, {"pattern", "^ *[+-]?[0-9.]"}};
+}
+
+Json option_schema(const Option& option) {
+  using Kind = Option::Kind;
+  Json schema = Json::object();
+  schema["description"] =
+      option.unit.empty() || option.unit == "1" ? option.doc : fmt::format("{} [{}]", option.doc, option.unit);
+  switch (option.kind) {
+    case Kind::flag:
+      schema["type"] = "boolean";
+      break;
+    case Kind::integer:
+      schema["type"] = "integer";
+      break;
+    case Kind::number:
+      schema["type"] = "number";
+      break;
+    case Kind::quantity:
+      schema = quantity_schema(schema["description"].get<std::string>());
+      break;
+    case Kind::choice:
+      schema["enum"] = option.choices;
+      break;
+    case Kind::text:
+      schema["type"] = "string";
+      break;
+    case Kind::json:
+      break;  // anything: the plugin reads it
+  }
+  if (option.min) schema["minimum"] = *option.min;
+  if (option.max) schema["maximum"] = *option.max;
+  if (option.fallback) {
+    if (option.kind == Kind::json)
+      schema["default"] = Json::parse(std::get<std::string>(*option.fallback), nullptr, false);
+    else
+      std::visit([&](const auto& value) { schema["default"] = value; }, *option.fallback);
+  }
+  return schema;
+}
+
+Json parameters_schema(const std::vector<Parameter>& parameters) {
+  Json properties = Json::object();
+  for (const Parameter& p : parameters)
+    properties[p.name] = reference("parameter", fmt::format("{}{} [{}]. Default: {} within {} to {}, scale {}.{}{}",
+                                                            p.doc, p.doc.ends_with('.') ? "" : ".", p.unit, p.initial,
+                                                            p.min, p.max, p.scale == Scale::log ? "log" : "linear",
+                                                            p.reference.empty() ? "" : " ", p.reference));
+  return object_schema("Bounds, start, scale of parameters, by name; what is left out keeps its default.",
+                       std::move(properties));
+}
+
+Json by_type(std::string_view prefix, const std::vector<std::string>& types, std::string_view description) {
+  Json schema = {{"description", description}, {"type", "object"}, {"required", {"type"}}};
+  schema["properties"]["type"]["enum"] = types;
+  Json cases = Json::array();
+  for (const std::string& type : types) {
+    Json one = Json::object();
+    one["if"]["properties"]["type"]["const"] = type;
+    one["then"] = reference(fmt::format("{}_{}", prefix, type));
+    cases.push_back(std::move(one));
+  }
+  if (!types.empty()) schema["allOf"] = std::move(cases);
+  return schema;
+}
+
+}  // namespace tunica::experiment

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "experiment/schema_parts.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+using Role = Observable::Role;
+
+std::string described(const std::string& doc, const std::string& reference, const std::string& plugin) {
+  return fmt::format("{}{}{} (plugin {})", doc, reference.empty() ? "" : " – ", reference, plugin);
+}
+
+Json with_options(const std::string& type, const std::vector<Option>& options) {
+  Json properties = Json::object();
+  properties["type"]["const"] = type;
+  for (const Option& option : options) properties[option.name] = option_schema(option);
+  return properties;
+}
+
+std::vector<std::string> required_keys(const std::vector<Option>& options, std::vector<std::string> others) {
+  for (const Option& option : options)
+    if (!option.fallback) others.push_back(option.name);
+  return others;
+}
+
+/// Values worth trying for an option, to see whether the model's parameters depend on it.
+std::vector<Option::Value> alternatives(const Option& option) {
+  std::vector<Option::Value> values;
+  if (option.fallback) values.push_back(*option.fallback);
+  if (option.kind == Option::Kind::flag) values.insert(values.end(), {true, false});
+  if (option.kind == Option::Kind::choice) values.insert(values.end(), option.choices.begin(), option.choices.end());
+  if (option.kind == Option::Kind::integer) {
+    const auto first = static_cast<std::int64_t>(std::clamp(option.min.value_or(1), -1e6, 1e6));
+    const auto last = static_cast<std::int64_t>(std::clamp(option.max.value_or(10), -1e6, 1e6));
+    for (std::int64_t i = first; i <= std::min(last, first + 9); ++i) values.emplace_back(i);
+  }
+  return values;
+}
+
+void add_parameters(const ModelFactory& factory, const Options& options, std::vector<Parameter>& parameters) {
+  try {
+    const auto model = factory.create(options);
+    if (!model) return;
+    for (const Parameter& parameter : model->describe().parameters)
+      if (std::none_of(parameters.begin(), parameters.end(),
+                       [&](const Parameter& p) { return p.name == parameter.name; }))
+        parameters.push_back(parameter);
+  } catch (const std::exception&) {  // these options do not go together: no parameters to learn from them
+  }
+}
+
+/// Every parameter the model has under its default options or with one of them changed.
+std::vector<Parameter> possible_parameters(const ModelFactory& factory) {
+  Options defaults;
+  for (const Option& option : factory.options) {
+    const auto values = alternatives(option);
+    if (!values.empty()) defaults.set(option.name, values.front());
+  }
+  std::vector<Parameter> parameters;
+  add_parameters(factory, defaults, parameters);
+  for (const Option& option : factory.options)
+    for (const Option::Value& value : alternatives(option)) {
+      Options changed = defaults;
+      changed.set(option.name, value);
+      add_parameters(factory, changed, parameters);
+    }
+  return parameters;
+}
+
+Json mechanism_list(const std::vector<std::string>& types) {
+  return {{"description", "Mechanisms to include, in any order."},
+          {"type", "array"},
+          {"items", by_type("mechanism", types, "One mechanism.")}};
+}
+
+Json columns_schema(const std::vector<Observable>& observables) {
+  Json properties = Json::object();
+  std::vector<std::string> required;
+  for (const Observable& observable : observables) {
+    const char* role = observable.role == Role::abscissa ? "prescribed"
+                       : observable.role == Role::time   ? "clock"
+                                                         : "measured and fitted";
+    properties[observable.name] = {{"description", fmt::format("{} [{}], {}", observable.doc, observable.unit, role)},
+                                   {"type", "string"},
+                                   {"minLength", 1}};
+    if (observable.required) required.push_back(observable.name);
+  }
+  Json schema = object_schema("Observable of the test → name of the column.", std::move(properties), required);
+  schema["minProperties"] = 1;
+  return schema;
+}
+
+Json data_schema(const TestFactory& factory) {
+  Json properties = Json::object();
+  properties["file"] = {{"description", "The data file, relative to the experiment file."}, {"type", "string"}};
+  properties["files"] = {{"description", "Replicates: same abscissae, else interpolated."},
+                         {"type", "array"},
+                         {"items", {{"type", "string"}}},
+                         {"minItems", 1}};
+  properties["columns"] = columns_schema(factory.observables);
+  for (const char* name : {"stress_measure", "rows", "where", "time_from"}) properties[name] = reference(name);
+  Json per_channel = Json::object();
+  for (const Observable& observable : factory.observables)
+    if (observable.role == Role::channel) per_channel[observable.name] = reference("noise");
+  properties["noise"]["description"] =
+      "Standard deviation of the data: one for all channels, or one per channel; absent = estimated.";
+  properties["noise"]["anyOf"] =
+      Json::array({reference("noise"), object_schema("By channel.", std::move(per_channel))});
+  Json schema = object_schema("The measured data.", std::move(properties), {"columns"});
+  schema["oneOf"] = Json::array({{{"required", {"file"}}}, {{"required", {"files"}}}});
+  return schema;
+}
+
+}  // namespace
+
+void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
+  std::vector<std::string> of_models;
+  for (const auto& [id, entry] : catalogue.mechanisms()) {
+    const MechanismFactory& factory = entry.factory;
+    if (factory.stage < Stage::test) of_models.push_back(id);
+    Json properties = with_options(id, factory.options);
+    properties["parameters"] = parameters_schema(factory.parameters);
+    definitions["mechanism_" + id] = object_schema(described(factory.cause, factory.reference, entry.plugin),
+                                                   std::move(properties), required_keys(factory.options, {"type"}));
+  }
+  for (const auto& [type, entry] : catalogue.models()) {
+    const ModelFactory& factory = entry.factory;
+    Json properties = with_options(type, factory.options);
+    properties["parameters"] = parameters_schema(possible_parameters(factory));
+    properties["mechanisms"] = mechanism_list(of_models);
+    definitions["model_" + type] = object_schema(described(factory.doc, factory.reference, entry.plugin),
+                                                 std::move(properties), required_keys(factory.options, {"type"}));
+  }
+  for (const auto& [type, entry] : catalogue.tests()) {
+    const TestFactory& factory = entry.factory;
+    std::vector<std::string> applicable;
+    for (const auto& [id, mechanism] : catalogue.mechanisms()) {
+      const auto& types = mechanism.factory.applies_to;
+      if (mechanism.factory.stage >= Stage::test &&
+          (types.empty() || std::find(types.begin(), types.end(), type) != types.end()))
+        applicable.push_back(id);
+    }
+    Json properties = with_options(type, factory.options);
+    properties["data"] = data_schema(factory);
+    for (const char* name : {"weight", "hold_out"}) properties[name] = reference(name);
+    properties["parameters"] = {{"description", "The test's own parameters, by name."},
+                                {"type", "object"},
+                                {"additionalProperties", reference("parameter")}};
+    properties["mechanisms"] = mechanism_list(applicable);
+    definitions["test_" + type] =
+        object_schema(described(factory.doc, factory.reference, entry.plugin), std::move(properties),
+                      required_keys(factory.options, {"type", "data"}));
+  }
+  for (const auto& [type, entry] : catalogue.optimizers())
+    definitions["optimizer_" + type] =
+        object_schema(described(entry.factory.doc, entry.factory.reference, entry.plugin),
+                      with_options(type, entry.factory.options), required_keys(entry.factory.options, {"type"}));
+}
+
+}  // namespace tunica::experiment
