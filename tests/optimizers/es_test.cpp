@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 
 #include "optimizers/allocations.hpp"
 #include "optimizers/functions.hpp"
@@ -44,13 +44,12 @@ TEST(Es, AllocatesNothingInItsGenerations) {
 TEST(Es, CostsLittleBesideTheEvaluations) {
   FunctionProblem problem(sphere(6), {.budget = 120000});
   const auto optimizer = make_optimizer("es", {{"restarts", std::int64_t{1000}}});
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // processor time: other work on the machine does not count
   optimizer->minimise(problem);
-  const double microseconds =
-      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() / 120000;
+  const double microseconds = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / 120000;
   RecordProperty("microseconds_per_evaluation", std::to_string(microseconds));
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  // 0.2 µs on one core with the sphere included; the bound leaves room for a busy machine.
+  // 0.2 µs in a release build, the sphere included.
   EXPECT_LE(microseconds, 2);
 #endif
 }
@@ -85,9 +84,9 @@ TEST(Es, GrowingRestartsLeaveTheLocalMinimaOfRastrigin) {
 TEST(Es, FollowsTheValleyOfTheLambAorta) {
   const auto function = lamb_aorta();
   if (!function) GTEST_SKIP() << "the measured strips are not at hand: set TUNICA_DATA_DIR to the data folder";
-  // 40 of 40 seeds reached 66.101 when this was written, the slowest after 14 800 evaluations: the chance that one
-  // of four fresh seeds fails is below 0.3 at 95 % confidence, and these seeds are fixed.
-  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+  // 100 of 100 seeds reached 66.101 when this was written, the slowest after 14 800 evaluations. With 97 % or more
+  // (95 % confidence) a fresh set of 20 seeds would have a chance of 0.45 or less of one failure; these are fixed.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FunctionProblem problem(*function, {.budget = 30000, .seed = seed, .target = 66.101});
     const auto outcome = make_optimizer("es")->minimise(problem);
     EXPECT_LE(problem.best, 66.101) << "seed " << seed << ": " << outcome.reason;
