@@ -41,6 +41,10 @@ std::vector<ChannelView> views(const experiment::TestEntry& entry, const data::D
     view.test = entry.name, view.observable = channel.observable, view.unit = channel.unit;
     view.offset = offset + k * dataset.count, view.count = dataset.count;
     view.measured = channel.values, view.noise = channel.noise;
+    if (view.noise && channel.replicates.size() > 1) {
+      const double root = std::sqrt(static_cast<double>(channel.replicates.size()));
+      view.noise->absolute /= root, view.noise->relative /= root;
+    }
     view.fitted = fitted_rows(entry, dataset.count);
     if (!entry.weights.empty()) view.weight = entry.weights[k];
     if (!dataset.abscissae.empty()) {

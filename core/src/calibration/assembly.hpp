@@ -36,7 +36,7 @@ struct ChannelView {
   std::string abscissa_name, abscissa_unit;
   std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
-  std::optional<data::Noise> noise;
+  std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
 };
 
 /// One run's model (with mechanisms) and tests (bound to their data), from parameters to predictions, residuals and

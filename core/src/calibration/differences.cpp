@@ -38,16 +38,16 @@ Status Assembly::Parts::difference(const BoundTest& test, std::span<const double
     };
     double* const column = &workspace.jacobian[row * size];
     // f' ≈ (f(+h) − f(−h))/2h inside; (4f(±h) − 3f − f(±2h))/(±2h) where one side lies beyond a bound or fails.
-    Status up = Status::failed("beyond the upper bound"), down = Status::failed("beyond the lower bound");
-    if (value + h <= parameter.max) up = predict_at(h, ahead);
-    if (value - h >= parameter.min) down = predict_at(-h, behind);
-    if (up.ok() && down.ok()) {
+    Status up, down;
+    const bool above = value + h <= parameter.max && (up = predict_at(h, ahead)).ok();
+    const bool below = value - h >= parameter.min && (down = predict_at(-h, behind)).ok();
+    if (above && below) {
       for (std::size_t i = 0; i < size; ++i) column[i] = (ahead[i] - behind[i]) / (2 * h);
       continue;
     }
-    const double side = up.ok() ? h : -h;
-    const std::span<double> near = up.ok() ? ahead : behind, far = up.ok() ? behind : ahead;
-    Status status = up.ok() || down.ok() ? predict_at(2 * side, far) : up;
+    const double side = above ? h : -h;
+    const std::span<double> near = above ? ahead : behind, far = above ? behind : ahead;
+    Status status = above || below ? predict_at(2 * side, far) : up.ok() ? down : up;
     if (!status.ok()) {
       return Status::failed(fmt::format("test '{}': no differences by '{}' at {:.6g}: {}", test.name, parameter.name,
                                         value, status.reason()));

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calibration/assembly.hpp"
+#include "tunica/status.hpp"
+
+namespace tunica::calibration {
+
+/// What the data say about one free parameter at the best point.
+struct ParameterInterval {
+  std::string name, unit;
+  double value = 0;
+  double ci95 = std::numeric_limits<double>::quiet_NaN();  ///< half width; NaN when at a bound or not identified
+  bool at_bound = false;                                   ///< within 1e-6 of the range
+  bool identified = false;
+};
+
+/// A combination of parameters that the data fix although they leave its arguments free.
+struct FixedCombination {
+  std::string name, unit;
+  double value = 0, ci95 = 0;  ///< ± half width
+};
+
+/// Parameters that the data do not fix one by one.
+struct Valley {
+  std::vector<std::string> parameters;
+  /// Steps along the valley, one per dimension of it: parameter and change, in base units; their lengths say nothing.
+  std::vector<std::vector<std::pair<std::string, double>>> directions;
+  bool exact = true;  ///< no prediction changes along it; false: so little that the uncertainty exceeds the bounds
+  std::vector<FixedCombination> fixed;
+  std::string sentence;
+};
+
+struct Identifiability {
+  std::vector<ParameterInterval> parameters;  ///< as Assembly::parameters()
+  std::vector<double> singular_values;        ///< descending
+  std::vector<Valley> valleys;
+
+  /// For `identifiability` of result.json: one a valley, one for all parameters at bounds.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+};
+
+/// Smallest ratio of singular values at which a direction counts as seen by the data; differences see less sharply.
+constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
+
+/// Linearises about `free`. Let G = diag(1/σ) ∂ŷ/∂x over the fitted rows, x the unit box, σ the stated noise of a
+/// channel or else the standard deviation of its residuals (and a row (p − mean)/sd per prior), with the singular
+/// value decomposition G = U S Vᵀ. Then x has covariance V S⁻² Vᵀ (Laplace), and direction v_k is weak when
+///
+///   s_k < weakest·s_1 (no prediction changes), or 1/s_k > 1 (its standard deviation exceeds the box).
+///
+/// A parameter is identified when no weak direction moves it by more than a hundredth of the box per unit length; then
+/// ci95 = t √Σ_k (v_k)²/s_k², with the 97.5 % point of Student's t at N − p degrees of freedom (of the normal
+/// distribution where all noise is stated), weak directions counting as the whole box. Parameters at a bound leave
+/// the computation. Weak directions that share parameters form a valley; of the model's combinations those are named
+/// as fixed whose gradient is orthogonal to them (to 1e-3) and that have an argument among them.
+///
+/// Returns failed when the point cannot be evaluated or has no fitted rows.
+Status identify(const Assembly& assembly, std::span<const double> free, Identifiability& found);
+
+}  // namespace tunica::calibration
