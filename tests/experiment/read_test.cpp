@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <iterator>
+
 #include "experiment/reading.hpp"
 
 namespace tunica::experiment {
@@ -52,6 +55,93 @@ TEST_F(ReadExperiment, WritesAnInputFileThatReadsAsTheSameExperiment) {
   const Experiment again = read(first.input_json);
   EXPECT_EQ(again.input_json, first.input_json);
   EXPECT_EQ(again.diagnosis_json, first.diagnosis_json);
+}
+
+TEST_F(ReadExperiment, ReadsTheExampleOfTheManual) {
+  std::ifstream stream(std::filesystem::path(TUNICA_SOURCE_DIR) / "docs" / "experiment-file.md");
+  const std::string manual((std::istreambuf_iterator<char>(stream)), {});
+  const std::size_t begin = manual.find("```json\n") + 8;
+  ASSERT_GE(begin, 8u);
+  const Experiment e = read(manual.substr(begin, manual.find("```", begin) - begin));
+  EXPECT_EQ(e.model("dispersed").mechanisms[0].parameters.at("tau").max, 600);
+  const TestEntry& strip = e.test("strip");
+  EXPECT_EQ(strip.data.time_rate, 0.01);
+  EXPECT_EQ(strip.data.noise[0].second.absolute, 0.1);
+  EXPECT_EQ(strip.data.noise[0].second.relative, 0.02);
+  EXPECT_EQ(strip.mechanisms[0].type, "force_offset");
+  EXPECT_EQ(e.optimizer("both").stages[1].stop->max_evaluations, 500u);
+  EXPECT_FALSE(e.optimizer("both").stages[0].stop);
+  EXPECT_EQ(e.runs[0].objective, ObjectiveType::sum_of_norms);
+  EXPECT_EQ(e.runs[1].stop.max_evaluations, 2000u);
+  EXPECT_FALSE(e.runs[1].stop.stall) << "a run's stop replaces the whole block";
+}
+
+TEST_F(ReadExperiment, LetsRunsOverrideWholeBlocks) {
+  const Experiment e = read(with(
+      R"({"model": "gho", "optimizer": "lm"}
+  ])",
+      R"({"model": "gho", "optimizer": "lm", "tests": ["inflation"], "objective": "least_squares", "constraints": []},
+    {"model": "gho", "optimizer": "lm", "tests": {"short_strip": {"type": "uniaxial", "direction": "axial",
+      "data": {"file": "circ2.csv", "columns": {"stretch": "stretch", "stress": "stress"}}}}}
+  ])"));
+  ASSERT_EQ(e.runs.size(), 3u);
+  EXPECT_EQ(e.runs[0].tests.size(), 2u) << "a run's own tests do not join the others";
+  EXPECT_EQ(e.runs[1].tests, std::vector<std::string>{"inflation"});
+  EXPECT_EQ(e.runs[1].objective, ObjectiveType::least_squares);
+  EXPECT_TRUE(e.runs[1].constraints.empty());
+  EXPECT_EQ(e.runs[0].constraints.size(), 1u);
+  EXPECT_EQ(e.runs[2].tests, std::vector<std::string>{"short_strip"});
+  EXPECT_EQ(e.test("short_strip").options.text("direction"), "axial");
+  EXPECT_EQ(read(e.input_json).input_json, e.input_json);
+}
+
+TEST_F(ReadExperiment, ReadsRichTestsThatWriteBackTheSame) {
+  const Experiment e = read(with(
+      R"("weight": 1,)",
+      R"("weight": [0.5], "parameters": {"misalignment": {"max": "5 deg"}}, "mechanisms": [{"type": "outliers", "rows": "3"}],)",
+      with(
+          R"("file": "circ.csv",)",
+          R"("files": ["circ.csv", "circ2.csv"], "where": {"specimen": 7, "side": "left"}, "time_from": {"rate": "1 %/min"},)",
+          with(R"("hold_out": false)", R"("hold_out": "10:20:2")",
+               with(R"("axial_stretch": 1.2,)", R"("layers": [{"model": "media", "thickness": "0.97 mm"}],)")))));
+  const TestEntry& strip = e.test("circumferential_strip");
+  EXPECT_EQ(strip.data.files.size(), 2u);
+  EXPECT_EQ(strip.data.where[0], (std::pair<std::string, std::string>{"specimen", "7"}));
+  EXPECT_NEAR(*strip.data.time_rate, 0.01 / 60, 1e-18);
+  EXPECT_EQ(strip.hold_out.rows->first, 10u);
+  EXPECT_EQ(strip.hold_out.rows->step, 2u);
+  EXPECT_EQ(strip.weights, std::vector<double>{0.5});
+  EXPECT_EQ(e.test("inflation").options.text("layers"), R"([{"model":"media","thickness":"0.97 mm"}])");
+  EXPECT_EQ(e.test("inflation").options.number("axial_stretch"), 1.0);
+  EXPECT_EQ(read(e.input_json).input_json, e.input_json);
+}
+
+TEST_F(ReadExperiment, FillsDefaultsIn) {
+  const Experiment e =
+      read(R"({"format": 1, "models": {"m": {"type": "plain"}}, "optimizers": {"lm": {"type": "ceres_lm"}},
+    "tests": {"t": {"type": "uniaxial", "direction": "axial", "data": {"file": "circ.csv", "columns": {"stretch": "stretch", "stress": "stress"}}}},
+    "runs": [{"model": "m", "optimizer": "lm"}]})");
+  EXPECT_EQ(e.name, "experiment");
+  EXPECT_EQ(e.seed, 1u);
+  EXPECT_EQ(e.runs[0].realisations, 1u);
+  EXPECT_EQ(e.runs[0].stop.max_evaluations, 60000u);
+  EXPECT_FALSE(e.runs[0].stop.max_time || e.runs[0].stop.target || e.runs[0].stop.stall);
+  EXPECT_EQ(e.runs[0].objective, ObjectiveType::standardised_quadratic);
+  EXPECT_EQ(e.on_failure, OnFailure::penalise);
+  EXPECT_EQ(e.max_failure_rate, 1);
+  EXPECT_EQ(e.test("t").data.stress_measure, "cauchy");
+  EXPECT_EQ(e.test("t").weights, std::vector<double>{1});
+  EXPECT_TRUE(e.test("t").data.noise.empty());
+  EXPECT_TRUE(e.diagnosis_json.empty());
+}
+
+TEST_F(ReadExperiment, ResolvesPathsFromItsOwnFolder) {
+  std::filesystem::create_directory(folder.path() / "sub");
+  static_cast<void>(folder.write(
+      "sub/e.json", with(R"("circ.csv")", R"("../circ.csv")", with(R"("inflation.csv")", R"("../inflation.csv")"))));
+  EXPECT_EQ(
+      read_experiment(folder.path() / "sub" / "e.json", testing::fake_catalogue()).test("inflation").data.files[0],
+      folder.path() / "inflation.csv");
 }
 
 }  // namespace

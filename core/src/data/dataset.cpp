@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -54,9 +55,8 @@ void check_request(const DataRequest& request, const std::vector<Observable>& ob
 bool same_value(const std::string& cell, const std::string& wanted) {
   if (cell == wanted) return true;
   const auto number = [](const std::string& text, double& value) {
-    char* end = nullptr;
-    value = std::strtod(text.c_str(), &end);
-    return !text.empty() && end == text.c_str() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
   };
   double a = 0, b = 0;
   return number(cell, a) && number(wanted, b) && a == b;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -144,7 +143,9 @@ class UnitSystem {
   // Factors are decimal numbers by definition; the last-place error of the way through SI units is taken off, so that
   // 1 mmHg is 0.133322387415 kPa to the bit. Factors with π are farther from a short decimal and stay.
   static double without_rounding(double factor) {
-    const double decimal = std::strtod(fmt::format("{:.15g}", factor).c_str(), nullptr);
+    const std::string digits = fmt::format("{:.15g}", factor);
+    double decimal = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), decimal);
     return std::abs(decimal - factor) <= 2.5e-16 * std::abs(factor) ? decimal : factor;
   }
 
