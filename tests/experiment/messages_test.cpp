@@ -249,14 +249,14 @@ TEST_F(Messages, CheckMechanisms) {
       refusal(
           R"("models": {)",
           R"("models": {"p": {"type": "plain", "mechanisms": [{"type": "viscoelasticity"}, {"type": "fibre_recruitment"}]},)"),
-      "the mechanism 'fibre_recruitment' of plugin fake 0.1.0 cannot act on this model (/models/p/mechanisms/1, line "
-      "4, column 81). it needs fibres, and this energy has none");
+      "the mechanism 'fibre_recruitment' cannot act on this model (/models/p/mechanisms/1, line "
+      "4, column 81). plugin 'fake 0.1.0': it needs fibres, and this energy has none");
 }
 
 TEST_F(Messages, PassOnWhatAPluginRefuses) {
   expect_within(refusal(R"("parents": 30, "offspring": 120, "selection": "plus")",
                         R"("parents": 30, "offspring": 10, "selection": "comma")"),
-                "the plugin fake 0.1.0 refuses optimizer 'es' (/optimizers/es, line 40, column 5). comma selection "
+                "optimizer 'es' is refused (/optimizers/es, line 40, column 5). plugin 'fake 0.1.0': comma selection "
                 "needs more offspring than parents");
 }
 

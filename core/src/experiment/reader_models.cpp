@@ -7,6 +7,7 @@
 
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
+#include "plugins/guarded.hpp"
 
 namespace tunica::experiment {
 namespace {
@@ -53,16 +54,14 @@ void try_mechanisms(const Node& entry, std::unique_ptr<Model> model, const std::
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return stage(a) < stage(b); });
   for (const std::size_t i : order) {
-    const auto& [factory, plugin] = catalogue.mechanisms().find(mechanisms[i].type)->second;
     try {
-      if (factory.wrap_model) model = factory.wrap_model(std::move(model), mechanisms[i].options);
-    } catch (const std::exception& error) {
+      model = plugins::wrap(catalogue.mechanisms().find(mechanisms[i].type)->second, std::move(model),
+                            mechanisms[i].options);
+    } catch (const InputError& error) {
       entry.require("mechanisms", "")
           .element(i)
-          .fail(fmt::format("the mechanism '{}' of plugin {} cannot act on this model", mechanisms[i].type, plugin),
-                error.what());
+          .fail(fmt::format("the mechanism '{}' cannot act on this model", mechanisms[i].type), error.what());
     }
-    if (!model) entry.fail(fmt::format("the mechanism '{}' of plugin {} gives no model", mechanisms[i].type, plugin));
   }
 }
 
@@ -74,16 +73,15 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
   entry.check_name(name, "model");
   const std::string owner = fmt::format("model '{}'", name);
   const std::string type = entry.require("type", owner).one_of(names_of(catalogue.models()), "model type");
-  const auto& [factory, plugin] = catalogue.models().find(type)->second;
-  ModelEntry model{
-      name, type, read_options(entry, factory.options, {"type", "parameters", "mechanisms"}, owner), {}, {}};
+  const auto& on_shelf = catalogue.models().find(type)->second;
+  const Options options = read_options(entry, on_shelf.factory.options, {"type", "parameters", "mechanisms"}, owner);
+  ModelEntry model{name, type, options, {}, {}};
   std::unique_ptr<Model> instance;
   try {
-    instance = factory.create(model.options);
-  } catch (const std::exception& error) {
-    entry.fail(fmt::format("the plugin {} refuses {}", plugin, owner), error.what());
+    instance = plugins::create(on_shelf, options);
+  } catch (const InputError& error) {
+    entry.fail(fmt::format("{} is refused", owner), error.what());
   }
-  if (!instance) entry.fail(fmt::format("the plugin {} gives no model of type '{}'", plugin, type));
   model.parameters = read_parameters(entry, instance->describe().parameters, owner, shared);
   model.mechanisms =
       read_mechanisms(entry, owner, catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {

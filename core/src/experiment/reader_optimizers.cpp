@@ -5,6 +5,7 @@
 
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
+#include "plugins/guarded.hpp"
 
 namespace tunica::experiment {
 namespace {
@@ -71,13 +72,13 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
     OptimizerEntry optimizer;
     optimizer.name = name;
     optimizer.type = entry.require("type", owner).one_of(names_of(catalogue.optimizers()), "optimizer type");
-    const auto& [factory, plugin] = catalogue.optimizers().find(optimizer.type)->second;
-    optimizer.options = read_options(entry, factory.options, {"type"}, owner);
+    const auto& on_shelf = catalogue.optimizers().find(optimizer.type)->second;
+    optimizer.options = read_options(entry, on_shelf.factory.options, {"type"}, owner);
     try {
-      if (!factory.create(optimizer.options))
-        entry.fail(fmt::format("the plugin {} gives no optimizer of type '{}'", plugin, optimizer.type));
+      static_cast<void>(
+          plugins::create(on_shelf, optimizer.options));  // the plugin may know more than its declaration says
     } catch (const InputError& error) {
-      entry.fail(fmt::format("the plugin {} refuses {}", plugin, owner), error.what());
+      entry.fail(fmt::format("{} is refused", owner), error.what());
     }
     optimizers.push_back(std::move(optimizer));
   }

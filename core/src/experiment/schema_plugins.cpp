@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include "experiment/schema_parts.hpp"
+#include "plugins/guarded.hpp"
 
 namespace tunica::experiment {
 namespace {
 
 using Role = Observable::Role;
+using OnShelf = plugins::Catalogue::Entry<ModelFactory>;
 
 std::string described(const std::string& doc, const std::string& reference, const std::string& plugin) {
   return fmt::format("{}{}{} (plugin {})", doc, reference.empty() ? "" : " – ", reference, plugin);
@@ -42,10 +44,9 @@ std::vector<Option::Value> alternatives(const Option& option) {
   return values;
 }
 
-void add_parameters(const ModelFactory& factory, const Options& options, std::vector<Parameter>& parameters) {
+void add_parameters(const OnShelf& shelved, const Options& options, std::vector<Parameter>& parameters) {
   try {
-    const auto model = factory.create(options);
-    if (!model) return;
+    const auto model = plugins::create(shelved, options);
     for (const Parameter& parameter : model->describe().parameters)
       if (std::none_of(parameters.begin(), parameters.end(),
                        [&](const Parameter& p) { return p.name == parameter.name; }))
@@ -55,19 +56,20 @@ void add_parameters(const ModelFactory& factory, const Options& options, std::ve
 }
 
 /// Every parameter the model has under its default options or with one of them changed.
-std::vector<Parameter> possible_parameters(const ModelFactory& factory) {
+std::vector<Parameter> possible_parameters(const OnShelf& shelved) {
+  const ModelFactory& factory = shelved.factory;
   Options defaults;
   for (const Option& option : factory.options) {
     const auto values = alternatives(option);
     if (!values.empty()) defaults.set(option.name, values.front());
   }
   std::vector<Parameter> parameters;
-  add_parameters(factory, defaults, parameters);
+  add_parameters(shelved, defaults, parameters);
   for (const Option& option : factory.options)
     for (const Option::Value& value : alternatives(option)) {
       Options changed = defaults;
       changed.set(option.name, value);
-      add_parameters(factory, changed, parameters);
+      add_parameters(shelved, changed, parameters);
     }
   return parameters;
 }
@@ -131,7 +133,7 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
   for (const auto& [type, entry] : catalogue.models()) {
     const ModelFactory& factory = entry.factory;
     Json properties = with_options(type, factory.options);
-    properties["parameters"] = parameters_schema(possible_parameters(factory));
+    properties["parameters"] = parameters_schema(possible_parameters(entry));
     properties["mechanisms"] = mechanism_list(of_models);
     definitions["model_" + type] = object_schema(described(factory.doc, factory.reference, entry.plugin),
                                                  std::move(properties), required_keys(factory.options, {"type"}));
