@@ -70,8 +70,8 @@ TEST(Es, SaysThatTheBestSearchHadConvergedWhenItIsStoppedLater) {
 }
 
 TEST(Es, GrowingRestartsLeaveTheLocalMinimaOfRastrigin) {
-  // 18 of 20 seeds within 100 000 evaluations when this was written; of three seeds one at least is expected to
-  // succeed, false alarm 1e-3 for a fresh choice of seeds (these are fixed).
+  // 19 of 20 seeds within 100 000 evaluations when this was written; of three seeds one at least is expected to
+  // succeed, false alarm 2e-4 for a fresh choice of seeds (these are fixed).
   int solved = 0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     FunctionProblem problem(rastrigin(6), {.budget = 100000, .seed = seed, .target = 1e-8});
@@ -84,7 +84,7 @@ TEST(Es, GrowingRestartsLeaveTheLocalMinimaOfRastrigin) {
 TEST(Es, FollowsTheValleyOfTheLambAorta) {
   const auto function = lamb_aorta();
   if (!function) GTEST_SKIP() << "the measured strips are not at hand: set TUNICA_DATA_DIR to the data folder";
-  // 100 of 100 seeds reached 66.101 when this was written, the slowest after 14 800 evaluations. With 97 % or more
+  // 100 of 100 seeds reached 66.101 when this was written, the slowest after 10 703 evaluations. With 97 % or more
   // (95 % confidence) a fresh set of 20 seeds would have a chance of 0.45 or less of one failure; these are fixed.
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     FunctionProblem problem(*function, {.budget = 30000, .seed = seed, .target = 66.101});
