@@ -90,7 +90,7 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses) {
 TEST_F(Schema, CarriesTheDeclarationsOfThePlugins) {
   const json& mu = text["definitions"]["model_gho"]["properties"]["parameters"]["properties"]["mu"];
   EXPECT_EQ(mu["description"],
-            "Shear modulus of the matrix. [kPa]. Default: 10 within 0.1 to 500, scale log. Gasser et al. 2006");
+            "Shear modulus of the matrix [kPa]. Default: 10 within 0.1 to 500, scale log. Gasser et al. 2006");
   const json& radius = text["definitions"]["test_thick_wall_pressurisation"]["properties"]["inner_radius"];
   EXPECT_EQ(radius["type"], json({"number", "string"}));
   EXPECT_EQ(radius["minimum"], 1e-3);

@@ -5,6 +5,11 @@
 
 namespace tunica::experiment {
 
+std::string with_unit(std::string_view doc, std::string_view unit) {
+  if (doc.ends_with('.')) doc.remove_suffix(1);
+  return unit.empty() || unit == "1" ? std::string(doc) : fmt::format("{} [{}]", doc, unit);
+}
+
 Json object_schema(std::string_view description, Json properties, const std::vector<std::string>& required) {
   Json schema = {{"description", description},
                  {"type", "object"},
@@ -31,8 +36,7 @@ Json quantity_schema(std::string_view description) {
 Json option_schema(const Option& option) {
   using Kind = Option::Kind;
   Json schema = Json::object();
-  schema["description"] =
-      option.unit.empty() || option.unit == "1" ? option.doc : fmt::format("{} [{}]", option.doc, option.unit);
+  schema["description"] = with_unit(option.doc, option.unit);
   switch (option.kind) {
     case Kind::flag:
       schema["type"] = "boolean";
@@ -69,10 +73,10 @@ Json option_schema(const Option& option) {
 Json parameters_schema(const std::vector<Parameter>& parameters) {
   Json properties = Json::object();
   for (const Parameter& p : parameters)
-    properties[p.name] = reference("parameter", fmt::format("{}{} [{}]. Default: {} within {} to {}, scale {}.{}{}",
-                                                            p.doc, p.doc.ends_with('.') ? "" : ".", p.unit, p.initial,
-                                                            p.min, p.max, p.scale == Scale::log ? "log" : "linear",
-                                                            p.reference.empty() ? "" : " ", p.reference));
+    properties[p.name] =
+        reference("parameter", fmt::format("{}. Default: {} within {} to {}, scale {}.{}{}", with_unit(p.doc, p.unit),
+                                           p.initial, p.min, p.max, p.scale == Scale::log ? "log" : "linear",
+                                           p.reference.empty() ? "" : " ", p.reference));
   return object_schema("Bounds, start, scale of parameters, by name; what is left out keeps its default.",
                        std::move(properties));
 }

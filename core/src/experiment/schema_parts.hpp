@@ -18,6 +18,8 @@ Json object_schema(std::string_view description, Json properties, const std::vec
 Json reference(std::string_view name, std::string_view description = {});
 Json quantity_schema(std::string_view description);
 Json option_schema(const Option& option);
+/// "Stretch along the strip." and "mm" → "Stretch along the strip [mm]".
+std::string with_unit(std::string_view doc, std::string_view unit);
 /// The block "parameters" of an owner that declares these.
 Json parameters_schema(const std::vector<Parameter>& parameters);
 

@@ -87,9 +87,10 @@ Json columns_schema(const std::vector<Observable>& observables) {
     const char* role = observable.role == Role::abscissa ? "prescribed"
                        : observable.role == Role::time   ? "clock"
                                                          : "measured and fitted";
-    properties[observable.name] = {{"description", fmt::format("{} [{}], {}", observable.doc, observable.unit, role)},
-                                   {"type", "string"},
-                                   {"minLength", 1}};
+    properties[observable.name] = {
+        {"description", fmt::format("{} ({})", with_unit(observable.doc, observable.unit), role)},
+        {"type", "string"},
+        {"minLength", 1}};
     if (observable.required) required.push_back(observable.name);
   }
   Json schema = object_schema("Observable of the test → name of the column.", std::move(properties), required);
