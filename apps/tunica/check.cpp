@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "comparison/estimate.hpp"
+#include "calibration/identifiability.hpp"
+#include "comparison/ranking.hpp"
 #include "comparison/text.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
@@ -30,9 +32,9 @@ void print_tests(const calibration::Assembly& assembly) {
     std::string text = fmt::format("{} rows", channel.count);
     if (held_out > 0) text += fmt::format(" ({} held out)", held_out);
     if (channel.count > 0)
-      text +=
-          fmt::format(", {:.4g} … {:.4g} {} over {} {:.4g} … {:.4g} {}", *low, *high, channel.unit,
-                      channel.abscissa_name, *first, *last, channel.abscissa_unit == "1" ? "" : channel.abscissa_unit);
+      text += fmt::format(", {:.4g} … {:.4g} {} over {} {:.4g} … {:.4g}{}", *low, *high, channel.unit,
+                          channel.abscissa_name, *first, *last,
+                          channel.abscissa_unit == "1" ? "" : ' ' + channel.abscissa_unit);
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
                           : std::string(", noise estimated");
@@ -83,14 +85,18 @@ bool print_initial_point(const execution::PlannedRun& run) {
     fmt::print("{}\n", hanging("  the initial point cannot be evaluated: ", status.reason()));
     return false;
   }
-  fmt::print("  at the initial point: objective {:.6g}", objective);
+  std::string text = fmt::format("objective {:.6g}", objective);
   if (per_test.size() > 1)
     for (std::size_t test = 0; test < per_test.size(); ++test)
-      fmt::print("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
-  fmt::print("\n  one evaluation takes {:.3g} µs; derivatives are {}\n",
+      text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
+  fmt::print("{}\n  one evaluation takes {:.3g} µs; derivatives are {}\n", hanging("  at the initial point: ", text),
              time_evaluation(assembly, free, per_test.size()), assembly.jacobian_is_exact() ? "exact" : "differenced");
-  for (const auto& sentence : comparison::identifiability_of(assembly, free))
-    fmt::print("{}\n", hanging("  set-up: ", sentence));
+  calibration::Identifiability found;
+  if (calibration::identify(assembly, free, found).ok()) {
+    const auto sentences = found.sentences();
+    for (const auto& sentence : sentences) fmt::print("{}\n", hanging("  set-up, at the initial point: ", sentence));
+    if (sentences.empty()) fmt::print("  set-up: the data fix every parameter at the initial point\n");
+  }
   return true;
 }
 
@@ -106,9 +112,16 @@ int check(const GlobalOptions& global, const std::string& file) {
       if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   for (const auto& warning : warnings) fmt::print("{}\n", hanging("  ! ", warning));
   bool good = true;
-  for (const auto& run : plan.runs) {
-    fmt::print("\n{}: {} realisations of at most {} evaluations\n", run.label, run.entry->realisations,
+  fmt::print("\n");
+  for (const auto& run : plan.runs)
+    fmt::print("{}: {} realisations of at most {} evaluations\n", run.label, run.entry->realisations,
                run.entry->stop.max_evaluations);
+  std::set<std::string> shown;
+  for (const auto& run : plan.runs) {
+    // Runs that differ only in the optimiser pose the same problem.
+    const std::string problem = fmt::format("model {}, {}", run.entry->model, comparison::group_of(*run.entry));
+    if (!shown.insert(problem).second) continue;
+    fmt::print("\n{}\n", hanging("", problem));
     print_tests(*run.assembly);
     print_parameters(*run.assembly);
     good = print_initial_point(run) && good;

@@ -14,6 +14,7 @@
 #include "comparison/ranking_table.hpp"
 #include "comparison/result_json.hpp"
 #include "comparison/summary.hpp"
+#include "comparison/text.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
@@ -52,13 +53,15 @@ ExitCode judge(const comparison::Summary& summary) {
   return done;
 }
 
-std::string next_step(const comparison::Summary& summary, const std::string& file) {
+std::string next_step(const comparison::Summary& summary, const std::string& file,
+                      const std::filesystem::path& result) {
   const auto first = std::find_if(summary.ranking.begin(), summary.ranking.end(),
                                   [](const auto& entry) { return entry.rank.has_value(); });
   if (first == summary.ranking.end())
-    return fmt::format("tunica check {}   evaluates the initial point and shows what fails", file);
-  return fmt::format("tunica simulate {} --model {} --parameters <results>/result.json -o <folder>", file,
-                     summary.runs[first->run].model);
+    return fmt::format("tunica check {}\n(evaluates the initial point and shows what fails)", file);
+  return fmt::format(
+      "tunica simulate {} --model {} --parameters {} -o FOLDER\n(the best fit as curves, in the form of the data)",
+      file, summary.runs[first->run].model, result.string());
 }
 
 int run(const GlobalOptions& global, const RunOptions& options) {
@@ -103,8 +106,9 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   const auto code = judge(summary);
   if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
     fmt::print(stderr, "error: no evaluation succeeded; the first reason: {}\n", summary.runs.front().status.reason());
-  fmt::print("\nResults: {}\nNext:    {}\n", (directory.path() / "result.json").string(),
-             next_step(summary, options.file));
+  const auto result = directory.path() / "result.json";
+  fmt::print("\nResults: {}\n{}\n", result.string(),
+             comparison::hanging("Next:    ", next_step(summary, options.file, result)));
   return code;
 }
 

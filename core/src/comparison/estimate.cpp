@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "calibration/identifiability.hpp"
+#include "calibration/quality.hpp"
+
 namespace tunica::comparison {
 
 namespace {
@@ -39,8 +42,9 @@ void add_parameters(const calibration::Assembly& assembly, const execution::Real
   std::vector<double> unit(values.size());
   assembly.to_unit(values, unit);
   for (std::size_t j = 0; j < declared.size(); ++j) {
-    Estimate estimate{
-        declared[j].name, declared[j].unit, values[j], declared[j].min, declared[j].max, {}, Estimate::Bound::none, {}};
+    Estimate estimate;
+    estimate.name = declared[j].name, estimate.unit = declared[j].unit;
+    estimate.value = values[j], estimate.min = declared[j].min, estimate.max = declared[j].max;
     if (unit[j] <= on_bound) estimate.at_bound = Estimate::Bound::lower;
     if (unit[j] >= 1 - on_bound) estimate.at_bound = Estimate::Bound::upper;
     std::vector<double> sample;
@@ -51,15 +55,46 @@ void add_parameters(const calibration::Assembly& assembly, const execution::Real
   }
 }
 
+/// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
+void add_identifiability(const calibration::Assembly& assembly, const execution::RealisationResult& best,
+                         RunSummary& summary, std::vector<std::string>& warnings) {
+  calibration::Identifiability found;
+  const Status status = calibration::identify(assembly, best.best.parameters, found);
+  if (!status.ok()) {
+    warnings.push_back(fmt::format("{}: no confidence intervals, for the best point cannot be linearised: {}",
+                                   summary.label, status.reason()));
+    return;
+  }
+  for (std::size_t j = 0; j < summary.parameters.size(); ++j) {
+    auto& estimate = summary.parameters[j];
+    const auto& interval = found.parameters[j];
+    estimate.identified = interval.identified;
+    if (interval.identified && std::isfinite(interval.ci95))
+      estimate.ci95 = {estimate.value - interval.ci95, estimate.value + interval.ci95};
+  }
+  summary.identifiability = found.sentences();
+}
+
+void add_quality(const calibration::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
+  std::vector<double> predictions(assembly.prediction_count());
+  auto workspace = assembly.make_workspace();
+  if (!assembly.predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
+  for (auto& channel : calibration::quality(assembly, predictions)) {
+    if (channel.fitted)
+      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted});
+    if (channel.held_out)
+      summary.quality.push_back({channel.test, channel.observable, channel.unit, true, *channel.held_out});
+  }
+}
+
 }  // namespace
 
 void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
               const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
-  summary.identifiability = identifiability_of(assembly, best.best.parameters);
+  add_identifiability(assembly, best, summary, warnings);
+  add_quality(assembly, best, summary);
 }
-
-std::vector<std::string> identifiability_of(const calibration::Assembly&, std::span<const double>) { return {}; }
 
 }  // namespace tunica::comparison

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,5 @@ namespace tunica::comparison {
 /// identifiability in words.
 void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
               const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings);
-
-/// What the data fix at this point and what they do not, in sentences.
-std::vector<std::string> identifiability_of(const calibration::Assembly& assembly, std::span<const double> free);
 
 }  // namespace tunica::comparison

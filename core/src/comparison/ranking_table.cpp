@@ -35,7 +35,7 @@ std::string ranking_lines(const Summary& summary) {
                           "seconds", "success");
     }
     const std::string rank = entry.rank ? fmt::format("{}", *entry.rank) : "-";
-    const std::string objective = run.has_result ? fmt::format("{:.7g}", run.objective) : "NO RESULT";
+    const std::string objective = run.has_result ? fmt::format("{:#.7g}", run.objective) : "NO RESULT";
     const auto successes = std::lround(run.success_rate * static_cast<double>(run.realisations));
     text += fmt::format("{:>3}  {}  {:>12} {:>9} {:>7} {:>9.4g}  {}/{}{}\n", rank, pad(run.label, width), objective,
                         run.evaluations, run.failures, run.seconds, successes, run.realisations,
@@ -45,10 +45,10 @@ std::string ranking_lines(const Summary& summary) {
 }
 
 std::string quality_text(const Quality& quality) {
-  std::string text = fmt::format("RMSE {:.4g}{}", quality.rmse, unit_text(quality.unit));
-  text += quality.r2 ? fmt::format(", R² {:.5f}", *quality.r2) : std::string(", R² undefined (constant data)");
-  if (quality.nmad) text += fmt::format(", NMAD {:.3g} %", *quality.nmad);
-  text += fmt::format(", {} rows", quality.count);
+  const auto& measure = quality.agreement;
+  std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, unit_text(quality.unit));
+  text += measure.r2 ? fmt::format(", R² {:.5f}", *measure.r2) : std::string(", R² undefined (constant data)");
+  if (measure.nmad) text += fmt::format(", NMAD {:.3g} %", *measure.nmad);
   return text + (quality.held_out ? ", HELD OUT" : "");
 }
 
@@ -81,8 +81,10 @@ std::string value_text(const Estimate& estimate) {
     else
       text +=
           fmt::format("{} ({:.4g} … {:.4g})", unit_text(estimate.unit), estimate.ci95->first, estimate.ci95->second);
+  } else if (estimate.at_bound != Estimate::Bound::none) {
+    text += unit_text(estimate.unit);
   } else {
-    text += unit_text(estimate.unit) + "  (no interval)";
+    text += unit_text(estimate.unit) + (estimate.identified ? "" : "  (not fixed by the data)");
   }
   if (estimate.at_bound != Estimate::Bound::none)
     text += fmt::format("  <- AT ITS {} BOUND", estimate.at_bound == Estimate::Bound::upper ? "UPPER" : "LOWER");

@@ -42,11 +42,11 @@ json best(const RunSummary& run) {
       if (quality.test == run.tests[test])
         channels.push_back({{"channel", quality.channel},
                             {"held_out", quality.held_out},
-                            {"rows", quality.count},
+                            {"rows", quality.agreement.rows},
                             {"unit", quality.unit},
-                            {"rmse", quality.rmse},
-                            {"r2", or_null(quality.r2)},
-                            {"nmad", or_null(quality.nmad)}});
+                            {"rmse", quality.agreement.rmse},
+                            {"r2", or_null(quality.agreement.r2)},
+                            {"nmad", or_null(quality.agreement.nmad)}});
     per_test[run.tests[test]] = {{"cost", test < run.per_test.size() ? json(run.per_test[test]) : json(nullptr)},
                                  {"channels", std::move(channels)}};
   }

@@ -49,6 +49,14 @@ const std::vector<double>* measured_column(const data::Dataset& dataset, const s
   return observable == "time" && !dataset.time.empty() ? &dataset.time : nullptr;
 }
 
+/// Columns are written in the order a person reads them: what is prescribed, the time, what is measured.
+int place(const std::vector<Observable>& observables, const std::string& name) {
+  for (const auto& observable : observables)
+    if (observable.name == name)
+      return observable.role == Observable::Role::abscissa ? 0 : observable.role == Observable::Role::time ? 1 : 2;
+  return 3;
+}
+
 }  // namespace
 
 std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
@@ -73,7 +81,11 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
     const auto dataset = data::read_dataset(test.data, observables);
     auto& table = tables.emplace_back();
     table.test = test.name;
-    for (const auto& [observable, source] : dataset.source_columns) {
+    auto sources = dataset.source_columns;
+    std::stable_sort(sources.begin(), sources.end(), [&](const auto& a, const auto& b) {
+      return place(observables, a.first) < place(observables, b.first);
+    });
+    for (const auto& [observable, source] : sources) {
       const auto& [column, source_unit] = source;
       const auto declared = std::find_if(observables.begin(), observables.end(),
                                          [&name = observable](const auto& o) { return o.name == name; });

@@ -66,6 +66,23 @@ RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunR
   return summary;
 }
 
+/// Runs that end at the same point say the same: once, with all their labels.
+std::vector<std::string> merge_sentences(const std::vector<RunSummary>& runs) {
+  std::vector<std::pair<std::string, std::string>> said;  // sentence, labels
+  for (const auto& run : runs)
+    for (const auto& sentence : run.identifiability) {
+      const auto same =
+          std::find_if(said.begin(), said.end(), [&](const auto& entry) { return entry.first == sentence; });
+      if (same == said.end())
+        said.emplace_back(sentence, run.label);
+      else
+        same->second += ", " + run.label;
+    }
+  std::vector<std::string> sentences;
+  for (const auto& [sentence, labels] : said) sentences.push_back(labels + ": " + sentence);
+  return sentences;
+}
+
 }  // namespace
 
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
@@ -77,9 +94,7 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
     summary.runs.push_back(summarise_run(plan.runs[run], results[run], mismatches));
   count_successes(plan, results, summary.runs);
   summary.ranking = rank(summary.runs);
-  for (const auto& run : summary.runs)
-    for (const auto& sentence : run.identifiability) summary.identifiability.push_back(run.label + ": " + sentence);
-
+  summary.identifiability = merge_sentences(summary.runs);
   const auto add = [&](const std::string& warning) {
     auto& all = summary.warnings;
     if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/quality.hpp"
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
 #include "execution/results.hpp"
@@ -21,18 +22,16 @@ struct Estimate {
   std::string name, unit;
   double value = 0, min = 0, max = 0;
   std::optional<Interval> ci95;  ///< from the noise of the data; none where they do not fix it
+  bool identified = false;       ///< the data fix it, apart from a bound
   Bound at_bound = Bound::none;
   SampleStatistics over_realisations;
 };
 
-/// Measures of one channel over its fitted, or its held-out, rows.
+/// One channel over its fitted, or its held-out, rows.
 struct Quality {
   std::string test, channel, unit;
   bool held_out = false;
-  std::size_t count = 0;
-  double rmse = 0;             ///< in the unit of the channel
-  std::optional<double> r2;    ///< 1 − SSE/SST; none when the measured values do not vary
-  std::optional<double> nmad;  ///< per cent: 100 ⟨|e − p|⟩ / max(⟨|e|⟩, ⟨|p|⟩)
+  calibration::Agreement agreement;
 };
 
 struct RunSummary {

@@ -23,6 +23,15 @@ void warn_of_bounds(const RunSummary& run, std::vector<std::string>& warnings) {
   }
 }
 
+void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  for (const auto& parameter : run.parameters)
+    if (!parameter.identified && parameter.at_bound == Estimate::Bound::none) names.push_back(parameter.name);
+  if (!names.empty())
+    warnings.push_back(fmt::format("{}: the data do not fix {} one by one; what they do fix is said below", run.label,
+                                   fmt::join(names, ", ")));
+}
+
 void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings) {
   if (run.failures == 0 || !run.has_result) return;
   const double share =
@@ -45,6 +54,7 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
     if (run.has_result && run.status.kind() == Status::Kind::infeasible)
       warnings.push_back(fmt::format("{}: the best point BREAKS A CONSTRAINT: {}", run.label, run.status.reason()));
   for (const auto& run : runs) warn_of_bounds(run, warnings);
+  for (const auto& run : runs) warn_of_loose_parameters(run, warnings);
   for (const auto& run : runs) warn_of_failures(run, warnings);
   for (std::size_t run = 0; run < runs.size(); ++run) {
     const auto& entry = *plan.runs[run].entry;
@@ -60,6 +70,10 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
       warnings.push_back(fmt::format("{}: {} of its parameters have a prior, which is part of the objective",
                                      runs[run].label, priors));
   }
+  for (const auto& test : plan.experiment->tests)
+    if (test.hold_out.all || test.hold_out.rows)
+      warnings.push_back(fmt::format("test {}: {} held out: predicted and scored, never fitted", test.name,
+                                     test.hold_out.all ? "all rows are" : "some rows are"));
   std::set<std::string> groups;
   for (const auto& run : runs) groups.insert(run.group);
   if (groups.size() > 1)

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -D TUNICA=… -D EXPERIMENT=… -D OUTPUT=… -D PYTHON=… -P run_example.cmake
+file(REMOVE_RECURSE ${OUTPUT})
+# A build tree may be writable by others, as in a container; an installation is held to the rule.
+execute_process(COMMAND ${TUNICA} --allow-world-writable-plugins run ${EXPERIMENT} -o ${OUTPUT} RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "tunica run ${EXPERIMENT}: exit code ${code}")
+endif()
+get_filename_component(folder ${EXPERIMENT} DIRECTORY)
+if(EXISTS ${folder}/check.py)
+  execute_process(COMMAND ${PYTHON} ${folder}/check.py ${OUTPUT} RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${folder}/check.py is not content with ${OUTPUT}/result.json")
+  endif()
+endif()

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Long enough to be killed in the middle: three searches of 60000 evaluations.
+struct LongBench : trial::Bench {
+  LongBench() {
+    experiment["stop"]["max_evaluations"] = 60000;
+    save();
+  }
+  [[nodiscard]] std::vector<std::string> run(const std::string& output) const {
+    return trial::tunica_command({"run", "experiment.json", "-o", output, "-j", "2"});
+  }
+  /// Waits until the journal has so many bytes; false when the process came to its end before.
+  [[nodiscard]] bool wait_for(const std::string& output, std::uintmax_t bytes) const {
+    for (int attempt = 0; attempt < 3000; ++attempt) {
+      std::error_code none;
+      if (std::filesystem::exists(path(output + "/result.json"), none)) return false;
+      const auto size = std::filesystem::file_size(path(output + "/evaluations.csv"), none);
+      if (!none && size >= bytes) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+  void expect_equal(const std::string& a, const std::string& b) const {
+    EXPECT_EQ(trial::without_times(result(a)), trial::without_times(result(b)));
+    EXPECT_TRUE(trial::without_times(text(a + "/evaluations.csv")) ==
+                trial::without_times(text(b + "/evaluations.csv")));
+    EXPECT_FALSE(std::filesystem::exists(path(b + "/parts")));
+  }
+};
+
+}  // namespace
+
+TEST(Resume, AfterKillsGivesTheIdenticalResult) {
+  const LongBench bench;
+  ASSERT_EQ(trial::Process(bench.run("whole"), bench.folder.path()).wait().code, 0);
+  {
+    trial::Process process(bench.run("killed"), bench.folder.path());
+    ASSERT_TRUE(bench.wait_for("killed", 300000));
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().code, 128 + SIGKILL);
+  }
+  auto again = bench.run("killed");
+  again.push_back("--resume");
+  {
+    trial::Process process(again, bench.folder.path());
+    const auto size = std::filesystem::file_size(bench.path("killed/evaluations.csv"));
+    ASSERT_TRUE(bench.wait_for("killed", size + 300000));
+    process.signal(SIGKILL);
+    EXPECT_EQ(process.wait().code, 128 + SIGKILL);
+  }
+  const auto ended = trial::Process(again, bench.folder.path()).wait();
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  bench.expect_equal("whole", "killed");
+}
+
+TEST(Resume, AfterCtrlCGivesTheIdenticalResult) {
+  const LongBench bench;
+  ASSERT_EQ(trial::Process(bench.run("whole"), bench.folder.path()).wait().code, 0);
+  trial::Process process(bench.run("cut"), bench.folder.path());
+  ASSERT_TRUE(bench.wait_for("cut", 300000));
+  process.signal(SIGINT);
+  const auto interrupted = process.wait();
+  EXPECT_EQ(interrupted.code, 130);
+  EXPECT_EQ(interrupted.out, "");
+  EXPECT_THAT(interrupted.err,
+              HasSubstr("everything so far is saved. Go on with\n  tunica run experiment.json -o cut --resume"));
+  EXPECT_FALSE(std::filesystem::exists(bench.path("cut/result.json")));
+  auto again = bench.run("cut");
+  again.push_back("--resume");
+  const auto ended = trial::Process(again, bench.folder.path()).wait();
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  bench.expect_equal("whole", "cut");
+}
+
+TEST(Resume, OfAFinishedRunRepeatsItsResult) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const auto before = trial::without_times(bench.result("out"));
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).code, 0);
+  EXPECT_EQ(trial::without_times(bench.result("out")), before);
+}
+
+TEST(Resume, SaysWhatChanged) {
+  trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  bench.experiment["stop"]["max_evaluations"] = 700;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--resume"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("the experiment file changed: /"));
+  EXPECT_THAT(ended.err, HasSubstr("max_evaluations (was 600, is 700)"));
+  bench.experiment["stop"]["max_evaluations"] = 600;
+  bench.folder.write("circ.csv", bench.text("circ.csv") + "1.42,50\n");
+  EXPECT_THAT(bench.tunica({"run", "experiment.json", "-o", "out", "--resume"}).err,
+              HasSubstr("the data circ.csv changed"));
+}
+
+TEST(Resume, NeedsAnInterruptedRun) {
+  const trial::Bench bench;
+  auto ended = bench.tunica({"run", "experiment.json", "-o", "nowhere", "--resume"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("nowhere: no such folder"));
+  ended = bench.tunica({"run", "experiment.json", "--resume"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("there is no run to resume here"));
+}
+
+TEST(FullDisk, IsReportedAndTheRunCanGoOn) {
+  const LongBench bench;
+  auto command = bench.run("out");
+  // No file beyond 200 kB for this process: what a full disk looks like to a program.
+  std::string line = "ulimit -f 200;";
+  for (const auto& word : command) line += " '" + word + "'";
+  const auto stopped = trial::Process({"/bin/bash", "-c", line}, bench.folder.path()).wait();
+  EXPECT_EQ(stopped.code, 130);
+  EXPECT_THAT(stopped.err, HasSubstr("cannot write: "));
+  EXPECT_THAT(stopped.err, HasSubstr("go on with --resume"));
+  command.push_back("--resume");
+  const auto ended = trial::Process(command, bench.folder.path()).wait();
+  EXPECT_EQ(ended.code, 0) << ended.err;
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::HasSubstr;
+
+TEST(Run, WritesEverythingItPromises) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  for (const char* file :
+       {"result.json", "evaluations.csv", "fit_circ.csv", "fit_axial.csv", "input.json", "run.log", "checkpoint.json"})
+    EXPECT_TRUE(std::filesystem::exists(bench.path("out") / file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out/parts")));
+  const auto result = bench.result("out");
+  ASSERT_EQ(result["runs"].size(), 2u);
+  const auto& neo = result["runs"][0];
+  EXPECT_EQ(neo["model"], "neo");
+  EXPECT_EQ(neo["best"]["parameters"].size(), 1u);
+  EXPECT_EQ(neo["best"]["status"], "ok");
+  EXPECT_EQ(result["runs"][1]["realisations"], 3);
+  EXPECT_EQ(result["runs"][1]["evaluations"], 1800);
+  EXPECT_EQ(result["ranking"].size(), 2u);
+  EXPECT_EQ(result["provenance"]["seed"], 7);
+  EXPECT_TRUE(neo["best"]["parameters"]["mu"]["ci95"].is_array());
+  EXPECT_GT(neo["best"]["per_test"]["circ"]["channels"][0]["r2"], 0.99);
+  // One row an evaluation, and the best of them is the one that is reported.
+  const auto rows = bench.text("out/evaluations.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + neo["evaluations"].get<long>() + 1800);
+  const auto fit = bench.text("out/fit_circ.csv");
+  EXPECT_EQ(fit.substr(0, fit.find('\n')),
+            "run,stretch [1],stress [kPa],stress.predicted [kPa],held_out,transverse_stretch,normal_stretch");
+  EXPECT_EQ(std::count(fit.begin(), fit.end(), '\n'), 1 + 2 * 20);
+}
+
+TEST(Run, WritesAResultThatItsSchemaAccepts) {
+  trial::Bench bench;
+  bench.experiment["tests"]["axial"]["hold_out"] = true;
+  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0.1}};
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const std::string program =
+      "import json, sys, jsonschema; "
+      "jsonschema.Draft7Validator(json.load(open(sys.argv[1]))).validate(json.load(open(sys.argv[2])))";
+  const auto ended =
+      trial::Process({TUNICA_PYTHON, "-c", program, TUNICA_SOURCE_DIR "/schemas/tunica-result.schema.json",
+                      bench.path("out/result.json").string()},
+                     bench.folder.path())
+          .wait();
+  if (ended.err.find("No module named 'jsonschema'") != std::string::npos)
+    GTEST_SKIP() << "the independent validator is not installed (python3-jsonschema)";
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  const auto result = bench.result("out");
+  EXPECT_EQ(result["runs"][1]["fixed"]["kappa"]["value"], 0.1);
+  EXPECT_EQ(result["runs"][0]["best"]["per_test"]["axial"]["channels"][0]["held_out"], true);
+  EXPECT_THAT(result["warnings"].dump(), HasSubstr("test axial: all rows are held out"));
+  EXPECT_THAT(bench.text("out/fit_axial.csv"), HasSubstr(",1,"));
+}
+
+TEST(Run, EndsWithTheTableThePathAndTheNextStep) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  for (const char* text : {"objective", "success", "neo/lm", "gho/es", "best of 3 realisations", "RMSE ", "R² ",
+                           "Results: out/result.json", "Next:    tunica simulate experiment.json --model"})
+    EXPECT_THAT(ended.out, HasSubstr(text));
+  std::istringstream stream(ended.out);
+  for (std::string line; std::getline(stream, line);) {
+    const auto width = std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    EXPECT_LE(width, 80) << line;
+  }
+}
+
+TEST(Run, WritesNoControlCharactersToPipes) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  for (const std::string& text : {ended.out, ended.err})
+    EXPECT_TRUE(std::none_of(text.begin(), text.end(),
+                             [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) && c != '\n'; }));
+}
+
+TEST(Run, IsSilentOnStderrWhenAsked) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--quiet"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST(Run, GivesTheSameResultForAnyNumberOfThreads) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "one", "-j", "1"}).code, 0);
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "two", "-j", "2"}).code, 0);
+  EXPECT_EQ(trial::without_times(bench.result("one")), trial::without_times(bench.result("two")));
+  EXPECT_EQ(trial::without_times(bench.text("one/evaluations.csv")),
+            trial::without_times(bench.text("two/evaluations.csv")));
+  EXPECT_EQ(bench.text("one/fit_circ.csv"), bench.text("two/fit_circ.csv"));
+}
+
+TEST(Run, TakesTheSeedOfTheCommandLine) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "seven"}).code, 0);
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "eight", "--seed", "8"}).code, 0);
+  EXPECT_EQ(nlohmann::json::parse(bench.text("eight/input.json"))["seed"], 8);
+  EXPECT_EQ(bench.result("eight")["provenance"]["seed"], 8);
+  EXPECT_NE(bench.result("seven")["runs"][1]["best"]["parameters"],
+            bench.result("eight")["runs"][1]["best"]["parameters"]);
+}
+
+TEST(Run, CanBeRepeatedFromItsInput) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "first"}).code, 0);
+  std::filesystem::copy_file(bench.path("first/input.json"), bench.path("again.json"));
+  ASSERT_EQ(bench.tunica({"run", "again.json", "-o", "second"}).code, 0);
+  auto first = trial::without_times(bench.result("first")), second = trial::without_times(bench.result("second"));
+  EXPECT_EQ(first["runs"], second["runs"]);
+}
+
+TEST(Run, ShoutsAboutParametersAtTheirBounds) {
+  trial::Bench bench;
+  bench.experiment["models"]["neo"]["parameters"]["mu"] = {{"min", 1}, {"max", 5}, {"initial", 2}};
+  bench.experiment["runs"].erase(1);
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_THAT(ended.out, HasSubstr("mu = 5 kPa IS AT ITS UPPER BOUND"));
+  EXPECT_THAT(ended.out, HasSubstr("<- AT ITS UPPER BOUND"));
+  const auto result = bench.result("out");
+  EXPECT_EQ(result["runs"][0]["best"]["parameters"]["mu"]["at_bound"], "upper");
+  EXPECT_FALSE(result["warnings"].empty());
+}
+
+TEST(Run, SaysWhyWhenEveryEvaluationFails) {
+  trial::Bench bench;
+  // exp(k2 E²) overflows for every k2 in these bounds.
+  bench.experiment["models"]["gho"]["parameters"]["k2"] = {{"min", 1e6}, {"max", 1e7}, {"initial", 2e6}};
+  bench.experiment["runs"].erase(0);
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("error: no evaluation succeeded; the first reason: "));
+  EXPECT_THAT(ended.out, HasSubstr("NO RESULT"));
+  const auto result = bench.result("out");
+  EXPECT_TRUE(result["runs"][0]["best"].is_null());
+  EXPECT_TRUE(result["ranking"][0]["rank"].is_null());
+  EXPECT_EQ(result["runs"][0]["failures"], result["runs"][0]["evaluations"]);
+}
+
+TEST(Check, ShowsTheSetUpAndWritesNothing) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"check", "experiment.json"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  for (const char* text :
+       {"gho/es: 3 realisations of at most 600 evaluations", "circ, stress: 20 rows", "mu ", "kPa", "log",
+        "at the initial point: objective", "one evaluation takes", "In order. Next: tunica run experiment.json"})
+    EXPECT_THAT(ended.out, HasSubstr(text));
+  EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
+}
