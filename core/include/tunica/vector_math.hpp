@@ -8,7 +8,7 @@
 #include <emmintrin.h>
 /// exp of two doubles from glibc's libmvec (part of libm): 2 ns a value with the baseline instruction set, where
 /// std::exp takes 5 to 10; within 4 units in the last place (glibc manual, "Errors in Math Functions").
-extern "C" __m128d _ZGVbN2v_exp(__m128d);
+extern "C" __m128d _ZGVbN2v_exp(__m128d);  // NOLINT(bugprone-reserved-identifier): glibc's name
 #define TUNICA_LIBMVEC_ 1
 #endif
 

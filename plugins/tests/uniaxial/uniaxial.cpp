@@ -33,7 +33,7 @@ class Uniaxial final : public Test {
       return predict_on_tensors(strip_, input, misalignment, output);
     if (!model.parameter_derivatives && !output.jacobian.empty())
       return Status::failed("uniaxial: the model has no parameter derivatives");
-    const Status status = axes_.predict(strip_, input, output);
+    Status status = axes_.predict(strip_, input, output);
     // At α = 0 the mirrored families make every channel even in α.
     if (status.ok() && !output.jacobian.empty()) {
       const std::size_t rows = strip_.channels.size() * strip_.stretch.size();
