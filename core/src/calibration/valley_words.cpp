@@ -52,7 +52,9 @@ std::string with_uncertainty(double value, double half_width, const std::string&
   const int digits = static_cast<int>(std::floor(std::log10(std::max(std::abs(value), 1e-300))));
   if (place + digits > 9) return fmt::format("{:.9g} ± {:.1g}{}", value, half_width, unit_text(unit));
   if (half_width >= 100) return fmt::format("{:.4g} ± {:.2g}{}", value, half_width, unit_text(unit));
-  return fmt::format("{:.{}f} ± {:.{}f}{}", value, place, half_width, place, unit_text(unit));
+  // A wide interval must not round a value away that others publish: at least four digits of it.
+  const int value_place = std::clamp(3 - digits, place, std::max(place, 6));
+  return fmt::format("{:.{}f} ± {:.{}f}{}", value, value_place, half_width, place, unit_text(unit));
 }
 
 std::string in_words(const Valley& valley, const std::vector<ParameterInterval>& parameters,
