@@ -278,7 +278,7 @@ double Csv::number(const Row& row, std::size_t column, char decimal) const {
   const auto [end, error] = std::from_chars(begin, digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range && end == digits.data() + digits.size())
     return digits.find_first_of("eE") != std::string::npos &&
-                   digits.find("-", digits.find_first_of("eE")) != std::string::npos
+                   digits.find('-', digits.find_first_of("eE")) != std::string::npos
                ? 0.0  // smaller than any double
                : refuse(fmt::format("'{}', too large for a number,", excerpt(cell)), leave_out);
   if (error != std::errc() || end != digits.data() + digits.size()) {

@@ -65,8 +65,9 @@ bool same_value(const std::string& cell, const std::string& wanted) {
 std::vector<const Csv::Row*> rows_where(const Csv& csv, const DataRequest& request) {
   std::vector<const Csv::Row*> rows;
   for (const Csv::Row& row : csv.rows) rows.push_back(&row);
-  for (const auto& [name, value] : request.where) {
-    const std::size_t column = csv.column(name);
+  for (const auto& condition : request.where) {
+    const std::size_t column = csv.column(condition.first);
+    const std::string& value = condition.second;
     std::vector<std::string> present;
     for (const Csv::Row* row : rows)
       if (present.size() < 20 && std::find(present.begin(), present.end(), row->cells[column]) == present.end())
@@ -162,6 +163,7 @@ Series read_series(const std::filesystem::path& file, const DataRequest& request
   });
   if (request.time_rate && path != series.columns.end()) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const Csv::Row* row : rows)
       values.push_back(in_base_unit(series, *path, csv.number(*row, path->index, decimal)));
     const double rest = path->observable->kind == Observable::Kind::stretch ? 1 : 0;

@@ -104,6 +104,7 @@ void align(std::vector<Series>& replicates, std::vector<std::string>& warnings) 
     const std::vector<double> x = path_of(*other).values;
     for (Series::Column& column : other->columns) {
       std::vector<double> at_first;
+      at_first.reserve(path.size());
       for (const double value : path) at_first.push_back(interpolated(x, column.values, value));
       column.values = std::move(at_first);
     }

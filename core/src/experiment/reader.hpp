@@ -15,6 +15,7 @@ namespace tunica::experiment {
 template <class Shelf>
 std::vector<std::string> names_of(const Shelf& shelf) {
   std::vector<std::string> names;
+  names.reserve(shelf.size());
   for (const auto& entry : shelf) names.push_back(entry.first);
   return names;
 }
@@ -22,6 +23,7 @@ std::vector<std::string> names_of(const Shelf& shelf) {
 template <class Entry>
 std::vector<std::string> entry_names(const std::vector<Entry>& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const Entry& entry : entries) names.push_back(entry.name);
   return names;
 }

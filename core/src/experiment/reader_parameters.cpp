@@ -161,7 +161,9 @@ ParameterSettings read_undeclared_parameters(const Node& entry, std::string_view
 void check_shared(const std::vector<Shared>& shared) {
   std::map<std::string, std::vector<const Shared*>, std::less<>> groups;
   for (const Shared& member : shared) groups[member.group].push_back(&member);
-  for (const auto& [group, members] : groups) {
+  for (const auto& entry : groups) {
+    const std::string& group = entry.first;
+    const std::vector<const Shared*>& members = entry.second;
     const Shared& first = *members.front();
     if (members.size() == 1) {
       std::vector<std::string> others;

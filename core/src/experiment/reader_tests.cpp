@@ -25,7 +25,7 @@ const Observable& observable_named(const std::vector<Observable>& observables, s
 
 std::filesystem::path read_file_name(const Node& node, const std::filesystem::path& folder) {
   const std::string& name = node.text("the name of a data file");
-  const std::filesystem::path file = (folder / name).lexically_normal();
+  std::filesystem::path file = (folder / name).lexically_normal();
   std::error_code error;
   if (!name.empty() && std::filesystem::is_regular_file(file, error)) return file;
   std::vector<std::string> present;
