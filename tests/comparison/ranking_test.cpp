@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/ranking.hpp"
+
+#include <gmock/gmock.h>
+
+using namespace tunica;
+using comparison::RunSummary;
+
+namespace {
+
+RunSummary run(const std::string& group, std::optional<double> objective, Status status = Status()) {
+  RunSummary summary;
+  summary.group = group;
+  summary.has_result = objective.has_value();
+  summary.objective = objective.value_or(0);
+  summary.status = std::move(status);
+  return summary;
+}
+
+std::vector<std::size_t> order(const std::vector<comparison::Ranked>& ranking) {
+  std::vector<std::size_t> runs;
+  for (const auto& entry : ranking) runs.push_back(entry.run);
+  return runs;
+}
+
+}  // namespace
+
+TEST(Ranking, PutsTheSmallestObjectiveFirstAndKeepsTheOrderOfEquals) {
+  const auto ranking = comparison::rank({run("a", 3), run("a", 1), run("a", 2), run("a", 1)});
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(1, 3, 2, 0));
+  EXPECT_EQ(ranking[3].rank, 4u);
+}
+
+TEST(Ranking, NeverHidesARunWithoutAResult) {
+  const auto ranking = comparison::rank({run("a", {}), run("a", 5, Status::infeasible("unstable")), run("a", 9)});
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 1, 0));
+  EXPECT_FALSE(ranking[2].rank);
+}
+
+TEST(Ranking, ComparesOnlyWithinAGroup) {
+  const auto ranking = comparison::rank({run("a", 50), run("b", 1), run("a", 40)});
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 0, 1));
+  EXPECT_EQ(ranking[2].rank, 1u);
+}
+
+TEST(Ranking, TellsObjectivesAndTestsApart) {
+  experiment::RunEntry one, other;
+  one.tests = other.tests = {"circ"};
+  one.objective = experiment::ObjectiveType::sum_of_norms;
+  other.objective = experiment::ObjectiveType::least_squares;
+  EXPECT_EQ(comparison::group_of(one), "sum_of_norms on circ");
+  EXPECT_NE(comparison::group_of(one), comparison::group_of(other));
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/summary.hpp"
+
+#include <gmock/gmock.h>
+
+#include "comparison/fit_table.hpp"
+#include "execution/laboratory.hpp"
+
+using namespace tunica;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Two runs on the fakes: one realisation found the truth (a = 2, b = 1, c = 3), one came close, one run failed.
+struct Summarised {
+  Summarised() {
+    laboratory.bench.experiment.tests.front().hold_out.rows = data::RowRange{3, {}, 1};
+    laboratory.add_run("walk", 100, 2);
+    laboratory.add_run("compass");
+    plan.emplace(laboratory.plan());
+    results.resize(2);
+    results[0].realisations = {realisation(1, {2.5, 1, 3}), realisation(2, {2, 1, 3})};
+    execution::RealisationResult failed;
+    failed.tally = {150, 0, 150, 0, "row 1: no root"};
+    failed.stop_reason = "nothing succeeded";
+    results[1].realisations = {failed};
+  }
+
+  execution::RealisationResult realisation(std::uint64_t number, const std::vector<double>& at) const {
+    execution::RealisationResult result;
+    result.realisation = number;
+    result.finished = true;
+    result.best.parameters = at;
+    result.best.index = 10 * number;
+    std::vector<double> per_test(1);
+    auto workspace = plan->runs[0].assembly->make_workspace();
+    static_cast<void>(plan->runs[0].assembly->evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
+    result.tally = {100, 20, 4, 0, "row 2: overflow"};
+    result.seconds = 0.5;
+    return result;
+  }
+  comparison::Summary summarise() { return comparison::summarise(*plan, results, {"plugin x was refused"}); }
+
+  trial::Laboratory laboratory;
+  std::optional<execution::Plan> plan;
+  std::vector<execution::RunResult> results;
+};
+
+}  // namespace
+
+TEST(Summary, ReportsTheBestEvaluatedPointAndCountsEverything) {
+  Summarised made;
+  const auto summary = made.summarise();
+  const auto& run = summary.runs[0];
+  EXPECT_EQ(run.best_realisation, 2u);
+  EXPECT_EQ(run.best_id, 21u);
+  EXPECT_EQ(run.parameters[0].value, 2);
+  EXPECT_EQ(run.evaluations, 200u);
+  EXPECT_EQ(run.failures, 8u);
+  EXPECT_EQ(run.jacobians, 40u);
+  EXPECT_EQ(run.seconds, 1);
+  EXPECT_EQ(run.success_rate, 0.5);
+  EXPECT_EQ(run.objectives.count, 2u);
+  EXPECT_DOUBLE_EQ(run.parameters[0].over_realisations.mean, 2.25);
+  ASSERT_EQ(run.quality.size(), 2u);
+  EXPECT_EQ(run.quality[0].agreement.rows, 3u);
+  EXPECT_TRUE(run.quality[1].held_out);
+}
+
+TEST(Summary, KeepsARunThatFailedWithItsReason) {
+  Summarised made;
+  const auto summary = made.summarise();
+  EXPECT_FALSE(summary.runs[1].has_result);
+  EXPECT_EQ(summary.runs[1].status.reason(), "row 1: no root");
+  EXPECT_EQ(summary.ranking[1].run, 1u);
+  EXPECT_FALSE(summary.ranking[1].rank);
+}
+
+TEST(Summary, WarnsOfWhatNobodyShouldOverlook) {
+  Summarised made;
+  made.results[0].realisations = {made.realisation(1, {10, 1, 3})};
+  made.results[0].realisations[0].best.objective *= 1.5;
+  const auto warnings = made.summarise().warnings;
+  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: a = 10 kPa IS AT ITS UPPER BOUND (10 kPa)")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("where the search recorded")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: 4 of 100 evaluations failed (4 %); the first: row 2: overflow")));
+  EXPECT_THAT(warnings,
+              Contains(HasSubstr("m/compass: NO RESULT: all 150 evaluations failed; the first: row 1: no root")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("test curve: some rows are held out")));
+  EXPECT_THAT(warnings, Contains("plugin x was refused"));
+}
+
+TEST(FitTable, ShowsMeasuredPredictedAndWhatWasHeldOut) {
+  Summarised made;
+  const auto summary = made.summarise();
+  const auto text = comparison::fit_table(*made.plan, summary, "curve");
+  EXPECT_EQ(text.find("run,x [1],y [kPa],y.predicted [kPa],held_out"), 0u);
+  EXPECT_THAT(text, HasSubstr("\nm/walk,0,2,2,0"));
+  EXPECT_THAT(text, HasSubstr("\nm/walk,1,6,6,1"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("m/compass")));
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/text.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace tunica::comparison;
+
+TEST(Text, CountsColumnsNotBytes) {
+  EXPECT_EQ(columns("σ ± 2"), 5u);
+  EXPECT_EQ(pad("µs", 4) + "|", "µs  |");
+  EXPECT_EQ(pad_left("µs", 4) + "|", "  µs|");
+  EXPECT_EQ(pad("longer", 3), "longer");
+}
+
+TEST(Text, WrapsBehindItsLead) {
+  EXPECT_EQ(hanging("  ! ", "one two three four", 12), "  ! one two\n    three\n    four");
+  EXPECT_EQ(hanging("a: ", "one\ntwo", 40), "a: one\n   two");
+  EXPECT_EQ(hanging("a: ", "unbreakably", 5), "a: unbreakably");
+  EXPECT_EQ(hanging("a", "", 5), "a");
+}
