@@ -88,6 +88,8 @@ class Assembly {
   void from_unit(std::span<const double> x, std::span<double> free) const;
   void to_unit(std::span<const double> free, std::span<double> x) const;
   [[nodiscard]] std::vector<double> initial_unit() const;
+  /// Turns a Jacobian by the free parameters, row-major, into one by the unit box: times max − min, or p log(max/min).
+  void jacobian_to_unit(std::span<const double> free, std::span<double> jacobian, Workspace& workspace) const;
 
  private:
   struct Parts;

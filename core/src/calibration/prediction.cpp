@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,25 +10,40 @@
 namespace tunica::calibration {
 namespace {
 
-/// Position of the first number that is not finite, or the size. The loop without branches vectorises.
+/// Position of the first number that is not finite, or the size. 0·v is NaN exactly for those; eight sums side by side
+/// keep the check far below the cost of what it checks.
 std::size_t first_not_finite(std::span<const double> values) {
-  int bad = 0;
-  for (const double value : values) bad |= !(std::abs(value) <= std::numeric_limits<double>::max());
-  if (bad == 0) return values.size();
+  constexpr std::size_t lanes = 8;
+  double sums[lanes] = {};
+  std::size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += 0 * values[i + lane];
+  }
+  for (; i < values.size(); ++i) sums[0] += 0 * values[i];
+  double sum = 0;
+  for (const double part : sums) sum += part;
+  if (sum == 0) return values.size();
   const auto found = std::find_if_not(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   return static_cast<std::size_t>(found - values.begin());
 }
 
-/// The test's Jacobian by free parameters for one of its values, times `scale`.
-void write_row(const BoundTest& test, const double* by_slot, std::size_t position, double scale, double* row) {
-  const std::size_t size = test.size();
-  for (const auto& [free, slot] : test.columns) row[free] = scale * by_slot[slot * size + position];
-  for (const std::size_t free : test.untouched) row[free] = 0;
-}
-
-void subtract_row(const BoundTest& test, const double* by_slot, std::size_t position, double scale, double* row) {
-  const std::size_t size = test.size();
-  for (const auto& [free, slot] : test.columns) row[free] -= scale * by_slot[slot * size + position];
+/// Rows of the residuals' Jacobian of one channel, column by column; `out` is its first row, n free parameters long.
+void write_rows(const FittedChannel& channel, const BoundTest& test, const double* by_slot, double* out,
+                std::size_t n) {
+  const std::size_t count = channel.rows.size();
+  const std::size_t* const rows = channel.rows.data();
+  const double* const own = channel.own.data();
+  for (const auto& [free, slot] : test.columns) {
+    const double* const values = by_slot + slot * test.size();
+    for (std::size_t k = 0; k < count; ++k) out[k * n + free] = own[k] * values[rows[k] - test.offset];
+    if (channel.previous.empty()) continue;
+    for (std::size_t k = 1; k < count; ++k) {
+      out[k * n + free] -= channel.previous[k] * values[rows[k - 1] - test.offset];
+    }
+  }
+  for (const std::size_t free : test.untouched) {
+    for (std::size_t k = 0; k < count; ++k) out[k * n + free] = 0;
+  }
 }
 
 }  // namespace
@@ -114,8 +128,13 @@ Status Assembly::predict(std::span<const double> free, std::span<double> predict
     const auto values = predictions.subspan(test.offset, test.size());
     if (Status status = parts_->predict(test, free, values, !jacobian.empty(), workspace); !status.ok()) return status;
     if (jacobian.empty()) continue;
-    for (std::size_t i = 0; i < test.size(); ++i) {
-      write_row(test, workspace.jacobian.data(), i, 1, &jacobian[(test.offset + i) * n]);
+    double* const out = &jacobian[test.offset * n];
+    for (const auto& [index, slot] : test.columns) {
+      const double* const column = workspace.jacobian.data() + slot * test.size();
+      for (std::size_t i = 0; i < test.size(); ++i) out[i * n + index] = column[i];
+    }
+    for (const std::size_t index : test.untouched) {
+      for (std::size_t i = 0; i < test.size(); ++i) out[i * n + index] = 0;
     }
   }
   return {};
@@ -138,13 +157,7 @@ Status Assembly::evaluate(std::span<const double> free, double& objective, std::
     for (; channel != parts_->fitted.end() && channel->test == t; ++channel) {
       cost += channel_cost(*channel, workspace.predictions, residuals);
       if (jacobian.empty()) continue;
-      for (std::size_t k = 0; k < channel->rows.size(); ++k) {
-        double* row = &jacobian[(channel->block.offset + k) * n];
-        write_row(test, workspace.jacobian.data(), channel->rows[k] - test.offset, channel->own[k], row);
-        if (k > 0 && !channel->previous.empty()) {
-          subtract_row(test, workspace.jacobian.data(), channel->rows[k - 1] - test.offset, channel->previous[k], row);
-        }
-      }
+      write_rows(*channel, test, workspace.jacobian.data(), &jacobian[channel->block.offset * n], n);
     }
     if (!per_test.empty()) per_test[t] = cost;
     total += cost;
@@ -164,6 +177,18 @@ Status Assembly::evaluate(std::span<const double> free, double& objective, std::
     return Status::failed("the objective overflows: predictions are finite, their squares are not");
   objective = total;
   return {};
+}
+
+void Assembly::jacobian_to_unit(std::span<const double> free, std::span<double> jacobian, Workspace& workspace) const {
+  const std::size_t n = parts_->free.size();
+  double* const slope = workspace.shifted.data();
+  for (std::size_t j = 0; j < n; ++j) {
+    const Map& map = parts_->maps[j];
+    slope[j] = map.logarithmic ? free[j] * map.log_span : map.max - map.min;
+  }
+  for (std::size_t at = 0; at < jacobian.size(); at += n) {
+    for (std::size_t j = 0; j < n; ++j) jacobian[at + j] *= slope[j];
+  }
 }
 
 Status Assembly::diagnostics(std::size_t number, std::span<const double> free,

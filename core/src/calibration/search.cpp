@@ -61,11 +61,7 @@ Common::Common(const Assembly& assembly_, const CalibrationProblem::Settings& se
       start(settings.start.empty() ? assembly.initial_unit() : settings.start),
       watch(settings.elapsed_before),
       pool(assembly),
-      replaying(static_cast<bool>(settings.replay)) {
-  for (const FreeParameter& free : assembly.parameters()) {
-    to_parameters.push_back(free.scale == Scale::log ? std::log(free.max / free.min) : free.max - free.min);
-  }
-}
+      replaying(static_cast<bool>(settings.replay)) {}
 
 void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count) {
   calls.push_back({size(), count, jacobian});
@@ -150,13 +146,7 @@ Status Search::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
       common_.assembly.from_unit(x, free);
     }
   }
-  if (status.kind() == Status::Kind::failed || jacobian.empty()) return status;
-  // ∂r/∂x = ∂r/∂p dp/dx with dp/dx = max − min, or p log(max/min).
-  for (std::size_t j = 0; j < n; ++j) {
-    const bool logarithmic = common_.assembly.parameters()[j].scale == Scale::log;
-    const double factor = common_.to_parameters[j] * (logarithmic ? free[j] : 1);
-    for (std::size_t at = j; at < jacobian.size(); at += n) jacobian[at] *= factor;
-  }
+  if (status.kind() != Status::Kind::failed) common_.assembly.jacobian_to_unit(free, jacobian, workspace);
   return status;
 }
 

@@ -66,7 +66,7 @@ struct Common {
   const Assembly& assembly;
   const CalibrationProblem::Settings& settings;
   std::size_t parameters, tests;
-  std::vector<double> start, to_parameters;  ///< unit box; max − min of each parameter, or log(max/min)
+  std::vector<double> start;  ///< unit box
   Watch watch;
   WorkspacePool pool;
   bool replaying;  ///< the journal has not run out; while true nothing runs side by side
