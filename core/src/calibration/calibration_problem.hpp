@@ -32,7 +32,9 @@ struct Best {
 };
 
 /// A journal of evaluations that were already made, in index order, for resuming: returns false when it has none
-/// at this index. The problem checks that the parameters are bit-identical and throws std::runtime_error if not.
+/// at this index, and then never at a later one. The problem checks that the parameters are bit-identical and throws
+/// std::runtime_error if not; where residuals are asked for it evaluates again and checks the objective instead.
+/// Called from one thread at a time; an index may be asked for twice.
 struct Replayed {
   std::vector<double> parameters, per_test;
   double objective;
@@ -47,7 +49,13 @@ struct Tally {
 };
 
 /// The host's Problem: counts, keeps the best, enforces the stop block and the failure policy, records every
-/// evaluation in index order, replays a journal. One object per realisation and stage.
+/// evaluation in index order, replays a journal. One object per realisation and stage; stop.max_evaluations and
+/// stop.stall count its own evaluations.
+///
+/// A batch counts whole, up to the budget: a target or a stall in the middle of one refuses what comes after it, so
+/// that results do not depend on threads. Starts run side by side and are merged as if one after the other
+/// (starts.hpp); a start's evaluations() and budget() are its own, from what was left when its block began. Only
+/// max_time and an interruption depend on the clock; what is recorded then is still a prefix of what would have been.
 class CalibrationProblem : public Problem {
  public:
   struct Settings {
@@ -58,7 +66,7 @@ class CalibrationProblem : public Problem {
     std::vector<double> start;                       ///< unit box; empty = the parameters' initial values
     std::function<void(const Record&)> record = {};  ///< called in index order, never concurrently
     Replay replay = {};
-    std::function<bool()> interrupted = {};  ///< Ctrl-C
+    std::function<bool()> interrupted = {};  ///< Ctrl-C; called from any thread
     std::uint64_t first_index = 0;           ///< of a later stage
     double elapsed_before = 0;               ///< s, counted against max_time
   };
@@ -67,7 +75,7 @@ class CalibrationProblem : public Problem {
 
   [[nodiscard]] const Best& best() const;
   [[nodiscard]] const Tally& tally() const;
-  [[nodiscard]] const std::string& stop_reason() const;  ///< "max_evaluations", "target", "stall", … or empty
+  [[nodiscard]] const std::string& stop_reason() const;  ///< "target", "stall", …, see ledger.hpp; or empty
 
   // Problem
   [[nodiscard]] std::size_t dimension() const override;
