@@ -81,6 +81,26 @@ TEST(Run, WritesNoControlCharactersToPipes) {
                              [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) && c != '\n'; }));
 }
 
+TEST(Run, DrawsABarOnATerminalAndObeysNoColor) {
+  if (!std::filesystem::exists("/usr/bin/script")) GTEST_SKIP() << "there is no script(1) to make a terminal with";
+  trial::Bench bench;
+  bench.experiment["stop"]["max_evaluations"] = 60000;
+  bench.save();
+  const auto on_terminal = [&](const std::string& folder, const std::string& environment) {
+    std::string line = "TERM=xterm " + environment;
+    for (const auto& word : trial::tunica_command({"run", "experiment.json", "-o", folder})) line += " '" + word + "'";
+    const auto ended = trial::Process({"/usr/bin/script", "-qec", line, "/dev/null"}, bench.folder.path()).wait();
+    EXPECT_EQ(ended.code, 0);
+    return ended.out;
+  };
+  const auto plain = on_terminal("plain", "NO_COLOR=1"), coloured = on_terminal("coloured", "NO_COLOR=");
+  EXPECT_THAT(plain, HasSubstr("\r["));
+  EXPECT_THAT(plain, HasSubstr("/s  gho/es: best "));
+  EXPECT_THAT(plain, HasSubstr("\r\033[K"));
+  EXPECT_THAT(plain, ::testing::Not(HasSubstr("\033[36m")));
+  EXPECT_THAT(coloured, HasSubstr("\033[36m"));
+}
+
 TEST(Run, IsSilentOnStderrWhenAsked) {
   const trial::Bench bench;
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--quiet"});

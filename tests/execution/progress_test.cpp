@@ -39,5 +39,5 @@ TEST(Progress, ShowsShareRateBestAndTimeLeft) {
   meters[1].evaluations = 500;
   meters[1].running = true;
   const Progress progress(Progress::Style::lines, plan, meters);
-  EXPECT_EQ(progress.text(3), " 75 %  1 of 2 searches  500 /s  m/walk: best 2.5  at most 0:01 left");
+  EXPECT_EQ(progress.text(3), " 75 %  1/2 searches  500 /s  m/walk: best 2.5  max 0:01 left");
 }

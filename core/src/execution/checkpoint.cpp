@@ -87,7 +87,10 @@ Facts facts_of(const Plan& plan) {
   for (const auto& run : plan.runs) {
     for (const auto& hash : run.assembly->data_hashes()) {
       const auto space = hash.rfind(' ');
-      facts["the data " + hash.substr(0, space)] = space == std::string::npos ? hash : hash.substr(space + 1);
+      auto& known = facts["the data " + hash.substr(0, space)];
+      const std::string digest = space == std::string::npos ? hash : hash.substr(space + 1);
+      // Files of one name in several folders share the entry.
+      if (known.find(digest) == std::string::npos) known += known.empty() ? digest : ' ' + digest;
     }
     for (const auto& stage : run.stages) facts["the plugin of " + stage.entry->type] = stage.optimizer->plugin;
   }

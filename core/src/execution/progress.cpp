@@ -17,6 +17,7 @@ namespace tunica::execution {
 namespace {
 
 constexpr double bar_interval = 0.1, line_interval = 5;  // s
+constexpr std::size_t shortest_bar = 5;                  // columns
 
 std::size_t terminal_width() {
   winsize size{};
@@ -76,14 +77,14 @@ std::string Progress::text(double seconds) const {
   const double rate = seconds > 0 ? static_cast<double>(evaluations) / seconds : 0;
   const double share = budget > 0 ? static_cast<double>(evaluations) / static_cast<double>(budget) : 1;
   std::string line =
-      fmt::format("{:3.0f} %  {} of {} searches  {}/s", 100 * share, finished, meters_.size(), rate_text(rate));
+      fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * share, finished, meters_.size(), rate_text(rate));
   if (current < meters_.size()) {
     const auto run = plan_.tasks[current].run;
     line += fmt::format("  {}: ", plan_.runs[run].label);
     line += std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
   }
   // The budget is an upper bound, for a search may converge before it is spent; so is the time.
-  if (rate > 0) line += fmt::format("  at most {} left", clock_text(static_cast<double>(budget - evaluations) / rate));
+  if (rate > 0) line += fmt::format("  max {} left", clock_text(static_cast<double>(budget - evaluations) / rate));
   return line;
 }
 
@@ -105,7 +106,7 @@ void Progress::draw(bool last) {
   drawn_ = seconds;
   std::string line = text(seconds);
   const std::size_t width = terminal_width() - 1;
-  if (line.size() + 8 < width) {
+  if (line.size() + 3 + shortest_bar <= width) {
     const std::size_t length = std::min<std::size_t>(width - line.size() - 3, 30);
     const auto full =
         static_cast<std::size_t>(std::lround(std::strtod(line.c_str(), nullptr) / 100 * static_cast<double>(length)));
