@@ -54,7 +54,7 @@ Ledger Ledger::for_one_start() const {
   rules.stop.max_evaluations = budget();
   rules.first_index = 0;
   rules.whole_run = false;
-  Ledger ledger(std::move(rules));
+  Ledger ledger(rules);
   ledger.best_ = best_;
   return ledger;
 }

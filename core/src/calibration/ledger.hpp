@@ -34,7 +34,7 @@ class Ledger {
   };
   static constexpr std::uint64_t rate_counts_from = 100, nothing_succeeded_after = 200;
 
-  explicit Ledger(Rules rules) : rules_(std::move(rules)) {}
+  explicit Ledger(Rules rules) : rules_(rules) {}
 
   void add(std::span<const double> parameters, double objective, const Status& status, bool jacobian);
   /// Stops for a reason from outside: "max_time", "interrupted". The first reason stays.
