@@ -58,8 +58,15 @@ void add_tests(Registry& registry) {
       {"stress", "kPa", Role::channel, false, "stress along the strip", Kind::stress},
       {"transverse_stretch", "1", Role::channel, false, "stretch across", Kind::stretch},
       {"time", "s", Role::time, false, "time since rest", Kind::plain}};
-  registry.add(
-      TestFactory{"uniaxial", "A strip pulled", "", {direction}, strip, [](const TestSetup&) { return nullptr; }});
+  registry.add(TestFactory{"uniaxial",
+                           "A strip pulled",
+                           "",
+                           {direction},
+                           strip,
+                           [](const TestSetup&) { return nullptr; },
+                           {{"misalignment", "deg", 0, -15, 15, Scale::linear, "", ""},
+                            {"gain", "1", 0, -1, 1, Scale::linear, "", ""},
+                            {"p", "kPa", 1, 0, 100, Scale::linear, "", ""}}});
   const std::vector<Option> tube_options = {
       {"inner_radius", Option::Kind::quantity, {}, "Unloaded inner radius", "mm", 1e-3, {}, {}},
       {"thickness", Option::Kind::quantity, {}, "Unloaded wall thickness", "mm", 1e-3, {}, {}},

@@ -128,7 +128,7 @@ TEST_F(Parameters, AreTiedByShareGroups) {
                 "have different units: deg here, kPa at /models/gho/parameters/mu");
 }
 
-TEST_F(Parameters, OfATestAreCheckedAsFarAsTheyAreKnown) {
+TEST_F(Parameters, OfATestAreCheckedAgainstWhatItsTypeDeclares) {
   const auto of_test = [](std::string_view block) {
     return with(R"("weight": 1,)", R"("parameters": )" + std::string(block) + ",");
   };
@@ -143,7 +143,11 @@ TEST_F(Parameters, OfATestAreCheckedAsFarAsTheyAreKnown) {
   EXPECT_EQ(settings.at("p").initial, 80 * 0.133322387415);
   expect_within(refusal(of_test(R"({"misalignment": {"min": 5, "max": 1}})")),
                 "the bounds of 'misalignment' of test 'circumferential_strip' are reversed");
+  EXPECT_EQ(settings.size(), 3u);
+  EXPECT_TRUE(read(of_test("{}")).test("circumferential_strip").parameters.empty());  // at their nulls
   expect_within(refusal(of_test(R"({"misalignment": {"max": "1 kPaa"}})")), "unknown unit 'kPaa'");
+  expect_within(refusal(of_test(R"({"misalignment": {"fixed": "3 kPa"}})")), "kPa");
+  expect_within(refusal(of_test(R"({"misalinment": {"fixed": 3}})")), "Did you mean 'misalignment'?");
   expect_within(refusal(of_test(R"({"force_offset.value": {"max": 1}})")), "the mechanism's own entry");
 }
 

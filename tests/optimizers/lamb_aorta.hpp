@@ -18,13 +18,10 @@ struct Strip {
   std::vector<double> stretch, stress;
 };
 
-/// Rows 0:240:6 of one of the measured strips; none where the data folder is not at hand.
+/// Rows 0:240:6 of one of the measured strips, as the example carries them.
 inline std::optional<Strip> lamb_aorta_strip(bool circumferential) {
-  const char* folder = std::getenv("TUNICA_DATA_DIR");
-  const std::filesystem::path data =
-      folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path(TUNICA_SOURCE_DIR) / "../shared/data";
-  std::ifstream file(data / "real" /
-                     (circumferential ? "lamb_aorta_ctl_circumferential.csv" : "lamb_aorta_ctl_axial.csv"));
+  std::ifstream file(std::filesystem::path(TUNICA_SOURCE_DIR) / "examples" / "lamb_aorta" /
+                     (circumferential ? "circumferential.csv" : "axial.csv"));
   if (!file) return std::nullopt;
   Strip strip{circumferential, {}, {}};
   bool header = true;

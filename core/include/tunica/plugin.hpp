@@ -48,6 +48,9 @@ struct TestFactory {
   std::vector<Option> options;
   std::vector<Observable> observables;
   std::function<std::unique_ptr<Test>(const TestSetup&)> create;
+  /// Every parameter a test of this type can have, as TestDescription declares it: files are checked against it
+  /// before there are data to make a test from.
+  std::vector<Parameter> parameters = {};
 };
 
 struct OptimizerFactory {

@@ -83,6 +83,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     const bool spent = result.tally.evaluations >= shared.max_evaluations;
     const bool stage_ended =
         result.stop_reason.empty() || result.stop_reason == "stall" ||
+        (result.stop_reason == "target" && !(shared.target && result.best.objective <= *shared.target)) ||
         (result.stop_reason == "max_evaluations" && !spent) ||
         (result.stop_reason == "max_time" && !(shared.max_time && result.seconds >= *shared.max_time));
     if (!stage_ended) break;

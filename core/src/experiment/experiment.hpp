@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -69,6 +70,9 @@ enum class OnFailure { penalise, stop, retry };
 struct ConstraintEntry {
   std::string type, json, pointer;
 };
+
+/// max_evaluations of a stage that has no limit of its own: what is left of the shared one.
+constexpr std::uint64_t no_own_limit = std::numeric_limits<std::uint64_t>::max();
 
 struct Stop {
   std::uint64_t max_evaluations = 60000;

@@ -45,9 +45,10 @@ struct Shared {
 /// The block "parameters" of `entry`, completed: every declared parameter is fixed, or has bounds, initial and scale.
 ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter>& declared, std::string_view owner,
                                   std::vector<Shared>& shared);
-/// The same for the own parameters of a test, which are declared only once the test is built on its data: names and
-/// numbers are checked against each other, units by their dimension.
-ParameterSettings read_undeclared_parameters(const Node& entry, std::string_view owner, std::vector<Shared>& shared);
+/// The same for the own parameters of a test, but those that the file mentions only: an imperfection that it does not
+/// mention stays at its null.
+ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector<Parameter>& declared,
+                                            std::string_view owner, std::vector<Shared>& shared);
 void check_shared(const std::vector<Shared>& shared);
 
 // reader_models.cpp
@@ -65,7 +66,8 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
 data::RowRange read_row_range(const Node& node);
 
 // reader_optimizers.cpp
-Stop read_stop(const Node& node);
+/// `default_evaluations`: the limit where the block names none.
+Stop read_stop(const Node& node, std::uint64_t default_evaluations = Stop{}.max_evaluations);
 std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Catalogue& catalogue);
 
 // reader_runs.cpp

@@ -22,7 +22,7 @@ OptimizerEntry read_stages(const std::string& name, const Node& entry, const std
     if (node.is_object()) {
       node.allow_only({"optimizer", "stop"}, "a stage");
       stage.optimizer = node.require("optimizer", "a stage").one_of(names, "optimizer");
-      if (const auto stop = node.find("stop")) stage.stop = read_stop(*stop);
+      if (const auto stop = node.find("stop")) stage.stop = read_stop(*stop, no_own_limit);
     } else {
       stage.optimizer = node.one_of(names, "optimizer");
     }
@@ -38,9 +38,10 @@ OptimizerEntry read_stages(const std::string& name, const Node& entry, const std
 
 }  // namespace
 
-Stop read_stop(const Node& node) {
+Stop read_stop(const Node& node, std::uint64_t default_evaluations) {
   node.allow_only({"max_evaluations", "max_time", "target", "stall"}, "\"stop\"");
   Stop stop;
+  stop.max_evaluations = default_evaluations;
   if (const auto child = node.find("max_evaluations"))
     stop.max_evaluations = child->count("a whole number of evaluations from 1", 1);
   if (const auto child = node.find("max_time")) {

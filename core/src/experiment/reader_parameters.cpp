@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "data/units.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
@@ -15,28 +13,13 @@ namespace {
 
 const std::vector<std::string> keys = {"min", "max", "initial", "fixed", "scale", "share", "prior"};
 
-/// What an undeclared parameter's unit may be; the first that fits is its base unit.
-constexpr std::array base_units = {"1", "kPa", "mm", "mN", "s", "deg", "1/s", "mN/mm", "mm/s", "kPa/s"};
-
-// `unit` "" = by dimension.
-double read_value(const Node& node, std::string_view unit, std::string_view expected) {
-  if (!unit.empty() || !node.is_text()) return node.quantity(unit.empty() ? "1" : unit, expected);
-  for (const char* base : base_units) {
-    try {
-      return data::parse_quantity(node.text(expected), base);
-    } catch (const InputError&) {  // the next; if none fits, the error for "1" is thrown below
-    }
-  }
-  return node.quantity("1", expected);
-}
-
 ParameterSetting read_setting(const Node& node, const std::string& name, std::string_view unit) {
   const std::string what = fmt::format("parameter '{}'", name);
   node.allow_only(keys, what);
   ParameterSetting setting;
   setting.pointer = node.pointer();
   const auto value = [&](const std::string& key) -> std::optional<double> {
-    if (const auto child = node.find(key)) return read_value(*child, unit, fmt::format("'{}' of {}", key, what));
+    if (const auto child = node.find(key)) return child->quantity(unit, fmt::format("'{}' of {}", key, what));
     return std::nullopt;
   };
   setting.min = value("min");
@@ -51,9 +34,8 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
   }
   if (const auto prior = node.find("prior")) {
     prior->allow_only({"mean", "sd"}, fmt::format("the prior of {}", what));
-    setting.prior =
-        Prior{read_value(prior->require("mean", "the prior of " + what), unit, "the prior mean"),
-              read_value(prior->require("sd", "the prior of " + what), unit, "the prior standard deviation")};
+    setting.prior = Prior{prior->require("mean", "the prior of " + what).quantity(unit, "the prior mean"),
+                          prior->require("sd", "the prior of " + what).quantity(unit, "the prior standard deviation")};
     if (!(setting.prior->sd > 0))
       prior->child_or_self("sd").fail(fmt::format("the prior standard deviation of {} is {}", what, setting.prior->sd),
                                       "It must be greater than zero; to hold a parameter, use \"fixed\".");
@@ -141,19 +123,11 @@ ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter
   return settings;
 }
 
-ParameterSettings read_undeclared_parameters(const Node& entry, std::string_view owner, std::vector<Shared>& shared) {
-  ParameterSettings settings;
+ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector<Parameter>& declared,
+                                            std::string_view owner, std::vector<Shared>& shared) {
+  ParameterSettings settings = read_parameters(entry, declared, owner, shared);
   const auto block = entry.find("parameters");
-  if (!block) return settings;
-  for (const auto& [name, node] : block->members("an object with one entry per parameter")) {
-    if (name.find('.') != std::string::npos)
-      node.fail(fmt::format("unknown parameter '{}' of {}", excerpt(name), owner),
-                "Parameters of a mechanism stand in the mechanism's own entry.");
-    const ParameterSetting setting = read_setting(node, name, "");
-    check_setting(node, setting, setting, fmt::format("'{}' of {}", name, owner), "");
-    if (setting.share) shared.push_back({*setting.share, "", setting, node});
-    settings.emplace(name, setting);
-  }
+  std::erase_if(settings, [&](const auto& setting) { return !block || !block->find(setting.first); });
   return settings;
 }
 

@@ -227,7 +227,7 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   test.type = type;
   test.options =
       read_options(entry, factory.options, {"type", "data", "weight", "hold_out", "parameters", "mechanisms"}, owner);
-  test.parameters = read_undeclared_parameters(entry, owner, shared);
+  test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);
   const auto channels = std::count_if(test.data.columns.begin(), test.data.columns.end(), [&](const auto& column) {

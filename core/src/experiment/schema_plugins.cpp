@@ -151,9 +151,7 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     Json properties = with_options(type, factory.options);
     properties["data"] = data_schema(factory);
     for (const char* name : {"weight", "hold_out"}) properties[name] = reference(name);
-    properties["parameters"] = {{"description", "The test's own parameters, by name."},
-                                {"type", "object"},
-                                {"additionalProperties", reference("parameter")}};
+    properties["parameters"] = parameters_schema(factory.parameters);
     properties["mechanisms"] = mechanism_list(applicable);
     definitions["test_" + type] =
         object_schema(described(factory.doc, factory.reference, entry.plugin), std::move(properties),

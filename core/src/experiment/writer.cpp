@@ -61,7 +61,8 @@ Json written(const data::DataRequest& data) {
 }
 
 Json written(const Stop& stop) {
-  Json json = {{"max_evaluations", stop.max_evaluations}};
+  Json json = Json::object();
+  if (stop.max_evaluations != no_own_limit) json["max_evaluations"] = stop.max_evaluations;
   if (stop.max_time) json["max_time"] = *stop.max_time;
   if (stop.target) json["target"] = *stop.target;
   if (stop.stall) json["stall"] = *stop.stall;

@@ -12,12 +12,16 @@
 namespace tunica::uniaxial {
 namespace {
 
+std::vector<Parameter> own_parameters() {
+  return {{"misalignment", "deg", 0, -15, 15, Scale::linear,
+           "Angle between the pulled direction and the nominal material axis.", ""}};
+}
+
 /// A strip pulled along the circumferential or axial direction, its lateral faces free.
 class Uniaxial final : public Test {
  public:
   explicit Uniaxial(const TestSetup& setup) : axes_(bind(setup)) {
-    description_.parameters = {{"misalignment", "deg", 0, -15, 15, Scale::linear,
-                                "Angle between the pulled direction and the nominal material axis.", ""}};
+    description_.parameters = own_parameters();
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
@@ -95,7 +99,8 @@ TestFactory factory() {
             Observable::Kind::stretch},
            {"normal_stretch", "1", Observable::Role::channel, false, "Stretch through the thickness.",
             Observable::Kind::stretch}},
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); }};
+          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); },
+          own_parameters()};
 }
 
 }  // namespace
