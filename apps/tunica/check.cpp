@@ -21,6 +21,7 @@ namespace tunica::app {
 namespace {
 
 using comparison::columns;
+using comparison::counted;
 using comparison::hanging;
 using comparison::pad;
 
@@ -104,8 +105,9 @@ int check(const GlobalOptions& global, const std::string& file) {
   const Session session(global);
   const auto experiment = session.read(file);
   const auto plan = execution::make_plan(experiment, session.catalogue());
-  fmt::print("{}: {} models, {} tests, {} runs, seed {}\n", experiment.name, experiment.models.size(),
-             experiment.tests.size(), experiment.runs.size(), experiment.seed);
+  fmt::print("{}: {}, {}, {}, seed {}\n", experiment.name, counted(experiment.models.size(), "model", "models"),
+             counted(experiment.tests.size(), "test", "tests"), counted(experiment.runs.size(), "run", "runs"),
+             experiment.seed);
   std::vector<std::string> warnings = plan.warnings;
   for (const auto& run : plan.runs)
     for (const auto& warning : run.assembly->warnings())
@@ -114,8 +116,8 @@ int check(const GlobalOptions& global, const std::string& file) {
   bool good = true;
   fmt::print("\n");
   for (const auto& run : plan.runs)
-    fmt::print("{}: {} realisations of at most {} evaluations\n", run.label, run.entry->realisations,
-               run.entry->stop.max_evaluations);
+    fmt::print("{}: {} of at most {} evaluations\n", run.label,
+               counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
   std::set<std::string> shown;
   for (const auto& run : plan.runs) {
     // Runs that differ only in the optimiser pose the same problem.

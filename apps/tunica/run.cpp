@@ -74,8 +74,10 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   const auto directory = options.resume ? execution::RunDirectory::reopen(requested, experiment.name)
                                         : execution::RunDirectory::create(requested, experiment.name);
   if (!global.quiet)
-    fmt::print(stderr, "{} {}: {} runs, {} searches, {} threads\n", options.resume ? "resuming" : "writing to",
-               directory.path().string(), plan.runs.size(), plan.tasks.size(), options.threads);
+    fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", directory.path().string(),
+               comparison::counted(plan.runs.size(), "run", "runs"),
+               comparison::counted(plan.tasks.size(), "search", "searches"),
+               comparison::counted(options.threads, "thread", "threads"));
 
   execution::RunSettings settings;
   settings.directory = directory.path();

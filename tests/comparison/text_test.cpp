@@ -12,6 +12,11 @@ TEST(Text, CountsColumnsNotBytes) {
   EXPECT_EQ(pad("longer", 3), "longer");
 }
 
+TEST(Text, CountsInWords) {
+  EXPECT_EQ(counted(1, "search", "searches"), "1 search");
+  EXPECT_EQ(counted(0, "search", "searches"), "0 searches");
+}
+
 TEST(Text, WrapsBehindItsLead) {
   EXPECT_EQ(hanging("  ! ", "one two three four", 12), "  ! one two\n    three\n    four");
   EXPECT_EQ(hanging("a: ", "one\ntwo", 40), "a: one\n   two");

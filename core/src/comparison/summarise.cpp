@@ -76,17 +76,17 @@ std::vector<std::string> merge_sentences(const std::vector<RunSummary>& runs) {
       if (same == said.end())
         said.emplace_back(sentence, run.label);
       else
-        same->second += ", " + run.label;
+        same->second.append(", ").append(run.label);
     }
   std::vector<std::string> sentences;
-  for (const auto& [sentence, labels] : said) sentences.push_back(labels + ": " + sentence);
+  for (const auto& [sentence, labels] : said) sentences.push_back(fmt::format("{}: {}", labels, sentence));
   return sentences;
 }
 
 }  // namespace
 
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  std::vector<std::string> warnings) {
+                  const std::vector<std::string>& warnings) {
   Summary summary;
   summary.name = plan.experiment->name;
   std::vector<std::string> mismatches;

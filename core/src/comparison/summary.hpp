@@ -74,6 +74,6 @@ struct Summary {
 /// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `warnings` come
 /// from outside (refused plugins) and go before those of the plan and the data.
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  std::vector<std::string> warnings);
+                  const std::vector<std::string>& warnings);
 
 }  // namespace tunica::comparison

@@ -20,6 +20,10 @@ std::string pad_left(std::string_view text, std::size_t width) {
   return std::string(used < width ? width - used : 0, ' ') + std::string(text);
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return std::to_string(count).append(" ").append(count == 1 ? one : many);
+}
+
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
   const std::size_t indent = columns(lead);
   std::string result(lead);

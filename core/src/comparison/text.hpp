@@ -14,6 +14,9 @@ std::size_t columns(std::string_view text);
 std::string pad(std::string_view text, std::size_t width);
 std::string pad_left(std::string_view text, std::size_t width);
 
+/// "1 search", "20 searches".
+std::string counted(std::size_t count, std::string_view one, std::string_view many);
+
 /// `text` after `lead`, wrapped to `width` columns, further lines indented to where the text began.
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width = 80);
 
