@@ -109,9 +109,9 @@ TEST(Identifiability, GivesTheCombinationTheIntervalThatOneParameterInItsPlaceWo
 
 TEST(Identifiability, NamesADirectionThatIsMerelyWeak) {
   Bench bench;
-  // Within 1e-3 of x = 1 the data hardly tell a constant from a slope and a curvature.
-  const std::vector<double> x = fakes::grid(0.999, 1.001, 9);
-  bench.add_test("t", x, fakes::map(x, [](double v) { return 1 + 2 * v; })).data.noise = {{"y", {0.1, 0, 0}}};
+  // Within 1e-2 of x = 1 the data hardly tell a constant from a slope and a curvature.
+  const std::vector<double> x = fakes::grid(0.99, 1.01, 9);
+  bench.add_test("t", x, fakes::map(x, [](double v) { return 1 + 2 * v; })).data.noise = {{"y", {2, 0, 0}}};
   const Identifiability found = identify(bench, {1, 2, 0});
   ASSERT_EQ(found.valleys.size(), 1u);
   EXPECT_FALSE(found.valleys[0].exact);
@@ -121,6 +121,31 @@ TEST(Identifiability, NamesADirectionThatIsMerelyWeak) {
               testing::StartsWith("The data do not fix a, b and c separately: two directions ("));
   EXPECT_THAT(found.valleys[0].sentence,
               HasSubstr("change the predictions so little that their uncertainty exceeds the bounds."));
+}
+
+TEST(Identifiability, LeavesAParameterItsIntervalWhereAWeakDirectionHardlyMovesIt) {
+  Bench bench;
+  const std::vector<double> x = fakes::grid(0, 0.3, 9);
+  bench.add_test("t", x, fakes::map(x, [](double v) { return 1 + 2 * v; })).data.noise = {{"y", {0.3, 0, 0}}};
+  const Identifiability found = identify(bench, {1, 2, 0});
+  ASSERT_EQ(found.valleys.size(), 1u);
+  EXPECT_FALSE(found.valleys[0].exact);
+  EXPECT_THAT(found.valleys[0].parameters, testing::Not(testing::Contains("a")));
+  EXPECT_THAT(found.valleys[0].parameters, testing::Contains("c"));
+  // var a = σ² [(XᵀX)⁻¹]_aa for 1, x, x² at nine points: 0.66 σ², whatever the other two do.
+  EXPECT_TRUE(found.parameters[0].identified);
+  EXPECT_NEAR(found.parameters[0].ci95, 1.959964 * 0.3 * std::sqrt(0.6606), 1e-3);
+  EXPECT_TRUE(std::isnan(found.parameters[2].ci95));
+}
+
+TEST(Identifiability, LeavesOutChannelsOfWeightZero) {
+  Bench bench;
+  bench.parameter("c").fixed = 0;
+  const std::vector<double> x = fakes::grid(0, 7, 8);
+  auto& entry = bench.add_test("t", x, fakes::map(x, [](double v) { return 1 + 2 * v; }), true);
+  entry.data.noise = {{"y", {0.5, 0, 0}}, {"z", {0.5, 0, 0}}};
+  entry.weights = {1, 0};
+  EXPECT_NEAR(identify(bench, {1, 2}).parameters[1].ci95, 1.959964 * 0.5 / std::sqrt(42), 1e-6);
 }
 
 TEST(Identifiability, SaysWhenAParameterHasNoEffectAtAll) {
