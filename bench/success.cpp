@@ -22,8 +22,10 @@ int main(int count, char** arguments) {
     for (int seed = 1; seed <= seeds; ++seed) {
       experiment::Stop stop = run.stop;
       stop.target = target;
-      calibration::CalibrationProblem problem(
-          assembly, {.stop = stop, .seed = derive_seed(static_cast<std::uint64_t>(seed), "success")});
+      calibration::CalibrationProblem::Settings settings;
+      settings.stop = stop;
+      settings.seed = derive_seed(static_cast<std::uint64_t>(seed), "success");
+      calibration::CalibrationProblem problem(assembly, std::move(settings));
       static_cast<void>(bench::make_optimizer(run.optimizer)->minimise(problem));
       if (problem.best().objective <= target) needed.push_back(problem.evaluations());
       worst = std::max(worst, problem.best().objective);
