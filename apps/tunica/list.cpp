@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "comparison/text.hpp"
+#include "data/nearest.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
 
@@ -32,6 +33,9 @@ void print_shelf(const std::string& title, const Shelf& shelf) {
 }
 
 int list(const GlobalOptions& global, const std::string& what) {
+  const std::vector<std::string> shelves = {"models", "tests", "optimizers", "mechanisms"};
+  if (!what.empty() && std::find(shelves.begin(), shelves.end(), what) == shelves.end())
+    throw InputError(fmt::format("there is nothing called '{}' to list. {}", what, data::suggestion(what, shelves)));
   const Session session(global);
   const auto& catalogue = session.catalogue();
   if (what.empty() || what == "models") print_shelf("models", catalogue.models());
@@ -46,8 +50,7 @@ int list(const GlobalOptions& global, const std::string& what) {
 void add_list(CLI::App& app, GlobalOptions& global, Action& action) {
   auto what = std::make_shared<std::string>();
   auto* verb = app.add_subcommand("list", "List what the loaded plugins provide");
-  verb->add_option("what", *what, "models, tests, optimizers or mechanisms; everything without it")
-      ->check(CLI::IsMember({"models", "tests", "optimizers", "mechanisms"}));
+  verb->add_option("what", *what, "models, tests, optimizers or mechanisms; everything without it");
   verb->footer("Examples:\n  tunica list\n  tunica list models\n  tunica list optimizers --plugin-path my_plugins");
   verb->callback([&global, &action, what] { action = [&global, what] { return list(global, *what); }; });
 }

@@ -8,6 +8,7 @@
 
 #include "comparison/provenance.hpp"
 #include "data/nearest.hpp"
+#include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -85,6 +86,9 @@ int main(int argc, char** argv) {
   } catch (const PluginRefused& problem) {
     fmt::print(stderr, "error: {}\n", problem.what());
     return plugin_refused;
+  } catch (const tunica::execution::WriteFailure& problem) {
+    fmt::print(stderr, "error: {}\n", problem.what());
+    return invalid_input;
   } catch (const std::exception& problem) {
     fmt::print(stderr, "internal error: {}\n", problem.what());
     return internal_error;

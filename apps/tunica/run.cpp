@@ -41,15 +41,30 @@ void override_seed(experiment::Experiment& experiment, std::uint64_t seed) {
   experiment.input_json = input.dump(2) + '\n';
 }
 
-std::string resume_command(const RunOptions& options, const std::filesystem::path& directory) {
-  return fmt::format("tunica run {} -o {} --resume", options.file, directory.string());
+/// For a POSIX shell: quoted where it has to be.
+std::string quoted(const std::string& word) {
+  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%") == word.npos)
+    return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// With everything that decides the result, so that it works as it is printed.
+std::string resume_command(const GlobalOptions& global, const RunOptions& options,
+                           const std::filesystem::path& directory) {
+  std::string command = fmt::format("tunica run {} -o {} --resume", quoted(options.file), quoted(directory.string()));
+  if (options.seed) command += fmt::format(" --seed {}", *options.seed);
+  for (const auto& path : global.plugin_paths)
+    command += " --plugin-path " + quoted(std::filesystem::path(path).string());
+  if (global.allow_world_writable_plugins) command += " --allow-world-writable-plugins";
+  return command;
 }
 
 /// 1 when a run has nothing to show, broke its constraints or was given up by the failure policy.
 ExitCode judge(const comparison::Summary& summary) {
   for (const auto& run : summary.runs)
-    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.stop_reason.rfind("failure", 0) == 0)
-      return not_converged;
+    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.given_up > 0) return not_converged;
   return done;
 }
 
@@ -90,17 +105,19 @@ int run(const GlobalOptions& global, const RunOptions& options) {
     outcome = execution::execute(plan, settings);
   }
   if (!outcome.write_failure.empty()) {
-    fmt::print(stderr, "error: {}:\n  {}\n", outcome.write_failure, resume_command(options, directory.path()));
+    fmt::print(stderr, "error: {}. Then go on with\n  {}\n", outcome.write_failure,
+               resume_command(global, options, directory.path()));
     return interrupted;
   }
   if (outcome.interrupted) {
     fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
-               resume_command(options, directory.path()));
+               resume_command(global, options, directory.path()));
     return interrupted;
   }
 
+  const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
   const auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
-  const auto provenance = comparison::provenance_of(plan, session.catalogue(), options.threads);
+  const auto provenance = comparison::provenance_of(plan);
   comparison::write_fit_tables(directory.path(), plan, summary);
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
@@ -126,7 +143,9 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str()
       ->type_name("N");
-  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")->type_name("S");
+  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
+      ->check(seed_number())
+      ->type_name("S");
   verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(

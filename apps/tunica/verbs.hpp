@@ -11,6 +11,15 @@ namespace tunica::app {
 
 using Action = std::function<int()>;
 
+/// A seed on the command line; CLI11 by itself would wrap a negative one around.
+inline CLI::Validator seed_number() {
+  return {[](std::string& text) {
+            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            return digits ? std::string() : "a seed is a whole number from 0, not '" + text + "'";
+          },
+          ""};
+}
+
 void add_run(CLI::App& app, GlobalOptions& global, Action& action);
 void add_check(CLI::App& app, GlobalOptions& global, Action& action);
 void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);

@@ -123,7 +123,7 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
   Parts& parts = *parts_;
   if (!run.constraints.empty()) {
     const auto& constraint = run.constraints.front();
-    throw InputError(fmt::format("{}: unknown constraint type '{}'; none is available yet, remove it",
+    throw InputError(fmt::format("{}: this version of tunica cannot compute the constraint '{}' yet; remove it",
                                  constraint.pointer, constraint.type));
   }
   ComposedModel model = compose_model(experiment.model(run.model), catalogue);

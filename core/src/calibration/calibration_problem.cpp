@@ -7,6 +7,7 @@
 
 #include "calibration/search.hpp"
 #include "calibration/starts.hpp"
+#include "plugins/guarded.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::calibration {
@@ -31,7 +32,7 @@ struct CalibrationProblem::Parts {
   }
 
   static void check(const Evaluations& made, std::size_t slot) {
-    if (!made.contradiction.empty() && made.contradicted == slot) throw std::runtime_error(made.contradiction);
+    if (!made.contradiction.empty() && made.contradicted == slot) throw plugins::HostFault(made.contradiction);
   }
 
   /// What the search has just counted goes to the record.

@@ -95,7 +95,7 @@ void Search::contradict(std::size_t slot, std::string what) {
       "evaluation {} of the journal cannot be continued: {}. The experiment file, a plugin or the seed has changed "
       "since "
       "it was written; restore them, or start anew without --resume",
-      *replay_from_ + ledger.tally().evaluations + (slot - made.calls.back().first), what);
+      *replay_from_ + ledger.tally().evaluations + (slot - made.calls.back().first) + 1, what);
 }
 
 bool Search::replay(std::span<const double> x, std::size_t slot) {

@@ -19,28 +19,13 @@ namespace tunica::comparison {
 
 std::string version() { return TUNICA_VERSION; }
 
-Provenance provenance_of(const execution::Plan& plan, const plugins::Catalogue& catalogue, unsigned threads) {
+Provenance provenance_of(const execution::Plan& plan) {
   Provenance result;
   const auto& experiment = *plan.experiment;
   result.version = version();
-  std::set<std::string> used, data;
-  const auto use = [&used](const auto& shelf, const std::string& type) {
-    const auto found = shelf.find(type);
-    if (found != shelf.end()) used.insert(found->second.plugin);
-  };
-  for (const auto& model : experiment.models) {
-    use(catalogue.models(), model.type);
-    for (const auto& mechanism : model.mechanisms) use(catalogue.mechanisms(), mechanism.type);
-  }
-  for (const auto& test : experiment.tests) {
-    use(catalogue.tests(), test.type);
-    for (const auto& mechanism : test.mechanisms) use(catalogue.mechanisms(), mechanism.type);
-  }
-  for (const auto& run : plan.runs) {
-    for (const auto& stage : run.stages) used.insert(stage.optimizer->plugin);
-    data.insert(run.assembly->data_hashes().begin(), run.assembly->data_hashes().end());
-  }
-  result.plugins.assign(used.begin(), used.end());
+  std::set<std::string> data;
+  for (const auto& run : plan.runs) data.insert(run.assembly->data_hashes().begin(), run.assembly->data_hashes().end());
+  result.plugins = plan.plugins;
   result.data.assign(data.begin(), data.end());
   result.compiler = "g++ " __VERSION__;
   result.libraries = {
@@ -53,7 +38,6 @@ Provenance provenance_of(const execution::Plan& plan, const plugins::Catalogue& 
       {"spdlog", fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)}};
   result.seed = experiment.seed;
   result.input_sha256 = data::sha256(experiment.input_json);
-  result.threads = threads;
   result.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                             fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
   return result;

@@ -19,11 +19,10 @@ struct Provenance {
   std::uint64_t seed = 0;
   std::string input_sha256;       ///< of input.json as it was written
   std::vector<std::string> data;  ///< "circ.csv sha256:…"
-  unsigned threads = 1;
-  std::string date;  ///< UTC, ISO 8601
+  std::string date;               ///< UTC, ISO 8601
 };
 
 std::string version();
-Provenance provenance_of(const execution::Plan& plan, const plugins::Catalogue& catalogue, unsigned threads);
+Provenance provenance_of(const execution::Plan& plan);
 
 }  // namespace tunica::comparison

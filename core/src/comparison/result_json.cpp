@@ -113,7 +113,6 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                            {"seed", provenance.seed},
                            {"input_sha256", provenance.input_sha256},
                            {"data", provenance.data},
-                           {"threads", provenance.threads},
                            {"date", provenance.date}}}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }

@@ -9,7 +9,7 @@
 namespace tunica::comparison {
 
 /// result.json, as schemas/tunica-result.schema.json says: warnings first, base units, `ci95` null where the data do
-/// not fix a parameter. Only seconds, date and threads differ between two runs with the same input and seed.
+/// not fix a parameter. Only seconds and date differ between two runs with the same input and seed.
 std::string result_json(const Summary& summary, const Provenance& provenance);
 
 }  // namespace tunica::comparison

@@ -31,6 +31,7 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
     summary.infeasible += realisation.tally.infeasible;
     summary.seconds += realisation.seconds;
     if (summary.first_failure.empty()) summary.first_failure = realisation.tally.first_failure;
+    summary.given_up += realisation.stop_reason.starts_with("failure");
     if (!realisation.best.parameters.empty()) objectives.push_back(realisation.best.objective);
   }
   summary.realisations = result.realisations.size();

@@ -38,6 +38,10 @@ void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings)
       100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
   warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.2g} %); the first: {}", run.label, run.failures,
                                  run.evaluations, share, run.first_failure));
+  if (run.given_up > 0)
+    warnings.push_back(
+        fmt::format("{}: {} of {} realisations were GIVEN UP by on_failure before their budget was spent", run.label,
+                    run.given_up, run.realisations));
 }
 
 }  // namespace

@@ -92,8 +92,8 @@ Facts facts_of(const Plan& plan) {
       // Files of one name in several folders share the entry.
       if (known.find(digest) == std::string::npos) known += known.empty() ? digest : ' ' + digest;
     }
-    for (const auto& stage : run.stages) facts["the plugin of " + stage.entry->type] = stage.optimizer->plugin;
   }
+  facts["the plugins"] = fmt::format("{}", fmt::join(plan.plugins, ", "));
   facts["the plugin interface of tunica"] = fmt::format("{}", TUNICA_PLUGIN_API);
   return facts;
 }

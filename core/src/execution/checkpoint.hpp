@@ -13,7 +13,7 @@
 namespace tunica::execution {
 
 /// What must be the same for a run to be resumed, by the words a person knows it by: "seed" → "7",
-/// "the data circ.csv" → its hash, "the plugin of es" → "es 0.1.0".
+/// "the data circ.csv" → its hash, "the plugins" → "es 0.1.0, gho 0.1.0".
 using Facts = std::map<std::string, std::string>;
 
 /// checkpoint.json: the facts, and the realisations that are finished. Those are not run again; the others are

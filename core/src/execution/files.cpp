@@ -19,9 +19,9 @@ namespace {
 
 std::string describe_failure(const std::filesystem::path& file, int error) {
   const bool space = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  return fmt::format("{}: cannot write: {}. {}", file.string(), std::strerror(error),
-                     space ? "Free some space (or raise the limit), then go on with --resume"
-                           : "Check that the folder can be written to, then go on with --resume");
+  return fmt::format(
+      "{}: cannot write: {}. {}", file.string(), std::strerror(error),
+      space ? "Free some space, or raise the limit" : "Check that the folder exists and can be written to");
 }
 
 void write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {

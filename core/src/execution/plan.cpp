@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
@@ -54,11 +55,6 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
           fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
                       "row is held out. Set hold_out to false in a test, or take out the run",
                       run.label, stage.entry->name, stage.entry->type));
-    if (!needs.constraints && !run.entry->constraints.empty())
-      warnings.push_back(
-          fmt::format("run {}: the optimiser '{}' does not handle constraints itself; violations are "
-                      "added to its objective as a penalty",
-                      run.label, stage.entry->name));
     if (needs.gradient && !run.assembly->jacobian_is_exact())
       warnings.push_back(
           fmt::format("run {}: derivatives for '{}' are differences of whole predictions, because model "
@@ -72,6 +68,24 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
     warnings.push_back(
         fmt::format("run {}: the optimiser uses no random numbers, so its {} realisations are all the same", run.label,
                     run.entry->realisations));
+}
+
+/// The plugins behind every model, test, mechanism and optimiser of the experiment.
+std::vector<std::string> used_plugins(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  std::set<std::string> used;
+  const auto use = [&used](const auto& shelf, const std::string& type) {
+    if (const auto found = shelf.find(type); found != shelf.end()) used.insert(found->second.plugin);
+  };
+  for (const auto& model : experiment.models) {
+    use(catalogue.models(), model.type);
+    for (const auto& mechanism : model.mechanisms) use(catalogue.mechanisms(), mechanism.type);
+  }
+  for (const auto& test : experiment.tests) {
+    use(catalogue.tests(), test.type);
+    for (const auto& mechanism : test.mechanisms) use(catalogue.mechanisms(), mechanism.type);
+  }
+  for (const auto& optimizer : experiment.optimizers) use(catalogue.optimizers(), optimizer.type);
+  return {used.begin(), used.end()};
 }
 
 }  // namespace
@@ -90,6 +104,7 @@ EvaluationTable Plan::table() const {
 
 Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
   Plan plan;
+  plan.plugins = used_plugins(experiment, catalogue);
   plan.experiment = &experiment;
   std::map<std::string, int> seen;
   for (const auto& entry : experiment.runs) {

@@ -38,6 +38,8 @@ struct Plan {
   std::vector<Task> tasks;  ///< in the order of evaluations.csv
   std::vector<std::string> warnings;
 
+  std::vector<std::string> plugins;  ///< every one the results depend on, "gho 0.1.0", sorted
+
   [[nodiscard]] EvaluationTable table() const;
 };
 

@@ -20,11 +20,19 @@ class PluginFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The host's own complaint, thrown through a plugin that called back into it: passed on as it is. Exit code 2.
+class __attribute__((visibility("default"))) HostFault : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Runs `call` on behalf of the plugin (as an Entry names it: "gho 0.1.0").
 template <class Call>
 std::invoke_result_t<Call> guarded(const std::string& plugin, Call&& call) {
   try {
     return std::forward<Call>(call)();
+  } catch (const HostFault&) {
+    throw;
   } catch (const InputError& problem) {
     throw InputError("plugin '" + plugin + "': " + problem.what());
   } catch (const std::exception& problem) {
