@@ -67,11 +67,11 @@ struct MatrixInvariant {
   }
 };
 
-/// ψ = μ/2 (I1 − 3)
+/// ψ = μ/2 (I1 − 3), linear in the invariant
 template <std::size_t model_parameters>
 std::unique_ptr<EnergyPart> matrix(std::size_t mu) {
   return std::make_unique<LawPart<laws::Linear, MatrixInvariant, model_parameters>>(
-      EnergyPart::Description{"matrix", EnergyPart::Role::matrix, EnergyPart::Active::always, false, {}, {mu}});
+      EnergyPart::Description{"matrix", EnergyPart::Role::matrix, EnergyPart::Active::always, false, {}, {mu}, true});
 }
 
 /// ψ = k1/(2 k2) [exp(k2 E²) − 1] for the families at ±theta, E as Geometry says.
@@ -80,7 +80,7 @@ std::unique_ptr<EnergyPart> fibres(std::vector<std::size_t> invariant_parameters
                                    std::vector<std::size_t> response_parameters, const Options& options) {
   return std::make_unique<LawPart<laws::Exponential, Geometry, model_parameters>>(
       EnergyPart::Description{"fibres", EnergyPart::Role::fibre, active(options), true, std::move(invariant_parameters),
-                              std::move(response_parameters)});
+                              std::move(response_parameters), false});
 }
 
 }  // namespace tunica::arterial

@@ -46,6 +46,7 @@ class EnergyPart {
     bool mirrored = false;                          ///< a second family at −angle, with the same ψ
     std::vector<std::size_t> invariant_parameters;  ///< model parameters that the invariant depends on
     std::vector<std::size_t> response_parameters;   ///< model parameters that ψ depends on at fixed x
+    bool linear = false;                            ///< ψ'' = 0 everywhere: nobody asks for it
   };
 
   virtual ~EnergyPart() = default;

@@ -22,6 +22,9 @@ class Hyperelastic : public Model {
   Hyperelastic(ModelDescription description, std::vector<std::unique_ptr<EnergyPart>> parts)
       : description_(std::move(description)), parts_(std::move(parts)) {
     description_.principal_axes = true;
+    if (description_.parameters.size() > hyperelastic::max_model_parameters)
+      throw std::invalid_argument("the model has more than 64 parameters");
+    if (parts_.empty()) throw std::invalid_argument("the model has no energy part");
     for (const auto& part : parts_) check(part->describe());
   }
 

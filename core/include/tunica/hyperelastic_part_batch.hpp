@@ -16,7 +16,8 @@ namespace tunica::hyperelastic {
 
 using Parts = std::vector<std::unique_ptr<EnergyPart>>;
 
-constexpr std::size_t chunk = 64;                ///< points at a time
+constexpr std::size_t chunk = 64;  ///< points at a time
+constexpr std::size_t max_model_parameters = 64;
 constexpr std::size_t max_part_parameters = 16;  ///< invariant or response parameters of one part
 
 /// The structural tensor A of an invariant x = A : C + i2 I2 + offset for one fibre family, components tt, zz, rr, tz.
