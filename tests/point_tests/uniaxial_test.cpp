@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <random>
-#include <thread>
 
 #include "support/strip.hpp"
+#include "support/test_conformance.hpp"
 
 namespace tunica::testing {
 namespace {
@@ -103,53 +103,32 @@ TEST(Uniaxial, ConvergesForAnyAdmissibleParametersOrSaysThatItOverflows) {
   EXPECT_LT(failures, 400u);
 }
 
-class UniaxialDerivatives : public ::testing::TestWithParam<std::tuple<const char*, const char*, double>> {};
+class UniaxialConformance
+    : public ::testing::TestWithParam<std::tuple<const char*, const char*, double, TestProperty>> {};
 
-TEST_P(UniaxialDerivatives, AgreeWithDifferences) {
-  const auto [direction, measure, misalignment] = GetParam();
-  const auto model = make_model("gho");
-  const std::vector<double> stretch = evenly(1.02, 1.7, 25);
-  const StripSetup setup{direction, {"transverse_stretch", "stress", "normal_stretch"}, measure, {}};
-  const auto strip = make_strip(stretch, setup);
-  const Predicted at = predict(*strip, *model, set_s, misalignment, true);
-  ASSERT_TRUE(at.status.ok()) << at.status.reason();
-  const std::size_t rows = at.values.size(), n = stretch.size();
-  const auto scale = [&](std::size_t channel, std::span<const double> column) {
-    double largest = 1e-6;
-    for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(column[channel * n + i]));
-    return largest;
-  };
-  for (std::size_t j = 0; j <= set_s.size(); ++j) {
-    std::vector<double> up = set_s, down = set_s;
-    const double h = j < set_s.size() ? 1e-5 * set_s[j] : 1e-3;
-    double turn_up = misalignment, turn_down = misalignment;
-    if (j < set_s.size())
-      up[j] += h, down[j] -= h;
-    else
-      turn_up += h, turn_down -= h;
-    const Predicted above = predict(*strip, *model, up, turn_up), below = predict(*strip, *model, down, turn_down);
-    const std::span<const double> column(at.jacobian.data() + j * rows, rows);
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < n; ++i)
-        EXPECT_NEAR(column[k * n + i], (above.values[k * n + i] - below.values[k * n + i]) / (2 * h),
-                    1e-6 * scale(k, column) + 1e-13 * scale(k, at.values) / h)
-            << "parameter " << j << " channel " << k << " row " << i;
-  }
-  std::vector<double> up = stretch, down = stretch;
-  for (std::size_t i = 0; i < n; ++i) up[i] += 1e-6, down[i] -= 1e-6;
-  const Predicted above = predict(*make_strip(up, setup), *model, set_s, misalignment),
-                  below = predict(*make_strip(down, setup), *model, set_s, misalignment);
-  for (std::size_t i = 0; i < rows; ++i)
-    EXPECT_NEAR(at.abscissa_derivative[i], (above.values[i] - below.values[i]) / 2e-6,
-                1e-6 * std::max(1., std::abs(at.abscissa_derivative[i])))
-        << i;
+TEST_P(UniaxialConformance, Holds) {
+  const auto [direction, measure, misalignment, property] = GetParam();
+  const auto strip =
+      make_strip(evenly(1.02, 1.7, 25), {direction, {"transverse_stretch", "stress", "normal_stretch"}, measure, {}});
+  const auto gho = make_model("gho");
+  EXPECT_EQ(property.check({*strip, *gho, set_s, {misalignment}}), "") << property.name;
+  const auto hgo = make_model("hgo");
+  EXPECT_EQ(property.check({*strip, *hgo, {20, 15, 0.5, 40}, {misalignment}}), "") << property.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, UniaxialDerivatives,
+INSTANTIATE_TEST_SUITE_P(All, UniaxialConformance,
                          ::testing::Combine(::testing::Values("circumferential", "axial"),
                                             ::testing::Values("cauchy", "first_piola_kirchhoff",
                                                               "second_piola_kirchhoff"),
-                                            ::testing::Values(0., 4.)));
+                                            ::testing::Values(0., 4.), ::testing::ValuesIn(test_properties())));
+
+TEST(Uniaxial, OverflowIsAStatusOnBothPaths) {
+  const auto model = make_model("gho");
+  const std::vector<double> stiff{10, 0.1, 500, 100, 90};
+  for (const double misalignment : {0., 3.})
+    for (const std::size_t rows : {5u, 40u})
+      EXPECT_EQ(overflow_is_a_status({*make_strip(evenly(1, 3, rows)), *model, stiff, {misalignment}}), "");
+}
 
 TEST(Uniaxial, TensorsGiveWhatTheAxesGive) {
   const auto model = make_model("holzapfel_2015");
@@ -208,24 +187,6 @@ TEST(Uniaxial, TakesOtherAbscissaeThanTheBoundOnes) {
   ASSERT_TRUE(strip->predict({*model, set_s, {&zero, 1}, abscissa}, {values, {}, {}, {}}).ok());
   const Predicted direct = predict(*make_strip(other), *model, set_s);
   for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(values[i], direct.values[i], 1e-9 * (1 + direct.values[i]));
-}
-
-TEST(Uniaxial, IsTheSameFromEveryThread) {
-  const auto model = make_model("gho");
-  const auto strip = make_strip(evenly(1, 1.8, 40));
-  std::array<std::vector<double>, 4> results;
-  std::vector<std::thread> threads;
-  for (auto& result : results)
-    threads.emplace_back([&] {
-      for (int k = 0; k < 200; ++k) {
-        std::vector<double> p = set_s;
-        p[0] *= 1 + 0.01 * k;
-        const Predicted out = predict(*strip, *model, p);
-        result.insert(result.end(), out.values.begin(), out.values.end());
-      }
-    });
-  for (auto& thread : threads) thread.join();
-  for (const auto& result : results) EXPECT_EQ(result, results[0]);
 }
 
 TEST(Uniaxial, RefusesRowsItCannotSimulate) {
