@@ -47,7 +47,7 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");
   verb->add_option("--noise", options->noise, "Relative noise: y (1 + R N(0, 1))")
-      ->check(seed_number())
+      ->check(CLI::NonNegativeNumber)
       ->type_name("R");
   verb->add_option("--seed", options->seed, "Seed of the noise instead of the experiment's")
       ->check(seed_number())

@@ -68,14 +68,14 @@ TEST_F(Resuming, KeepsRecordedFailures) {
 TEST_F(Resuming, RefusesOtherParameters) {
   const Recording whole = record({});
   EXPECT_THAT(fakes::message_of([&] { record(whole.replay(5), 1e-9); }),
-              HasSubstr("evaluation 1 of the journal cannot be continued: a was 3 and is now 3.0000000"));
+              HasSubstr("evaluation 2 of the journal cannot be continued: a was 3 and is now 3.0000000"));
 }
 
 TEST_F(Resuming, RefusesAnObjectiveItCannotReproduce) {
   Recording changed = record({});
   changed.lines[4].objective = std::nextafter(changed.lines[4].objective, 1e300);
   EXPECT_THAT(fakes::message_of([&] { record(changed.replay(5)); }),
-              HasSubstr("evaluation 4 of the journal cannot be continued: the objective was"));
+              HasSubstr("evaluation 5 of the journal cannot be continued: the objective was"));
   changed = record({});
   changed.lines[4].kind = Status::Kind::failed;
   EXPECT_THAT(fakes::message_of([&] { record(changed.replay(5)); }),

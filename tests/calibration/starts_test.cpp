@@ -187,7 +187,7 @@ TEST_F(StartsOnALine, RefuseAJournalOfAnotherRun) {
   recording.lines = run(1, budget(400)).lines;
   recording.lines[150].parameters[2] += 1e-12;
   const std::string message = fakes::message_of([&] { run(1, budget(400), recording.replay(400)); });
-  EXPECT_THAT(message, HasSubstr("evaluation 150 of the journal cannot be continued: c was"));
+  EXPECT_THAT(message, HasSubstr("evaluation 151 of the journal cannot be continued: c was"));
   EXPECT_THAT(message, HasSubstr("start anew without --resume"));
 }
 

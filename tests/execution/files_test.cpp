@@ -31,11 +31,11 @@ TEST(Files, GrowAtTheEnd) {
   EXPECT_EQ(trial::text_of(file), "a\nb\n");
 }
 
-TEST(Files, SayThatTheDiskIsFullAndHowToGoOn) {
+TEST(Files, SayThatTheDiskIsFullAndWhatToDo) {
   AppendFile full("/dev/full");
   const auto message = trial::message_of<WriteFailure>([&] { full.append("row\n"); });
   EXPECT_THAT(message, HasSubstr("/dev/full: cannot write: No space left on device"));
-  EXPECT_THAT(message, HasSubstr("--resume"));
+  EXPECT_THAT(message, HasSubstr("Free some space"));
 }
 
 TEST(Files, SayWhichFileCannotBeRead) {
