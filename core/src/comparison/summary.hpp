@@ -53,7 +53,7 @@ struct RunSummary {
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::string first_failure;
   std::uint64_t given_up = 0;  ///< realisations that the failure policy ended
-  bool converged = false;  ///< of the best realisation, in the optimiser's own word
+  bool converged = false;      ///< of the best realisation, in the optimiser's own word
   std::string reason, stop_reason;
   double seconds = 0;  ///< Σ over realisations
 };
