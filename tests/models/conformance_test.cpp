@@ -12,6 +12,7 @@ namespace {
 struct Case {
   std::string model, fibre_switch;
   Property property;
+  std::int64_t terms = 0;
 };
 
 class ModelConformance : public ::testing::TestWithParam<Case> {};
@@ -20,6 +21,7 @@ TEST_P(ModelConformance, Holds) {
   const Case& c = GetParam();
   Options options;
   if (!c.fibre_switch.empty()) options.set("fibre_switch", c.fibre_switch);
+  if (c.terms > 0) options.set("terms", c.terms);
   const auto model = make_model(c.model, options);
   EXPECT_EQ(c.property.check(*model, 20230211), "");
 }
@@ -27,8 +29,9 @@ TEST_P(ModelConformance, Holds) {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const Property& property : model_properties()) {
-    all.push_back({"neo_hooke", "", property});
-    for (const char* model : {"gho", "hgo", "holzapfel_2015"}) {
+    for (const char* model : {"neo_hooke", "mooney_rivlin", "yeoh", "gent"}) all.push_back({model, "", property});
+    for (const std::int64_t terms : {1, 3, 6}) all.push_back({"ogden", "", property, terms});
+    for (const char* model : {"gho", "hgo", "holzapfel_2015", "four_fibre"}) {
       all.push_back({model, "strain", property});
       all.push_back({model, "none", property});
     }
@@ -40,7 +43,7 @@ std::vector<Case> cases() {
 
 INSTANTIATE_TEST_SUITE_P(Models, ModelConformance, ::testing::ValuesIn(cases()), [](const auto& at) {
   return at.param.model + (at.param.fibre_switch.empty() ? "" : "_" + at.param.fibre_switch) + "_" +
-         at.param.property.name;
+         (at.param.terms > 0 ? std::to_string(at.param.terms) + "_" : "") + at.param.property.name;
 });
 
 }  // namespace

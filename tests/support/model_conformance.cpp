@@ -53,8 +53,8 @@ std::vector<double> Sampler::parameters(const ModelDescription& description) {
   for (const Parameter& parameter : description.parameters) {
     const double x = unit(engine_);
     const double max = parameter.name == "k2" ? std::min(parameter.max, 10.0) : parameter.max;
-    p.push_back(parameter.scale == Scale::log ? parameter.min * std::pow(max / parameter.min, x)
-                                              : parameter.min + x * (max - parameter.min));
+    const double min = parameter.name == "Jm" ? std::max(parameter.min, 2.5) : parameter.min;
+    p.push_back(parameter.scale == Scale::log ? min * std::pow(max / min, x) : min + x * (max - min));
   }
   return p;
 }

@@ -18,7 +18,7 @@ using Tensor = std::array<double, 6>;  // tt, zz, rr, tz, zr, tr
 
 /// Seeded states and parameters: C = FᵀF with F = 1 + entries up to ±0.25, parameters inside their bounds, away from
 /// the edges by 5 % of the range (of the logarithm where the scale is logarithmic), stiff exponents capped so that
-/// exp stays finite.
+/// exp stays finite, and limits of extension beyond the sampled states.
 class Sampler {
  public:
   explicit Sampler(std::uint64_t seed) : engine_(seed) {}

@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "tunica/hyperelastic.hpp"
+#include "tunica/isotropic.hpp"
 #include "tunica/law_part.hpp"
 #include "tunica/laws.hpp"
 #include "tunica/plugin.hpp"
@@ -56,22 +58,10 @@ inline EnergyPart::Active active(const Options& options) {
                               : EnergyPart::Active::always;
 }
 
-/// x = I1 − 3
-struct MatrixInvariant {
-  template <class T>
-  static InvariantOf<T> invariant(std::span<const T>) {
-    InvariantOf<T> x;
-    x.i1 = T(1);
-    x.offset = T(-3);
-    return x;
-  }
-};
-
 /// ψ = μ/2 (I1 − 3), linear in the invariant
 template <std::size_t model_parameters>
 std::unique_ptr<EnergyPart> matrix(std::size_t mu) {
-  return std::make_unique<LawPart<laws::Linear, MatrixInvariant, model_parameters>>(
-      EnergyPart::Description{"matrix", EnergyPart::Role::matrix, EnergyPart::Active::always, false, {}, {mu}, true});
+  return isotropic::part<laws::Linear, isotropic::FirstInvariant, model_parameters>("matrix", {mu}, true);
 }
 
 /// ψ = k1/(2 k2) [exp(k2 E²) − 1] for the families at ±theta, E as Geometry says.
@@ -81,6 +71,27 @@ std::unique_ptr<EnergyPart> fibres(std::vector<std::size_t> invariant_parameters
   return std::make_unique<LawPart<laws::Exponential, Geometry, model_parameters>>(
       EnergyPart::Description{"fibres", EnergyPart::Role::fibre, active(options), true, std::move(invariant_parameters),
                               std::move(response_parameters), false});
+}
+
+/// E = I_i − 1 of a single family at a fixed angle from the axial direction.
+template <int degrees>
+struct FixedFibres {
+  template <class T>
+  static InvariantOf<T> invariant(std::span<const T>) {
+    InvariantOf<T> e;
+    e.fibre = T(1);
+    e.offset = T(-1);
+    e.angle = T(degrees * degree);
+    return e;
+  }
+};
+
+/// The same response for one family along an axis, which is its own mirror image and counts once.
+template <int degrees, std::size_t model_parameters>
+std::unique_ptr<EnergyPart> single_fibres(std::string name, std::vector<std::size_t> response_parameters,
+                                          const Options& options) {
+  return std::make_unique<LawPart<laws::Exponential, FixedFibres<degrees>, model_parameters>>(EnergyPart::Description{
+      std::move(name), EnergyPart::Role::fibre, active(options), false, {}, std::move(response_parameters), false});
 }
 
 }  // namespace tunica::arterial

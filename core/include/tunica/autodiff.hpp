@@ -56,4 +56,14 @@ void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   }
 }
 
+/// The law's own response where it has one written by hand, else from its formula.
+template <class Law>
+void respond(std::span<const double> p, const ResponseBatch& batch) {
+  if constexpr (requires { Law::respond(p, batch); }) {
+    Law::respond(p, batch);
+  } else {
+    respond_by_autodiff<Law>(p, batch);
+  }
+}
+
 }  // namespace tunica

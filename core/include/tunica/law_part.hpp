@@ -40,11 +40,7 @@ class LawPart final : public EnergyPart {
   void respond(std::span<const double> parameters, const ResponseBatch& batch) const override {
     std::array<double, Law::parameter_count> own;
     for (std::size_t j = 0; j < own.size(); ++j) own[j] = parameters[description_.response_parameters[j]];
-    if constexpr (requires { Law::respond(std::span<const double>(own), batch); }) {
-      Law::respond(own, batch);
-    } else {
-      respond_by_autodiff<Law>(own, batch);
-    }
+    tunica::respond<Law>(own, batch);
   }
 
  private:

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "support/loaded.hpp"
+#include "support/model_conformance.hpp"
+#include "tunica/autodiff.hpp"
+#include "tunica/rubber_laws.hpp"
+
+namespace tunica::testing {
+namespace {
+
+struct Invariants {
+  double i1, i2;
+  explicit Invariants(const Tensor& C)
+      : i1(C[0] + C[1] + C[2]), i2(C[0] * C[1] + C[1] * C[2] + C[2] * C[0] - C[3] * C[3] - C[4] * C[4] - C[5] * C[5]) {}
+};
+
+/// The energy against its formula at 50 seeded states, to 1e-12.
+template <class Formula>
+void expect_energy(const char* type, const Formula& formula) {
+  const auto model = make_model(type);
+  Sampler sampler(7);
+  for (int draw = 0; draw < 50; ++draw) {
+    const std::vector<double> p = sampler.parameters(model->describe());
+    const Tensor C = sampler.right_cauchy_green();
+    const double expected = formula(Invariants(C), p);
+    EXPECT_NEAR(evaluate(*model, C, p).energy, expected, 1e-12 * std::max(1.0, std::abs(expected)));
+  }
+}
+
+using Parameters = std::vector<double>;
+
+TEST(MooneyRivlin, EnergyIsTheFormula) {
+  expect_energy("mooney_rivlin",
+                [](const Invariants& at, const Parameters& p) { return p[0] * (at.i1 - 3) + p[1] * (at.i2 - 3); });
+}
+TEST(Yeoh, EnergyIsTheFormula) {
+  expect_energy("yeoh", [](const Invariants& at, const Parameters& p) {
+    const double x = at.i1 - 3;
+    return p[0] * x + p[1] * x * x + p[2] * x * x * x;
+  });
+}
+TEST(Gent, EnergyIsTheFormula) {
+  expect_energy("gent", [](const Invariants& at, const Parameters& p) {
+    return -p[0] * p[1] / 2 * static_cast<double>(std::log(1 - (at.i1 - 3.0L) / p[1]));
+  });
+}
+
+TEST(Rubber, ShearModulusIsThatOfTheFormulas) {
+  // Simple shear, C = 1 + γ (e_t⊗e_z + e_z⊗e_t) + γ² e_z⊗e_z: W = ½ G γ² + O(γ⁴).
+  const auto modulus = [](const char* type, const Parameters& p, Options options = {}) {
+    constexpr double gamma = 1e-4;
+    return 2 * evaluate(*make_model(type, std::move(options)), {1, 1 + gamma * gamma, 1, gamma, 0, 0}, p).energy /
+           (gamma * gamma);
+  };
+  EXPECT_NEAR(modulus("mooney_rivlin", {150, 20}), 2 * 170, 1e-3);
+  EXPECT_NEAR(modulus("yeoh", {150, -2, 0.1}), 2 * 150, 1e-3);
+  EXPECT_NEAR(modulus("gent", {270, 80}), 270, 1e-3);
+  EXPECT_NEAR(modulus("ogden", {630, 1.3, 1.2, 5, -10, -2}), 0.5 * (630 * 1.3 + 1.2 * 5 + 10 * 2), 1e-2);
+}
+
+TEST(Rubber, PartsAreMatrix) {
+  for (const char* type : {"mooney_rivlin", "yeoh", "gent"}) {
+    const auto model = make_model(type);
+    ASSERT_FALSE(model->parts().empty()) << type;
+    for (const auto& part : model->parts()) EXPECT_EQ(part->describe().role, EnergyPart::Role::matrix) << type;
+  }
+}
+
+TEST(Gent, TendsToNeoHookeAsTheLimitMovesAway) {
+  const Tensor C{1.4, 0.9, 1.1, 0.1, -0.2, 0.05};
+  const Tensor limited = evaluate(*make_model("gent"), C, Parameters{30, 1e12}).stress,
+               free = evaluate(*make_model("neo_hooke"), C, Parameters{30}).stress;
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(limited[c], free[c], 1e-9);
+}
+
+TEST(Gent, IsNotFiniteFromItsLimitOnAndFiniteBeforeIt) {
+  const auto model = make_model("gent");
+  const Parameters p{30, 2};
+  // I1 − 3 = 1.99, 2, 2.01, 20, through both paths.
+  const std::vector<double> excess{1.99, 2, 2.01, 20};
+  std::vector<double> c(12), C(24), energy(4), gradient(12), hessian(24), gradient_dp(24), stress(24);
+  for (std::size_t i = 0; i < 4; ++i) {
+    c[i] = C[i] = 1 + excess[i];
+    for (const std::size_t a : {1u, 2u}) c[a * 4 + i] = C[a * 4 + i] = 1;
+  }
+  ASSERT_TRUE(model->evaluate_axes({4, c, p}, {energy, gradient, hessian, gradient_dp}).ok());
+  ASSERT_TRUE(model->evaluate({4, C, p, {}, {}}, {{}, stress, {}, {}, {}}).ok());
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool inside = excess[i] < 2;
+    EXPECT_EQ(std::isfinite(energy[i]), inside) << i;
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_EQ(std::isfinite(gradient[a * 4 + i]), inside) << i;
+      EXPECT_EQ(std::isfinite(hessian[a * 4 + i]), inside) << i;
+      EXPECT_EQ(std::isfinite(stress[a * 4 + i]), inside) << i;
+      for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(std::isfinite(gradient_dp[(3 * j + a) * 4 + i]), inside) << i;
+    }
+  }
+}
+
+/// Largest difference between a law by hand and by automatic differentiation, relative to each row's largest entry.
+template <class Law>
+double worst_against_autodiff(const Parameters& p, const std::vector<double>& x) {
+  const std::size_t n = x.size();
+  std::array<std::vector<double>, 5> hand, automatic;
+  for (auto* rows : {&hand, &automatic})
+    for (std::size_t k = 0; k < 5; ++k) (*rows)[k].resize(k < 3 ? n : p.size() * n);
+  Law::respond(p, {x, hand[0], hand[1], hand[2], hand[3], hand[4]});
+  respond_by_autodiff<Law>(p, {x, automatic[0], automatic[1], automatic[2], automatic[3], automatic[4]});
+  double worst = 0;
+  for (std::size_t k = 0; k < 5; ++k)
+    for (std::size_t row = 0; row < hand[k].size(); row += n) {
+      double scale = 0, difference = 0;
+      for (std::size_t i = row; i < row + n; ++i) {
+        scale = std::max(scale, std::abs(automatic[k][i]));
+        difference = std::max(difference, std::abs(hand[k][i] - automatic[k][i]));
+      }
+      worst = std::max(worst, difference / scale);
+    }
+  return worst;
+}
+
+TEST(RubberLaws, HandWrittenDerivativesAgreeWithAutodiff) {
+  std::mt19937_64 engine(8);  // deterministic: seed fixed
+  std::uniform_real_distribution<double> strain(-0.5, 2), limit(2.2, 50), modulus(-100, 100), power(0.5, 12),
+      stretch(0.3, 4);
+  for (int draw = 0; draw < 50; ++draw) {
+    std::vector<double> x(83), lambda(83);  // more than one chunk
+    for (double& value : x) value = strain(engine);
+    for (double& value : lambda) value = stretch(engine);
+    EXPECT_LT(worst_against_autodiff<laws::Gent>({30, limit(engine)}, x), 1e-12);
+    EXPECT_LT(worst_against_autodiff<laws::Ogden<2>>({modulus(engine), power(engine), modulus(engine), -power(engine)},
+                                                     lambda),
+              1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace tunica::testing
