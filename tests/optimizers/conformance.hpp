@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optimizers/functions.hpp"
+#include "optimizers/constrained_functions.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 // The shared property checks of every Optimizer. Include in one file of a test executable and instantiate:
@@ -17,6 +17,7 @@ struct Subject {
   Given options = {};
   std::uint64_t budget = 60000;  ///< evaluations that suffice for each of the standard functions
   bool oblique = true;           ///< expected to solve the ill-conditioned functions too
+  double boundary = 1e-3;        ///< expected relative closeness to an optimum on the boundary of the feasible set
 };
 
 inline std::string label(const ::testing::TestParamInfo<Subject>& info) { return info.param.label; }
@@ -34,6 +35,8 @@ class OptimizerConformance : public ::testing::TestWithParam<Subject> {
     EXPECT_FALSE(outcome.reason.empty());
     const Optimizer::Needs& needs = optimizer->needs();
     EXPECT_TRUE(needs.gradient || problem.jacobians == 0) << "a Jacobian was asked for that is not declared as a need";
+    EXPECT_TRUE((needs.gradient && needs.constraints) || problem.constraint_jacobians == 0)
+        << "a Jacobian of the constraints was asked for that is not declared as a need";
     EXPECT_TRUE(needs.batch || problem.batches == 0) << "evaluate_batch was used but is not declared as a need";
     return outcome;
   }
@@ -148,12 +151,29 @@ TEST_P(OptimizerConformance, PrintsNothing) {
 }
 
 TEST_P(OptimizerConformance, PrefersFeasiblePoints) {
-  // The sphere's optimum (1/3, 2/3) is infeasible; of what is allowed, y_0 ≥ 1.5, the best value is (1.5 − 1/3)².
-  const auto infeasible = [](std::span<const double> x) { return x[0] < 0.7; };
-  FunctionProblem problem(sphere(2), {.budget = GetParam().budget, .infeasible = infeasible});
+  FunctionProblem problem(half_sphere(), {.budget = GetParam().budget});
   run(problem);
   ASSERT_FALSE(problem.best_point.empty()) << "no feasible point was found";
-  EXPECT_NEAR(problem.best, std::pow(1.5 - 1.0 / 3, 2), 0.2);
+  EXPECT_NEAR(problem.best, half_sphere().optimum, GetParam().boundary);
+}
+
+TEST_P(OptimizerConformance, ReachesAnOptimumOnTheBoundaryOfWhatIsFeasible) {
+  for (const Function& function : {hock_schittkowski_65(), rosenbrock_in_disc(), limited_curve()}) {
+    if (!GetParam().oblique && function.name != "hock_schittkowski_65") continue;
+    FunctionProblem problem(function, {.budget = GetParam().budget});
+    const auto outcome = run(problem);
+    ASSERT_FALSE(problem.best_point.empty()) << function.name << ": no feasible point was found: " << outcome.reason;
+    EXPECT_LE(problem.best, function.optimum * (1 + GetParam().boundary)) << function.name << ": " << outcome.reason;
+    EXPECT_GE(problem.best, function.optimum * (1 - 1e-4)) << function.name << " has a wrong optimum";
+  }
+}
+
+TEST_P(OptimizerConformance, SaysSoWhereNothingIsFeasible) {
+  FunctionProblem problem(nothing_feasible(), {.budget = 20000});
+  const auto outcome = run(problem);
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_NE(outcome.reason.find("no feasible point"), std::string::npos) << outcome.reason;
+  EXPECT_NEAR(problem.least_violation, 0.1, GetParam().boundary);
 }
 
 TEST_P(OptimizerConformance, StopsAtTheBudgetToTheEvaluation) {

@@ -21,8 +21,11 @@ struct Function {
   std::vector<ResidualBlock> blocks;
   /// Fills r (residual_count) and, unless empty, ∂r/∂x row-major; false = cannot be evaluated here.
   std::function<bool(std::span<const double> x, std::span<double> r, std::span<double> jacobian)> residuals;
+  /// Inequality constraints c(x) ≤ 0: fills c (constraint_count) and, unless empty, ∂c/∂x row-major.
+  std::size_t constraint_count = 0;
+  std::function<void(std::span<const double> x, std::span<double> c, std::span<double> jacobian)> constraints = {};
   std::vector<double> start;  ///< in the unit box
-  double optimum = 0;         ///< smallest objective in the box
+  double optimum = 0;         ///< smallest objective in the box, of feasible points
 };
 
 /// A Problem over a Function, as strict as the host and more curious: it counts, remembers every point asked for,
@@ -34,19 +37,23 @@ class FunctionProblem : public Problem {
     std::uint64_t seed = 1;
     double target = -std::numeric_limits<double>::infinity();  ///< should_stop() once the objective is this small
     double failure_rate = 0;                                   ///< share of points that fail, chosen by their bits
-    std::function<bool(std::span<const double>)> infeasible = {};
-    bool remember = false;  ///< keep every point in `asked`
-    bool reverse = false;   ///< batches and starts are worked through backwards, as other threads might
+    bool remember = false;                                     ///< keep every point in `asked`
+    bool reverse = false;  ///< batches and starts are worked through backwards, as other threads might
   };
 
   FunctionProblem(Function function, Settings settings)
-      : function_(std::move(function)), settings_(std::move(settings)), residuals_(function_.residual_count) {}
+      : function_(std::move(function)),
+        settings_(std::move(settings)),
+        residuals_(function_.residual_count),
+        c_(function_.constraint_count) {}
 
   std::vector<double> asked;       ///< every point evaluated, one after the other
-  std::vector<double> best_point;  ///< best ok point
+  std::vector<double> best_point;  ///< best feasible point
   double best = std::numeric_limits<double>::infinity();
   std::uint64_t best_at = 0;  ///< evaluations made when it was found
-  std::uint64_t jacobians = 0, failures = 0, batches = 0;
+  std::uint64_t jacobians = 0, failures = 0, batches = 0, infeasible = 0;
+  double least_violation = std::numeric_limits<double>::infinity();  ///< of all points that were evaluated
+  std::uint64_t constraint_jacobians = 0;
   std::uint64_t refused = 0;  ///< evaluations asked for after should_stop() or beyond the budget
   std::uint64_t outside = 0;  ///< points outside the unit box, or not finite
   double level = -std::numeric_limits<double>::infinity();
@@ -56,7 +63,7 @@ class FunctionProblem : public Problem {
   [[nodiscard]] std::span<const double> start() const override { return function_.start; }
   [[nodiscard]] std::span<const ResidualBlock> blocks() const override { return function_.blocks; }
   [[nodiscard]] std::size_t residual_count() const override { return function_.residual_count; }
-  [[nodiscard]] std::size_t constraint_count() const override { return 0; }
+  [[nodiscard]] std::size_t constraint_count() const override { return function_.constraint_count; }
 
   Status evaluate(std::span<const double> x, double& objective) override {
     return linearise(x, objective, residuals_, {});
@@ -110,7 +117,12 @@ class FunctionProblem : public Problem {
       const bool root = block.loss == ResidualBlock::Loss::root;
       objective += block.weight * (root ? std::sqrt(s + root_smoothing * root_smoothing) - root_smoothing : s);
     }
-    if (settings_.infeasible && settings_.infeasible(x)) return Status::infeasible("the test double says so");
+    if (const double violation = this->violation(x); violation > 0) {
+      ++infeasible;
+      least_violation = std::min(least_violation, violation);
+      return Status::infeasible("the test double breaks a constraint here", violation);
+    }
+    least_violation = 0;
     if (objective < best) {
       best = objective;
       best_at = evaluations_;
@@ -120,7 +132,11 @@ class FunctionProblem : public Problem {
     return {};
   }
 
-  Status constraints(std::span<const double>, std::span<double>, std::span<double>) override { return {}; }
+  Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override {
+    if (!jacobian.empty()) ++constraint_jacobians;
+    if (function_.constraint_count > 0) function_.constraints(x, values, jacobian);
+    return {};
+  }
 
   void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
     for (std::size_t k = 0; k < count; ++k) body(settings_.reverse ? count - 1 - k : k, *this);
@@ -136,6 +152,14 @@ class FunctionProblem : public Problem {
   }
 
  private:
+  /// Σ of the positive constraint values where one is above the tolerance; else 0.
+  double violation(std::span<const double> x) {
+    if (function_.constraint_count == 0) return 0;
+    function_.constraints(x, c_, {});
+    double sum = 0;
+    for (const double value : c_) sum += std::max(value, 0.0);
+    return *std::max_element(c_.begin(), c_.end()) > constraint_tolerance ? sum : 0;
+  }
   bool fails(std::span<const double> x) const {
     if (settings_.failure_rate <= 0) return false;
     std::uint64_t hash = settings_.seed;
@@ -149,7 +173,7 @@ class FunctionProblem : public Problem {
 
   Function function_;
   Settings settings_;
-  std::vector<double> residuals_;
+  std::vector<double> residuals_, c_;
   std::uint64_t evaluations_ = 0;
   bool in_batch_ = false;
 };

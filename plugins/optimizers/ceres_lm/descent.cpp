@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/augmented_lagrangian.hpp"
+
 namespace tunica::ceres_lm {
 namespace {
 
@@ -20,28 +22,23 @@ class LastPoint {
         residuals_(problem.residual_count()),
         jacobian_(problem.residual_count() * problem.dimension()) {}
 
-  /// False when the point cannot be evaluated or must not be entered, or the problem has stopped.
+  /// False when the point cannot be evaluated, or the problem has stopped.
   bool move_to(std::span<const double> x) {
     if (std::ranges::equal(x, x_)) return usable_;
     if (problem_.should_stop()) return false;
     x_.assign(x.begin(), x.end());
     double objective = 0;
     const Status status = problem_.linearise(x, objective, residuals_, jacobian_);
-    feasible_ = status.ok();
-    usable_ = feasible_ || (status.kind() == Status::Kind::infeasible && !stay_feasible_);
-    if (status.kind() == Status::Kind::failed) {
+    usable_ = status.kind() != Status::Kind::failed;
+    if (!usable_) {
       descent_.failure = status.reason();
-    } else if (!descent_.evaluated || feasible_ > descent_.feasible ||
-               (feasible_ == descent_.feasible && objective < descent_.objective)) {
+    } else if (!descent_.evaluated || objective < descent_.objective) {
       descent_.x = x_;
       descent_.objective = objective;
-      descent_.feasible = feasible_;
       descent_.evaluated = true;
     }
     return usable_;
   }
-  /// The last point is where the descent now stands.
-  void accept() { stay_feasible_ = stay_feasible_ || feasible_; }
   [[nodiscard]] std::span<const double> residuals() const { return residuals_; }
   [[nodiscard]] std::span<const double> jacobian() const { return jacobian_; }
 
@@ -49,7 +46,7 @@ class LastPoint {
   Problem& problem_;
   Descent& descent_;
   std::vector<double> x_, residuals_, jacobian_;
-  bool usable_ = false, feasible_ = false, stay_feasible_ = false;
+  bool usable_ = false;
 };
 
 class BlockCost : public ceres::CostFunction {
@@ -98,15 +95,15 @@ class BlockLoss : public ceres::LossFunction {
 
 class Observer : public ceres::IterationCallback {
  public:
-  Observer(const Problem& problem, LastPoint& last) : problem_(problem), last_(last) {}
+  explicit Observer(const Problem& problem) : problem_(problem) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
-    if (iteration.iteration == 0 || iteration.step_is_successful) last_.accept();
+    iterations = iteration.iteration;
     return problem_.should_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+  int iterations = 0;
 
  private:
   const Problem& problem_;
-  LastPoint& last_;
 };
 
 ceres::Solver::Options solver_options(int max_iterations, const Settings& settings) {
@@ -133,9 +130,8 @@ Descent::End end_of(const ceres::Solver::Summary& summary, const Problem& proble
   return descent.evaluated ? Descent::End::blocked : Descent::End::not_started;
 }
 
-}  // namespace
-
-Descent descend(Problem& problem, std::span<const double> x, int max_iterations, const Settings& settings) {
+/// Within bounds alone. `iterations` is lowered by those made.
+Descent descend_in_box(Problem& problem, std::span<const double> x, int& iterations, const Settings& settings) {
   const std::size_t n = problem.dimension();
   Descent descent{.x = {x.begin(), x.end()}};
   if (problem.should_stop()) return descent;
@@ -150,12 +146,54 @@ Descent descend(Problem& problem, std::span<const double> x, int max_iterations,
     least_squares.SetParameterLowerBound(point.data(), j, 0);
     least_squares.SetParameterUpperBound(point.data(), j, 1);
   }
-  Observer observer(problem, last);
-  ceres::Solver::Options options = solver_options(max_iterations, settings);
+  Observer observer(problem);
+  ceres::Solver::Options options = solver_options(iterations, settings);
   options.callbacks.push_back(&observer);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &least_squares, &summary);
   descent.end = end_of(summary, problem, descent);
+  iterations -= std::max(1, observer.iterations);
+  return descent;
+}
+
+/// The first minimisations need not be more exact than the multipliers are (Nocedal & Wright 2006, framework 17.3).
+double looseness(int round) { return 1e-3 * std::pow(0.01, round); }
+
+Settings loosened(const Settings& settings, int round) {
+  Settings loose = settings;
+  loose.function_tolerance = std::max(settings.function_tolerance, looseness(round));
+  loose.parameter_tolerance = std::max(settings.parameter_tolerance, looseness(round));
+  return loose;
+}
+
+bool exact(const Settings& settings, int round) {
+  return looseness(round) <= std::max(settings.function_tolerance, settings.parameter_tolerance);
+}
+
+}  // namespace
+
+Descent descend(Problem& problem, std::span<const double> x, int max_iterations, const Settings& settings) {
+  if (problem.constraint_count() == 0) return descend_in_box(problem, x, max_iterations, settings);
+  AugmentedLagrangian lagrangian(problem);
+  Descent descent{.x = {x.begin(), x.end()}};
+  for (int round = 0; max_iterations > 0; ++round) {
+    const std::vector<double> from = round == 0 ? descent.x : lagrangian.point().x;
+    const Descent last = descend_in_box(lagrangian, from, max_iterations, loosened(settings, round));
+    descent.failure = last.failure;
+    descent.end = last.end;
+    if (last.end == Descent::End::stopped || (last.end == Descent::End::not_started && round == 0)) break;
+    const AugmentedLagrangian::Progress progress = lagrangian.update();
+    if (progress == AugmentedLagrangian::Progress::converged && exact(settings, round)) break;
+    if (progress == AugmentedLagrangian::Progress::infeasible) descent.end = Descent::End::infeasible;
+    if (progress == AugmentedLagrangian::Progress::nothing) descent.end = Descent::End::blocked;
+    if (descent.end == Descent::End::infeasible || descent.end == Descent::End::blocked) break;
+    descent.end = Descent::End::out_of_iterations;
+  }
+  descent.evaluated = !lagrangian.best().x.empty();
+  if (!descent.evaluated) return descent;
+  descent.x = lagrangian.best().x;
+  descent.objective = lagrangian.best().objective;
+  descent.violation = lagrangian.best().violation;
   return descent;
 }
 

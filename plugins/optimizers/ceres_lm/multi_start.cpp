@@ -22,6 +22,8 @@ const char* words(Descent::End end) {
       return "it used up its iterations";
     case Descent::End::blocked:
       return "no step from its last point could be evaluated";
+    case Descent::End::infeasible:
+      return "the constraints could not be met";
     case Descent::End::stopped:
       return "it was still under way";
     case Descent::End::not_started:
@@ -30,10 +32,10 @@ const char* words(Descent::End end) {
   return "";
 }
 
-/// Feasible before infeasible, then by objective; in `rank` ties keep the order of the starts.
+/// By violation, zero for all feasible ones, then by objective; in `rank` ties keep the order of the starts.
 bool better(const Descent& a, const Descent& b) {
   if (a.evaluated != b.evaluated) return a.evaluated;
-  if (a.feasible != b.feasible) return a.feasible;
+  if (a.violation != b.violation) return a.violation < b.violation;
   return a.evaluated && a.objective < b.objective;
 }
 
@@ -109,13 +111,17 @@ Optimizer::Outcome MultiStart::minimise(Problem& problem) {
   }
   // Starts that agree are the reader's evidence that the optimum is not a local one.
   const auto agree = std::ranges::count_if(descents, [&](const Descent& descent) {
-    return descent.evaluated && descent.feasible == best.feasible &&
+    return descent.evaluated && descent.violation == best.violation &&
            descent.objective - best.objective <= 1e-6 * std::abs(best.objective);
   });
-  return {best.end == Descent::End::converged,
-          fmt::format("{}{} of {} starts could be evaluated, {} came to the best objective; the best was start {}: {}",
-                      problem.should_stop() ? "stopped; " : "", evaluated, settings_.starts, agree, order[0] + 1,
-                      words(best.end))};
+  const bool infeasible = best.violation > 0;
+  return {
+      best.end == Descent::End::converged && !infeasible,
+      fmt::format(
+          "{}{}{} of {} starts could be evaluated, {} came to the best objective; the best was start {}: {}",
+          problem.should_stop() ? "stopped; " : "",
+          infeasible ? fmt::format("no feasible point was found, the least violation was {:g}; ", best.violation) : "",
+          evaluated, settings_.starts, agree, order[0] + 1, words(best.end))};
 }
 
 }  // namespace tunica::ceres_lm
