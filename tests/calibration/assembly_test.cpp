@@ -238,11 +238,18 @@ const std::vector<Refusal> refusals = {
      {"mechanism 'cubik'", "'cubic'"}},
     {"UnknownModel", [](Bench& b) { b.model().type = "parabel"; }, {"model type 'parabel'", "parabola"}},
     {"ThrowingFactory", [](Bench& b) { b.model().type = "broken"; }, {"fakes 1", "no such luck"}},
-    {"UnknownConstraint",
+    {"StabilityWithoutAStrip",
      [](Bench& b) {
-       b.run.constraints = {{"transverse_stability", "{}", "/constraints/0"}};
+       auto& constraint = b.run.constraints.emplace_back();
+       constraint.type = "transverse_stability", constraint.pointer = "/constraints/0";
      },
-     {"/constraints/0", "cannot compute the constraint 'transverse_stability' yet"}},
+     {"/constraints/0", "no free strip", "\"range\": [1, 1.5]"}},
+    {"NothingToBeAdmissible",
+     [](Bench& b) {
+       auto& constraint = b.run.constraints.emplace_back();
+       constraint.type = "admissible_parameters", constraint.pointer = "/constraints/0";
+     },
+     {"/constraints/0", "'parabola' declares no inequality"}},
     {"HoldOutBeyondTheRows",
      [](Bench& b) {
        b.experiment.tests[0].hold_out.rows = {3, {}, 1};

@@ -32,7 +32,7 @@ TEST(Ranking, PutsTheSmallestObjectiveFirstAndKeepsTheOrderOfEquals) {
 }
 
 TEST(Ranking, NeverHidesARunWithoutAResult) {
-  const auto ranking = comparison::rank({run("a", {}), run("a", 5, Status::infeasible("unstable")), run("a", 9)});
+  const auto ranking = comparison::rank({run("a", {}), run("a", 5, Status::infeasible("unstable", 1)), run("a", 9)});
   EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 1, 0));
   EXPECT_FALSE(ranking[2].rank);
 }

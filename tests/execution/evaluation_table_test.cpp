@@ -43,17 +43,17 @@ calibration::Replayed read(const EvaluationTable& table, std::string line, Evalu
 TEST(EvaluationTable, UnitesTheColumnsOfAllRuns) {
   EXPECT_EQ(two_runs().header(),
             "id,run,realisation,mu [kPa],kappa [1],\"c, \"\"odd\"\" "
-            "[1]\",cost.circ,cost.axial,objective,status,reason,time [s]\n");
+            "[1]\",cost.circ,cost.axial,objective,status,violation,reason,time [s]\n");
 }
 
 TEST(EvaluationTable, LeavesCellsEmptyThatARunDoesNotHave) {
-  EXPECT_EQ(row(two_runs(), 1, {10.5, 2}, 7, {7}, Status()), "1,neo/lm,3,10.5,,2,,7,7,ok,,0.250000\n");
+  EXPECT_EQ(row(two_runs(), 1, {10.5, 2}, 7, {7}, Status()), "1,neo/lm,3,10.5,,2,,7,7,ok,,,0.250000\n");
 }
 
 TEST(EvaluationTable, WritesNoObjectiveForAFailedEvaluation) {
   EXPECT_EQ(
       row(two_runs(), 0, {1, 0.1}, std::nan(""), {1, 2}, Status::failed("row 3, stretch 1.2: no, \"root\"\nfound"), 8),
-      "9,gho/es,3,1,0.1,,,,,failed,\"row 3, stretch 1.2: no, \"\"root\"\" found\",0.250000\n");
+      "9,gho/es,3,1,0.1,,,,,failed,,\"row 3, stretch 1.2: no, \"\"root\"\" found\",0.250000\n");
 }
 
 // 2000 random bit patterns of finite doubles, seed 1; any loss of a bit fails, so there is no false alarm.
@@ -87,9 +87,10 @@ TEST(EvaluationTable, ReadsBackStatusAndReason) {
   EXPECT_EQ(entry.status.kind(), Status::Kind::failed);
   EXPECT_EQ(entry.status.reason(), "no \"root\", sorry");
   EXPECT_EQ(parsed.run, 1u);
-  entry = read(table, row(table, 1, {1, 2}, 4, {4}, Status::infeasible("unstable")), parsed);
+  entry = read(table, row(table, 1, {1, 2}, 4, {4}, Status::infeasible("unstable", 0.1)), parsed);
   EXPECT_EQ(entry.status.kind(), Status::Kind::infeasible);
   EXPECT_EQ(entry.objective, 4);
+  EXPECT_EQ(entry.status.violation(), 0.1);
 }
 
 TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
@@ -98,10 +99,10 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
   const auto message = [&](const std::string& line) {
     return trial::message_of<InputError>([&] { table.parse(line, parsed); });
   };
-  EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 12"));
-  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,0"), HasSubstr("'other' is no run"));
-  EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,0"), HasSubstr("'x' is not a number"));
-  table.parse("1,gho/es,1,1,,,,,1,fine,,0", parsed);
+  EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 13"));
+  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is no run"));
+  EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
+  table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
   calibration::Replayed entry;
   EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is no status"));
 }

@@ -35,10 +35,10 @@ void record(Journal& journal, std::size_t task, std::uint64_t index, double a) {
 }
 
 std::string row(std::uint64_t id, int realisation, const std::string& a, const std::string& cost) {
-  return fmt::format("{},m/o,{},{},{},{},ok,,0.000000\n", id, realisation, a, cost, cost);
+  return fmt::format("{},m/o,{},{},{},{},ok,,,0.000000\n", id, realisation, a, cost, cost);
 }
 
-const std::string header = "id,run,realisation,a [1],cost.t,objective,status,reason,time [s]\n";
+const std::string header = "id,run,realisation,a [1],cost.t,objective,status,violation,reason,time [s]\n";
 
 }  // namespace
 
@@ -127,7 +127,7 @@ TEST(Recovery, FinishesAMoveThatWasCutShort) {
 
 TEST(Recovery, BringsBackStatusesOtherThanOk) {
   Journaled files;
-  files.folder.write("evaluations.csv", header + row(1, 1, "1", "1") + "2,m/o,1,2,,,failed,no root,0.5\n");
+  files.folder.write("evaluations.csv", header + row(1, 1, "1", "1") + "2,m/o,1,2,,,failed,,no root,0.5\n");
   const auto recovered = files.recover();
   calibration::Replayed entry;
   ASSERT_TRUE(recovered.evaluations[0].get(1, entry));

@@ -19,6 +19,9 @@ struct ModelDescription {
   bool principal_axes = false;            ///< evaluate_axes() is implemented
   bool parameter_derivatives = true;      ///< false: the host differences (whole paths, for models with history)
   std::vector<Combination> combinations;  ///< known invariances, see Combination
+  /// Inequalities value ≥ 0 that an admissible material keeps, beyond the bounds of single parameters; the host checks
+  /// them at every result and imposes them on demand. `remedy` is not used.
+  std::vector<Combination> admissible = {};
 };
 
 /// A batch of n material points, structure of arrays: component c of point i at [c·n + i].

@@ -23,12 +23,14 @@ struct ResidualBlock {
 /// it to parameters (linearly or by logarithm). The objective is Σ w ρ(‖r‖²) over the residual blocks.
 ///
 /// The host counts evaluations, keeps the best point (an optimiser's return value is advice), logs, and turns any
-/// failure into a status; objectives are finite whenever the status is not `failed`. Once should_stop() is true
+/// failure into a status; objectives are finite whenever the status is not `failed`. A point that breaks a constraint
+/// is `infeasible`, with the sum of the positive c(x) as its violation, and never the best. Once should_stop() is true
 /// every further evaluation is refused with status `failed` and not counted. Not thread-safe: parallel work goes
 /// through evaluate_batch or for_each_start.
 class Problem {
  public:
-  static constexpr double root_smoothing = 1e-9;  ///< ρ(s) = √(s + ε²) − ε, ε in base units
+  static constexpr double root_smoothing = 1e-9;        ///< ρ(s) = √(s + ε²) − ε, ε in base units
+  static constexpr double constraint_tolerance = 1e-6;  ///< a point is feasible where every c(x) is at most this
 
   virtual ~Problem() = default;
   [[nodiscard]] virtual std::size_t dimension() const = 0;

@@ -14,17 +14,23 @@ class [[nodiscard]] Status {
   enum class Kind { ok, infeasible, failed };
 
   Status() = default;  ///< ok; allocates nothing
-  static Status infeasible(std::string reason) { return {Kind::infeasible, std::move(reason)}; }
-  static Status failed(std::string reason) { return {Kind::failed, std::move(reason)}; }
+  /// `violation` > 0: the sum of the positive constraint values, by which infeasible points can be ranked.
+  static Status infeasible(std::string reason, double violation) {
+    return {Kind::infeasible, std::move(reason), violation};
+  }
+  static Status failed(std::string reason) { return {Kind::failed, std::move(reason), 0}; }
 
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] bool ok() const { return kind_ == Kind::ok; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] double violation() const { return violation_; }  ///< 0 unless infeasible
 
  private:
-  Status(Kind kind, std::string reason) : kind_(kind), reason_(std::move(reason)) {}
+  Status(Kind kind, std::string reason, double violation)
+      : kind_(kind), reason_(std::move(reason)), violation_(violation) {}
   Kind kind_ = Kind::ok;
   std::string reason_;
+  double violation_ = 0;
 };
 
 /// "ok", "infeasible", "failed": the words of evaluations.csv and result.json.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,9 @@ struct TestDescription {
   std::vector<double> nulls;             ///< null of each parameter; NaN = an ordinary parameter, fitted unless fixed
   std::vector<std::string> diagnostics;  ///< names of the diagnostics rows, for example "transverse_stretch"
   std::vector<std::string> diagnostic_units;
+  /// A strip with free lateral faces, pulled along this material axis (0 = circumferential, 1 = axial) to the values of
+  /// its abscissa "stretch": there the host can ask for transverse stability.
+  std::optional<std::size_t> free_strip_axis = {};
 };
 
 struct TestInput {

@@ -108,6 +108,22 @@ std::vector<Combination> free_combinations(const std::vector<Combination>& of_mo
   return found;
 }
 
+/// Notes the strips and the largest stretch that a test prescribes.
+void add_stretches(const Test& test, const std::vector<Observable>& observables, const std::string& name,
+                   std::vector<Strip>& strips, double& largest) {
+  for (const TestRows::Column& column : test.rows().abscissae) {
+    const auto observable = std::find_if(observables.begin(), observables.end(), [&](const Observable& candidate) {
+      return candidate.name == column.observable;
+    });
+    if (observable == observables.end() || observable->kind != Observable::Kind::stretch) continue;
+    for (const double stretch : column.values) largest = std::max(largest, stretch);
+    if (test.describe().free_strip_axis && column.observable == "stretch")
+      strips.push_back({name,
+                        std::min<std::size_t>(*test.describe().free_strip_axis, 1),
+                        {column.values.begin(), column.values.end()}});
+  }
+}
+
 Map map_of(const FreeParameter& free) {
   if (free.scale == Scale::linear) return {free.min, free.max, 0, 0, false};
   return {free.min, free.max, std::log(free.min), std::log(free.max / free.min), true};
@@ -121,11 +137,6 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
                    const plugins::Catalogue& catalogue)
     : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
-  if (!run.constraints.empty()) {
-    const auto& constraint = run.constraints.front();
-    throw InputError(fmt::format("{}: this version of tunica cannot compute the constraint '{}' yet; remove it",
-                                 constraint.pointer, constraint.type));
-  }
   ComposedModel model = compose_model(experiment.model(run.model), catalogue);
   std::vector<std::vector<Slot>> slots{std::move(model.slots)};
   std::vector<ComposedTest> tests;
@@ -150,6 +161,7 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
     test.differenced = !parts.model->describe().parameter_derivatives;
     chain(test, parts.model_parameters, parts.free.size());
     const auto& observables = catalogue.tests().at(entry.type).factory.observables;
+    add_stretches(*test.test, observables, entry.name, parts.strips, parts.largest_stretch);
     for (const std::string& warning : dataset.warnings) {
       parts.warnings.push_back(fmt::format("test '{}': {}", entry.name, warning));
     }
@@ -198,6 +210,10 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
     parts.blocks.push_back({parts.residual_count, parts.priors.size(), 1, ResidualBlock::Loss::quadratic});
     parts.residual_count += parts.priors.size();
   }
+
+  parts.constraints = make_constraints(run.constraints, *parts.model, parts.strips);
+  for (const auto& constraint : parts.constraints) parts.constraint_count += constraint->count();
+  parts.largest_stretch = std::max(parts.largest_stretch, stated_range(run.constraints));
 }
 
 Assembly::~Assembly() = default;
@@ -212,6 +228,16 @@ std::size_t Assembly::residual_count() const { return parts_->residual_count; }
 const std::vector<std::string>& Assembly::warnings() const { return parts_->warnings; }
 const std::vector<std::string>& Assembly::data_hashes() const { return parts_->data_hashes; }
 const std::vector<Combination>& Assembly::combinations() const { return parts_->combinations; }
+
+const Model& Assembly::model() const { return *parts_->model; }
+const std::vector<Strip>& Assembly::strips() const { return parts_->strips; }
+double Assembly::largest_stretch() const { return parts_->largest_stretch; }
+
+std::vector<double> Assembly::model_parameters(std::span<const double> free) const {
+  std::vector<double> all = parts_->model_parameters.values;
+  for (const Link& link : parts_->model_parameters.links) all[link.position] = free[link.index];
+  return all;
+}
 
 bool Assembly::jacobian_is_exact() const {
   return std::none_of(parts_->tests.begin(), parts_->tests.end(),

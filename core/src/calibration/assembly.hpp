@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/constraints.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 #include "tunica/optimizer.hpp"
@@ -80,9 +81,21 @@ class Assembly {
   Status diagnostics(std::size_t test, std::span<const double> free,
                      std::vector<std::pair<std::string, std::vector<double>>>& rows) const;
   /// Objective, per-test cost (one per test of the run, holding out excluded) and, unless empty, residuals and their
-  /// Jacobian by the free parameters, row-major. Never NaN under ok.
+  /// Jacobian by the free parameters, row-major. Never NaN under ok. Infeasible, with all of these set, where a
+  /// constraint exceeds Problem::constraint_tolerance; the reason names the one that is broken most.
   Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
                   std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const;
+
+  [[nodiscard]] std::size_t constraint_count() const;
+  /// c(p) ≤ 0 (constraint_count) and, unless empty, its Jacobian by the free parameters, row-major.
+  Status constraints(std::span<const double> free, std::span<double> values, std::span<double> jacobian) const;
+  /// What is broken when constraint i is positive, in words.
+  [[nodiscard]] std::string constraint_words(std::size_t i, double value) const;
+
+  [[nodiscard]] const Model& model() const;                                                ///< with its mechanisms
+  [[nodiscard]] std::vector<double> model_parameters(std::span<const double> free) const;  ///< all, in its order
+  [[nodiscard]] const std::vector<Strip>& strips() const;  ///< free strips among the tests
+  [[nodiscard]] double largest_stretch() const;  ///< among the abscissae of all tests and stated ranges; 1 = none
 
   /// Unit box ↔ parameters: linear or logarithmic between the bounds.
   void from_unit(std::span<const double> x, std::span<double> free) const;

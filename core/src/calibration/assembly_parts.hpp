@@ -58,6 +58,10 @@ struct Assembly::Parts {
   std::vector<PriorRow> priors;
   std::vector<ResidualBlock> blocks;
   std::vector<Combination> combinations;
+  std::vector<Strip> strips;
+  double largest_stretch = 1;
+  std::vector<std::unique_ptr<Constraint>> constraints;
+  std::size_t constraint_count = 0;
   std::vector<std::string> warnings, data_hashes;
   std::size_t prediction_count = 0, residual_count = 0;
 
@@ -70,6 +74,8 @@ struct Assembly::Parts {
   /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
   Status difference(const BoundTest& test, std::span<const double> at, std::span<const double> values,
                     Workspace& workspace) const;
+  /// Infeasible where a constraint is broken by more than the tolerance.
+  Status feasibility(std::span<const double> at, Workspace& workspace) const;
   /// Where among a test's values something lies: "channel 'stress', row 12 (stretch 1.8)".
   [[nodiscard]] std::string place(const BoundTest& test, std::size_t position) const;
 };
@@ -82,6 +88,7 @@ class Assembly::Workspace {
   std::vector<double> predictions;                   ///< all
   std::vector<double> jacobian;                      ///< of one test by slots, large enough for each
   std::vector<double> ahead, behind, shifted;        ///< for differences
+  std::vector<double> constraints;                   ///< values
 };
 
 }  // namespace tunica::calibration

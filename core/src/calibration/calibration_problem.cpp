@@ -83,7 +83,7 @@ std::size_t CalibrationProblem::dimension() const { return parts_->common.parame
 std::span<const double> CalibrationProblem::start() const { return parts_->common.start; }
 std::span<const ResidualBlock> CalibrationProblem::blocks() const { return parts_->common.assembly.blocks(); }
 std::size_t CalibrationProblem::residual_count() const { return parts_->common.assembly.residual_count(); }
-std::size_t CalibrationProblem::constraint_count() const { return 0; }
+std::size_t CalibrationProblem::constraint_count() const { return parts_->common.assembly.constraint_count(); }
 
 Status CalibrationProblem::evaluate(std::span<const double> x, double& objective) {
   Status status = parts_->search.evaluate(x, objective);
@@ -104,7 +104,10 @@ Status CalibrationProblem::linearise(std::span<const double> x, double& objectiv
   return status;
 }
 
-Status CalibrationProblem::constraints(std::span<const double>, std::span<double>, std::span<double>) { return {}; }
+Status CalibrationProblem::constraints(std::span<const double> x, std::span<double> values,
+                                       std::span<double> jacobian) {
+  return parts_->search.constraints(x, values, jacobian);
+}
 
 void CalibrationProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
   Starts(parts_->common, parts_->search, [this](const Evaluations& made) {

@@ -24,11 +24,21 @@ struct Record {
   double seconds;  ///< since the realisation began
 };
 
-/// What the best evaluated point is, at any time.
+/// What the best evaluated point is, at any time: the feasible one of least objective; while none is feasible, the
+/// one of least violation.
 struct Best {
   std::vector<double> parameters;  ///< empty: nothing succeeded yet
   double objective = 0;
   std::uint64_t index = 0;
+  double violation = 0;  ///< > 0: infeasible
+
+  [[nodiscard]] bool found() const { return !parameters.empty(); }
+  [[nodiscard]] bool feasible() const { return found() && violation == 0; }
+  /// Strictly better than another, so that of equals the first stays.
+  [[nodiscard]] bool better_than(const Best& other) const {
+    if (!found() || !other.found()) return found() && !other.found();
+    return violation != other.violation ? violation < other.violation : objective < other.objective;
+  }
 };
 
 /// A journal of evaluations that were already made, in index order, for resuming: returns false when it has none

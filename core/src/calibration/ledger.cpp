@@ -11,12 +11,15 @@ void Ledger::add(std::span<const double> parameters, double objective, const Sta
   if (jacobian) ++tally_.jacobians;
   if (status.kind() == Status::Kind::failed) {
     if (tally_.failures++ == 0) tally_.first_failure = status.reason();
-  } else if (status.kind() == Status::Kind::infeasible) {
-    ++tally_.infeasible;
-  } else if (best_.parameters.empty() || objective < best_.objective) {
-    best_.parameters.assign(parameters.begin(), parameters.end());
-    best_.objective = objective, best_.index = index;
-    improved_at_ = tally_.evaluations;
+  } else {
+    const double violation = status.violation();
+    if (status.kind() == Status::Kind::infeasible) ++tally_.infeasible;
+    const bool nearer = violation != best_.violation ? violation < best_.violation : objective < best_.objective;
+    if (!best_.found() || nearer) {
+      best_.parameters.assign(parameters.begin(), parameters.end());
+      best_.objective = objective, best_.index = index, best_.violation = violation;
+      improved_at_ = tally_.evaluations;
+    }
   }
   if (status.ok() && rules_.stop.target && best_.objective <= *rules_.stop.target) stop("target");
   check_failures(status);

@@ -59,6 +59,7 @@ Assembly::Workspace::Workspace(const Parts& parts) : model_parameters(parts.mode
   predictions.resize(parts.prediction_count);
   jacobian.resize(jacobian_size);
   ahead.resize(largest), behind.resize(largest), shifted.resize(parts.free.size());
+  constraints.resize(parts.constraint_count);
 }
 
 std::string Assembly::Parts::place(const BoundTest& test, std::size_t position) const {
@@ -176,7 +177,7 @@ Status Assembly::evaluate(std::span<const double> free, double& objective, std::
   if (!std::isfinite(total))
     return Status::failed("the objective overflows: predictions are finite, their squares are not");
   objective = total;
-  return {};
+  return parts_->constraints.empty() ? Status() : parts_->feasibility(free, workspace);
 }
 
 void Assembly::jacobian_to_unit(std::span<const double> free, std::span<double> jacobian, Workspace& workspace) const {

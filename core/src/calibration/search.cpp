@@ -232,4 +232,19 @@ Status Search::linearise(std::span<const double> x, double& objective, std::span
   return status;
 }
 
+Status Search::constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) const {
+  const std::size_t n = common_.parameters, m = common_.assembly.constraint_count();
+  check_length(x.size(), n, "coordinates");
+  check_length(values.size(), m, "constraint values");
+  if (!jacobian.empty()) check_length(jacobian.size(), m * n, "entries of the constraints' Jacobian");
+  if (Status status = check_point(x); !status.ok()) return status;
+  std::vector<double> free(n);
+  common_.assembly.from_unit(x, free);
+  if (Status status = common_.assembly.constraints(free, values, jacobian); !status.ok() || jacobian.empty())
+    return status;
+  const WorkspacePool::Loan workspace(common_.pool);
+  common_.assembly.jacobian_to_unit(free, jacobian, *workspace);
+  return {};
+}
+
 }  // namespace tunica::calibration

@@ -101,6 +101,8 @@ class Search {
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses);
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian);
+  /// Constraint values and their Jacobian by the unit box; counted nowhere.
+  Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) const;
   [[nodiscard]] bool should_stop() const;
 
   [[nodiscard]] Status refusal() const;

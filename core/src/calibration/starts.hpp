@@ -21,12 +21,14 @@ class StartProblem : public Problem {
   [[nodiscard]] std::span<const double> start() const override { return common_.start; }
   [[nodiscard]] std::span<const ResidualBlock> blocks() const override { return common_.assembly.blocks(); }
   [[nodiscard]] std::size_t residual_count() const override { return common_.assembly.residual_count(); }
-  [[nodiscard]] std::size_t constraint_count() const override { return 0; }
+  [[nodiscard]] std::size_t constraint_count() const override { return common_.assembly.constraint_count(); }
   Status evaluate(std::span<const double> x, double& objective) override;
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override;
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian) override;
-  Status constraints(std::span<const double>, std::span<double>, std::span<double>) override { return {}; }
+  Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override {
+    return search.constraints(x, values, jacobian);
+  }
   /// Starts within a start run one after the other on this problem, each with seeds of its own.
   void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
   [[nodiscard]] bool should_stop() const override { return search.should_stop(); }

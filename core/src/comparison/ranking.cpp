@@ -62,14 +62,14 @@ void count_successes(const execution::Plan& plan, const std::vector<execution::R
   for (std::size_t run = 0; run < runs.size(); ++run) {
     auto& best = best_known.emplace(conditions(run), std::numeric_limits<double>::infinity()).first->second;
     for (const auto& realisation : results[run].realisations)
-      if (!realisation.best.parameters.empty()) best = std::min(best, realisation.best.objective);
+      if (realisation.best.feasible()) best = std::min(best, realisation.best.objective);
   }
   for (std::size_t run = 0; run < runs.size(); ++run) {
     auto& summary = runs[run];
     const auto& realisations = results[run].realisations;
     summary.threshold = success_threshold(plan.runs[run].entry->stop.target, best_known.at(conditions(run)));
     const auto successes = std::count_if(realisations.begin(), realisations.end(), [&](const auto& realisation) {
-      return !realisation.best.parameters.empty() && realisation.best.objective <= summary.threshold;
+      return realisation.best.feasible() && realisation.best.objective <= summary.threshold;
     });
     summary.success_rate =
         realisations.empty() ? 0 : static_cast<double>(successes) / static_cast<double>(realisations.size());

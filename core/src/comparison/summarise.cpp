@@ -17,8 +17,7 @@ namespace {
 const execution::RealisationResult* best_of(const execution::RunResult& result) {
   const execution::RealisationResult* best = nullptr;
   for (const auto& realisation : result.realisations)
-    if (!realisation.best.parameters.empty() && (!best || realisation.best.objective < best->best.objective))
-      best = &realisation;
+    if (realisation.best.found() && (!best || realisation.best.better_than(best->best))) best = &realisation;
   return best;
 }
 

@@ -17,25 +17,27 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 1;
+constexpr int checkpoint_format = 2;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
 json to_json(std::size_t task, const RealisationResult& result) {
-  return {
-      {"task", task},
-      {"realisation", result.realisation},
-      {"best",
-       {{"parameters", result.best.parameters}, {"objective", result.best.objective}, {"index", result.best.index}}},
-      {"evaluations", result.tally.evaluations},
-      {"jacobians", result.tally.jacobians},
-      {"failures", result.tally.failures},
-      {"infeasible", result.tally.infeasible},
-      {"first_failure", result.tally.first_failure},
-      {"converged", result.converged},
-      {"reason", result.reason},
-      {"stop_reason", result.stop_reason},
-      {"seconds", result.seconds}};
+  return {{"task", task},
+          {"realisation", result.realisation},
+          {"best",
+           {{"parameters", result.best.parameters},
+            {"objective", result.best.objective},
+            {"index", result.best.index},
+            {"violation", result.best.violation}}},
+          {"evaluations", result.tally.evaluations},
+          {"jacobians", result.tally.jacobians},
+          {"failures", result.tally.failures},
+          {"infeasible", result.tally.infeasible},
+          {"first_failure", result.tally.first_failure},
+          {"converged", result.converged},
+          {"reason", result.reason},
+          {"stop_reason", result.stop_reason},
+          {"seconds", result.seconds}};
 }
 
 RealisationResult from_json(const json& entry) {
@@ -45,6 +47,7 @@ RealisationResult from_json(const json& entry) {
   result.best.parameters = entry.at("best").at("parameters").get<std::vector<double>>();
   result.best.objective = entry.at("best").at("objective");
   result.best.index = entry.at("best").at("index");
+  result.best.violation = entry.at("best").at("violation");
   result.tally.evaluations = entry.at("evaluations");
   result.tally.jacobians = entry.at("jacobians");
   result.tally.failures = entry.at("failures");

@@ -27,6 +27,12 @@ Facts facts_of(const Plan& plan);
 
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
 
+/// The same in two steps, for whoever writes again and again: with its trace an entry is long, and is put into text
+/// once. `entries` by task.
+std::string checkpoint_entry(std::size_t task, const RealisationResult& result);
+void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
+                      const std::map<std::size_t, std::string>& entries);
+
 /// Throws InputError when there is none, or it cannot be understood.
 Checkpoint read_checkpoint(const std::filesystem::path& directory);
 

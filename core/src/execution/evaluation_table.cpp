@@ -16,7 +16,7 @@ namespace tunica::execution {
 namespace {
 
 constexpr std::size_t fixed_before = 3;  // id, run, realisation
-constexpr std::size_t fixed_after = 4;   // objective, status, reason, time
+constexpr std::size_t fixed_after = 5;   // objective, status, violation, reason, time
 
 /// Columns of all runs, each once, in order of first appearance; and where each run finds its own among them.
 void unite(const std::vector<std::vector<std::string>>& per_run, std::vector<std::string>& columns,
@@ -102,7 +102,7 @@ std::string EvaluationTable::header() const {
   std::string line = "id,run,realisation";
   for (const auto& column : parameter_columns_) line += ',' + csv_cell(column);
   for (const auto& column : cost_columns_) line += ',' + csv_cell(column);
-  return line + ",objective,status,reason,time [s]\n";
+  return line + ",objective,status,violation,reason,time [s]\n";
 }
 
 void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
@@ -127,6 +127,8 @@ void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, st
   if (!failed) at = put_number(at, record.objective);
   *at++ = ',';
   at = put(at, name(record.status.kind()));
+  *at++ = ',';
+  if (record.status.kind() == Status::Kind::infeasible) at = put_number(at, record.status.violation());
   *at++ = ',';
   at = put(at, reason);
   // Microseconds, written as a decimal fraction: cheaper than printing a double with a precision.
@@ -166,16 +168,16 @@ void EvaluationTable::values(const Row& row, calibration::Replayed& entry) const
   }
   entry.objective = read_number(row.cells[cell], none);
   const std::string_view word = row.cells[cell + 1];
-  std::string reason = unquoted(row.cells[cell + 2]);
+  std::string reason = unquoted(row.cells[cell + 3]);
   if (word == "ok")
     entry.status = Status();
   else if (word == "infeasible")
-    entry.status = Status::infeasible(std::move(reason));
+    entry.status = Status::infeasible(std::move(reason), read_number(row.cells[cell + 2], none));
   else if (word == "failed")
     entry.status = Status::failed(std::move(reason));
   else
     throw InputError(fmt::format("'{}' is no status", word));
-  entry.seconds = read_number(row.cells[cell + 3], 0.0);
+  entry.seconds = read_number(row.cells[cell + 4], 0.0);
 }
 
 }  // namespace tunica::execution

@@ -22,7 +22,7 @@ struct RunColumns {
 
 /// The layout of evaluations.csv: one file for all runs, one row an evaluation.
 ///
-///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, reason, time [s]
+///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, violation, reason, time [s]
 ///
 /// Parameter and cost columns are the union over the runs, in order of first appearance; a cell that a run does not
 /// have is empty. id counts from 1 within a realisation; time counts from its beginning. Numbers are the shortest

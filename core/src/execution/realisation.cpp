@@ -50,6 +50,8 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
   const auto& shared = run.entry->stop;
   const auto record = [&](const calibration::Record& entry) {
     result.seconds = std::max(result.seconds, entry.seconds);
+    if (entry.status.ok() && (result.trace.empty() || entry.objective < result.trace.back().objective))
+      result.trace.push_back({entry.index + 1, entry.objective});
     surroundings.record(entry);
   };
   for (std::size_t s = 0; s < run.stages.size(); ++s) {
@@ -75,15 +77,15 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
 
     add(result.tally, problem.tally());
     const auto& best = problem.best();
-    if (!best.parameters.empty() && (result.best.parameters.empty() || best.objective < result.best.objective))
-      result.best = best;
+    if (best.better_than(result.best)) result.best = best;
     result.converged = outcome.converged;
     result.reason = one_line(outcome.reason);
     result.stop_reason = one_line(problem.stop_reason());
     const bool spent = result.tally.evaluations >= shared.max_evaluations;
     const bool stage_ended =
         result.stop_reason.empty() || result.stop_reason == "stall" ||
-        (result.stop_reason == "target" && !(shared.target && result.best.objective <= *shared.target)) ||
+        (result.stop_reason == "target" &&
+         !(shared.target && result.best.feasible() && result.best.objective <= *shared.target)) ||
         (result.stop_reason == "max_evaluations" && !spent) ||
         (result.stop_reason == "max_time" && !(shared.max_time && result.seconds >= *shared.max_time));
     if (!stage_ended) break;

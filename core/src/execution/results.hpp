@@ -9,11 +9,18 @@
 
 namespace tunica::execution {
 
+/// A feasible evaluation that was better than every one before it.
+struct Improvement {
+  std::uint64_t evaluations;  ///< made in the realisation by then, this one included
+  double objective;
+};
+
 /// How one realisation of one run ended.
 struct RealisationResult {
   std::uint64_t realisation = 1;
   bool finished = false;   ///< false: interrupted
   calibration::Best best;  ///< parameters are empty when no evaluation succeeded
+  std::vector<Improvement> trace;  ///< every improvement, in order; the convergence of this realisation
   calibration::Tally tally;
   bool converged = false;   ///< the optimiser's own word
   std::string reason;       ///< the optimiser's reason for coming back

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -66,9 +67,17 @@ struct TestEntry {
 enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
 enum class OnFailure { penalise, stop, retry };
 
-/// `type` of a constraint and its JSON text; the calibration module reads the rest.
+/// The factor h of the sub-critical stability constraint over stretch; one row = a constant.
+using StabilityFactor = std::vector<std::pair<double, double>>;
+
 struct ConstraintEntry {
-  std::string type, json, pointer;
+  std::string type;  ///< "transverse_stability", "admissible_parameters"
+  std::string json, pointer;
+  // transverse_stability
+  StabilityFactor h = {{1, 1}};
+  std::optional<std::pair<double, double>> range;  ///< stretches, besides the measured ones
+  std::optional<std::size_t> points;               ///< evenly spaced stretches in place of every measured one
+  std::array<bool, 2> directions = {true, true};   ///< circumferential, axial
 };
 
 /// max_evaluations of a stage that has no limit of its own: what is left of the shared one.

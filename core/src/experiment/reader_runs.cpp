@@ -33,23 +33,44 @@ Enumeration read_choice(const Node& node, const std::vector<std::string>& names,
 }
 
 // The sub-critical factor h of the stability constraint: a number, or a table over stretch.
-void check_stability_factor(const Node& node) {
+StabilityFactor read_stability_factor(const Node& node) {
   constexpr std::string_view expected = "a number from 0 to 1, or a table [[stretch, h], …] with rising stretches,";
   const auto factor = [&](const Node& h) {
     if (!h.is_number() || h.number("") < 0 || h.number("") > 1) h.fail_expected(expected);
+    return h.number("");
   };
-  if (!node.is_array()) return factor(node);
+  if (!node.is_array()) return {{1, factor(node)}};
   const auto rows = node.elements(expected);
   if (rows.empty()) node.fail_expected(expected);
-  double last = 0;
+  StabilityFactor table;
   for (const Node& row : rows) {
     if (!row.is_array() || row.json().size() != 2) row.fail_expected("a pair [stretch, h]");
     const double stretch = row.element(0).number("a stretch");
-    if (!(stretch > last))
-      row.element(0).fail(fmt::format("the stretch {} does not lie above {}", stretch, last),
-                          "Stretches of the table are positive and rise.");
-    factor(row.element(1));
-    last = stretch;
+    if (!(stretch > (table.empty() ? 0 : table.back().first)))
+      row.element(0).fail(
+          fmt::format("the stretch {} does not lie above {}", stretch, table.empty() ? 0 : table.back().first),
+          "Stretches of the table are positive and rise.");
+    table.emplace_back(stretch, factor(row.element(1)));
+  }
+  return table;
+}
+
+void read_transverse_stability(const Node& entry, ConstraintEntry& constraint) {
+  if (const auto h = entry.find("h")) constraint.h = read_stability_factor(*h);
+  if (const auto range = entry.find("range")) {
+    constexpr std::string_view expected = "two stretches [from, to], 0 < from < to,";
+    if (!range->is_array() || range->json().size() != 2) range->fail_expected(expected);
+    constraint.range = {range->element(0).number(expected), range->element(1).number(expected)};
+    if (!(constraint.range->first > 0 && constraint.range->first < constraint.range->second))
+      range->fail_expected(expected);
+  }
+  if (const auto points = entry.find("points"))
+    constraint.points = points->count("a whole number of stretches from 2", 2);
+  if (const auto directions = entry.find("directions")) {
+    static const std::vector<std::string> names = {"circumferential", "axial"};
+    constraint.directions = {false, false};
+    for (const Node& name : directions->elements("a list of directions"))
+      constraint.directions[name.one_of(names, "direction") == names[0] ? 0 : 1] = true;
   }
 }
 
@@ -91,10 +112,18 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
   std::vector<ConstraintEntry> constraints;
   for (const Node& entry : node.elements("a list of constraints, [ {\"type\": …}, … ],")) {
     entry.expect_object("a constraint, {\"type\": …},");
-    const std::string type = entry.require("type", "a constraint").one_of({"transverse_stability"}, "constraint");
-    entry.allow_only({"type", "h"}, fmt::format("the constraint '{}'", type));
-    if (const auto h = entry.find("h")) check_stability_factor(*h);
-    constraints.push_back({type, entry.json().dump(), entry.pointer()});
+    ConstraintEntry constraint;
+    constraint.type =
+        entry.require("type", "a constraint").one_of({"transverse_stability", "admissible_parameters"}, "constraint");
+    constraint.json = entry.json().dump(), constraint.pointer = entry.pointer();
+    const std::string owner = fmt::format("the constraint '{}'", constraint.type);
+    if (constraint.type == "transverse_stability") {
+      entry.allow_only({"type", "h", "range", "points", "directions"}, owner);
+      read_transverse_stability(entry, constraint);
+    } else {
+      entry.allow_only({"type"}, owner);
+    }
+    constraints.push_back(std::move(constraint));
   }
   return constraints;
 }

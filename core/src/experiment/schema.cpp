@@ -111,10 +111,21 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   Json table = list_schema("h over stretch.", std::move(pair));
   table["minItems"] = 1;
   h["anyOf"] = Json::array({std::move(factor), std::move(table)});
-  definitions["constraints"] =
-      list_schema("Conditions on the parameters.",
-                  object_schema("The transverse stretch falls as the strip is pulled.",
-                                {{"type", {{"const", "transverse_stability"}}}, {"h", std::move(h)}}, {"type"}));
+  Json range = list_schema("Stretches from, to: besides those that were measured.", {{"type", "number"}});
+  range["minItems"] = 2, range["maxItems"] = 2;
+  Json directions = list_schema("Strips along which axes (default both).", {{"enum", {"circumferential", "axial"}}});
+  Json either = {{"description", "A condition on the parameters."}};
+  either["anyOf"] = Json::array(
+      {object_schema("The transverse stretch λ3 falls as the strip is pulled: d ln λ3/d ln λ1 ≤ −(1 − h)/2.",
+                     {{"type", {{"const", "transverse_stability"}}},
+                      {"h", std::move(h)},
+                      {"range", std::move(range)},
+                      {"points", count_schema("Evenly spaced stretches in place of every measured one.", 2)},
+                      {"directions", std::move(directions)}},
+                     {"type"}),
+       object_schema("The inequalities that the model declares between its parameters.",
+                     {{"type", {{"const", "admissible_parameters"}}}}, {"type"})});
+  definitions["constraints"] = list_schema("Conditions on the parameters.", std::move(either));
 }
 
 Json run_schema() {

@@ -37,6 +37,13 @@ std::vector<Combination> combinations() {
            remedy}};
 }
 
+/// The generalised structure tensor has no negative weight (Holzapfel et al. 2015, §2.3): along the family A + B,
+/// across it in the plane A, along the normal 1 − 2A − B.
+std::vector<Combination> admissible() {
+  return {{"A + B", "1", {A, B}, [](std::span<const double> p) { return p[A] + p[B]; }, ""},
+          {"1 - 2A - B", "1", {A, B}, [](std::span<const double> p) { return 1 - 2 * p[A] - p[B]; }, ""}};
+}
+
 std::unique_ptr<Model> create(const Options& options) {
   const std::string source = "Holzapfel, Niestrawska, Ogden, Reinisch, Schriefl 2015, eq. 2.24";
   ModelDescription description;
@@ -49,6 +56,7 @@ std::unique_ptr<Model> create(const Options& options) {
       arterial::k2(),
       arterial::theta()};
   description.combinations = combinations();
+  description.admissible = admissible();
   std::vector<std::unique_ptr<EnergyPart>> parts;
   parts.push_back(arterial::matrix<parameter_count>(mu));
   parts.push_back(arterial::fibres<Fibres, parameter_count>({A, B, theta}, {k1, k2}, options));

@@ -25,6 +25,7 @@ class Uniaxial final : public Test {
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
+    description_.free_strip_axis = strip_.loaded;
   }
 
   [[nodiscard]] const TestDescription& describe() const override { return description_; }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace tunica::uniaxial {
+namespace tunica::free_strip {
 
 struct Residual {
   double value, slope;  ///< r(y), dr/dy; not finite where the energy overflows
@@ -50,4 +50,4 @@ bool safeguarded_newton(const Function& function, double& y, double tolerance = 
   return high - low <= 1e-10;
 }
 
-}  // namespace tunica::uniaxial
+}  // namespace tunica::free_strip

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "tunica/model.hpp"
+#include "tunica/status.hpp"
+
+namespace tunica::calibration {
+
+/// A strip with free lateral faces among the tests of a run, and the stretches it was measured at.
+struct Strip {
+  std::string test;
+  std::size_t axis = 0;  ///< 0 = circumferential, 1 = axial
+  std::vector<double> stretches;
+};
+
+/// Conditions c(p) ≤ 0 on the model's parameters. Const and thread-safe; refers to the model.
+class Constraint {
+ public:
+  virtual ~Constraint() = default;
+  [[nodiscard]] virtual std::size_t count() const = 0;
+  /// Values and, unless empty, derivatives by the model's parameters, parameter j of value i at [j·count + i].
+  virtual Status evaluate(std::span<const double> parameters, std::span<double> values,
+                          std::span<double> derivatives) const = 0;
+  /// What is broken when value i is positive, in words.
+  [[nodiscard]] virtual std::string words(std::size_t i, double value) const = 0;
+};
+
+/// transverse_stability   one value a stretch of every strip, `range` and `points` (docs/experiment-file.md);
+/// admissible_parameters  one value an inequality that the model declares.
+///
+/// Throws InputError, with the place in the file, where a constraint says nothing: no strip and no range, no
+/// inequality declared.
+std::vector<std::unique_ptr<Constraint>> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
+                                                          const Model& model, const std::vector<Strip>& strips);
+
+/// The largest stretch at which the constraints of a run ask for stability beyond its strips; 1 = none.
+double stated_range(const std::vector<experiment::ConstraintEntry>& entries);
+
+}  // namespace tunica::calibration

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stability/drucker.hpp"
+#include "stability/ellipticity.hpp"
+#include "stability/transverse.hpp"
+
+namespace tunica::stability {
+
+/// Over which stretches a parameter set is judged.
+struct Domain {
+  double circumferential = 1, axial = 1;  ///< largest measured stretch of a strip along each; 1 = none
+  double largest = 1.5;                   ///< of any test, for ellipticity and Drucker
+  double beyond = 10;                     ///< transverse stability is followed so far
+};
+
+/// Whether a parameter set behaves as a material: what every report says of its best point.
+struct Admissibility {
+  std::vector<TransverseVerdict> transverse;  ///< circumferential, axial
+  EllipticityVerdict ellipticity;
+  std::optional<DruckerVerdict> drucker;  ///< isotropic models
+  Domain domain;
+
+  /// λ3 falls over all measured stretches of every strip.
+  [[nodiscard]] bool transversely_stable() const;
+  /// One sentence a finding, what is lost first.
+  [[nodiscard]] std::vector<std::string> sentences() const;
+};
+
+Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain);
+
+}  // namespace tunica::stability

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stability/transverse.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "tunica/optimizer.hpp"
+
+namespace tunica::stability {
+namespace {
+
+constexpr double step = 5e-4;        // of l = ln λ1, in the five-point formula
+constexpr double rest = 2.5 * step;  // closer to λ1 = 1 the slope is taken here
+constexpr double tight = 1e-9;       // relative step of u; after it the error is its square
+
+}  // namespace
+
+FreePath::FreePath(const Model& model, std::size_t axis, std::vector<double> stretches)
+    : view_(model), axis_(axis), stretches_(std::move(stretches)) {
+  for (const double stretch : stretches_) at_.push_back(std::abs(std::log(stretch)) < rest ? std::exp(rest) : stretch);
+  start_ = free_strip::Start(at_);
+}
+
+Status FreePath::solve(std::span<const double> parameters, double shift, bool derivatives, std::span<double> u,
+                       std::vector<double>& stretch) const {
+  free_strip::Scratch& s = free_strip::scratch();
+  s.reserve(at_.size(), parameters.size());
+  const free_strip::Pull pull{view_, parameters, axis_};
+  stretch.resize(at_.size());
+  for (std::size_t i = 0; i < at_.size(); ++i) stretch[i] = at_[i] * std::exp(shift);
+  std::optional<std::size_t> lost;
+  free_strip::Batch batch(pull, stretch, s);
+  Status status = shift == 0 ? start_.guess(pull, stretch, s, u, lost) : Status();
+  if (status.ok()) status = free_strip::iterate(pull, stretch, tight, batch, u, lost);
+  if (lost)
+    return Status::failed(fmt::format("{} strip at stretch {:.6g}: {}", axis_ == 0 ? "circumferential" : "axial",
+                                      stretches_[*lost], status.reason()));
+  if (!status.ok()) return status;
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] *= 1 + s.step[i];
+  return batch.evaluate(u.data(), derivatives);
+}
+
+Status FreePath::slopes(std::span<const double> parameters, std::span<double> slope, std::span<double> slope_dp) const {
+  const std::size_t n = at_.size();
+  thread_local std::vector<double> u, shifted, stretch;
+  u.resize(n), shifted.resize(n);
+  if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
+  const free_strip::Pull pull{view_, parameters, axis_};
+  free_strip::Scratch& s = free_strip::scratch();
+  const free_strip::Batch batch(pull, stretch, s);
+  std::size_t bad = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    double stress_by_l, y_by_l;
+    batch.by_stretch(i, stress_by_l, y_by_l);
+    slope[i] = -1 - y_by_l;
+    if (!std::isfinite(slope[i]) && bad == n) bad = i;
+  }
+  if (bad < n)
+    return Status::failed(fmt::format("{} strip at stretch {:.6g}: the slope of the transverse stretch overflows",
+                                      axis_ == 0 ? "circumferential" : "axial", stretches_[bad]));
+  if (slope_dp.empty()) return {};
+  if (!view_.describe().parameter_derivatives) return difference(parameters, slope_dp);
+  // f'(l) ≈ [8 (f(l+δ) − f(l−δ)) − (f(l+2δ) − f(l−2δ))]/(12 δ), f = dy/dp; c has it with the opposite sign.
+  static constexpr std::array<std::array<double, 2>, 4> stencil{{{-2, 1}, {-1, -8}, {1, 8}, {2, -1}}};
+  std::fill(slope_dp.begin(), slope_dp.end(), 0.0);
+  for (const auto& [offset, weight] : stencil) {
+    for (std::size_t i = 0; i < n; ++i) shifted[i] = u[i] * std::exp(-(1 + slope[i]) * offset * step);
+    if (Status status = solve(parameters, offset * step, true, shifted, stretch); !status.ok()) return status;
+    const free_strip::Batch there(pull, stretch, s);
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      for (std::size_t i = 0; i < n; ++i) {
+        double stress_p, y_p;
+        there.by_parameter(i, j, stress_p, y_p);
+        slope_dp[j * n + i] -= weight / (12 * step) * y_p;
+      }
+  }
+  return {};
+}
+
+/// Central differences of the slopes, which are accurate to rounding; step ε^(1/3) of the parameter.
+Status FreePath::difference(std::span<const double> parameters, std::span<double> slope_dp) const {
+  const std::size_t n = at_.size();
+  std::vector<double> moved(parameters.begin(), parameters.end()), above(n), below(n);
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const double h = 6e-6 * std::max(std::abs(parameters[j]), 1e-3);
+    moved[j] = parameters[j] + h;
+    if (Status status = slopes(moved, above, {}); !status.ok()) return status;
+    moved[j] = parameters[j] - h;
+    if (Status status = slopes(moved, below, {}); !status.ok()) return status;
+    moved[j] = parameters[j];
+    for (std::size_t i = 0; i < n; ++i) slope_dp[j * n + i] = (above[i] - below[i]) / (2 * h);
+  }
+  return {};
+}
+
+Status FreePath::states(std::span<const double> parameters, std::span<StripState> states) const {
+  const std::size_t n = at_.size();
+  std::vector<double> u(n), stretch;
+  if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
+  const free_strip::Scratch& s = free_strip::scratch();
+  const free_strip::Batch batch({view_, parameters, axis_}, stretch, free_strip::scratch());
+  for (std::size_t i = 0; i < n; ++i) {
+    double stress_by_l, y_by_l;
+    batch.by_stretch(i, stress_by_l, y_by_l);
+    // Close to rest the row was solved a little farther out: back along the tangent, y = y' l, σ ∝ l.
+    const double l = std::log(stretches_[i]), solved_at = std::log(stretch[i]);
+    const double y = l == solved_at ? std::log(u[i]) : y_by_l * l;
+    const double lambda2 = std::exp(y / 2), lambda3 = 1 / (stretches_[i] * lambda2);
+    states[i] = {stretches_[i],          lambda2,    lambda3, s.stress[i] * (l == solved_at ? 1 : l / solved_at),
+                 std::exp(-2 * (l + y)), -1 - y_by_l};
+  }
+  return {};
+}
+
+TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis, double measured_to,
+                        double limit) {
+  TransverseVerdict verdict;
+  verdict.axis = axis, verdict.measured_to = measured_to;
+  verdict.worst_slope = -std::numeric_limits<double>::infinity();
+  const auto slope_at = [&](double stretch) {
+    double slope = std::numeric_limits<double>::quiet_NaN();
+    return FreePath(model, axis, {stretch}).slopes(parameters, {&slope, 1}, {}).ok()
+               ? slope
+               : std::numeric_limits<double>::quiet_NaN();
+  };
+  constexpr double edge = 1 + Problem::constraint_tolerance;  // c ≤ tolerance counts as stable, as in the constraint
+  // Between a stable and an unstable stretch, to 1e-10.
+  const auto crossing = [&](double stable, double unstable) {
+    while (std::abs(unstable - stable) > 1e-10 * unstable) {
+      const double middle = 0.5 * (stable + unstable);
+      const double slope = slope_at(middle);
+      if (!std::isfinite(slope)) break;
+      (slope > edge ? unstable : stable) = middle;
+    }
+    return 0.5 * (stable + unstable);
+  };
+  // Steps of half a per cent, in blocks, so that an overflow far out costs little.
+  constexpr std::size_t block = 48;
+  constexpr double growth = 1.005;
+  double last = 1;
+  for (double begin = std::exp(rest); begin <= limit;) {
+    std::vector<double> stretches;
+    for (double at = begin; stretches.size() < block && at <= limit; at *= growth) stretches.push_back(at);
+    if (stretches.back() * growth > limit && stretches.back() < limit) stretches.push_back(limit);
+    std::vector<double> slopes(stretches.size());
+    while (!stretches.empty() &&
+           !FreePath(model, axis, stretches).slopes(parameters, {slopes.data(), stretches.size()}, {}).ok())
+      stretches.resize(stretches.size() / 2);
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      verdict.worst_slope = std::max(verdict.worst_slope, (slopes[i] - 1) / 2);
+      if (!verdict.first_unstable && slopes[i] > edge)
+        verdict.first_unstable = last == 1 ? 1 : crossing(last, stretches[i]);
+      else if (verdict.first_unstable && !verdict.stable_again && slopes[i] <= edge)
+        verdict.stable_again = crossing(stretches[i], last);
+      last = stretches[i];
+    }
+    if (stretches.size() < block) break;
+    begin = last * growth;
+  }
+  verdict.checked_to = last;
+  verdict.stable = !verdict.first_unstable || *verdict.first_unstable >= measured_to;
+  return verdict;
+}
+
+}  // namespace tunica::stability

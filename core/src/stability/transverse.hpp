@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "stability/axes_view.hpp"
+#include "tunica/free_strip.hpp"
+#include "tunica/model.hpp"
+
+/// Transverse stability (Canales et al., Mathematics 11:922, 2023; corrected, see docs/theory.md). On the equilibrium
+/// path of a free strip along axis 1, normal 3,
+///
+///   Ψ = (λ3/λ2)²,   stable ⇔ dλ3/dλ1 ≤ 0 ⇔ dΨ/dλ1 ≤ 2Ψ/λ1;   with h ∈ [0, 1]:  c = (dΨ/dλ1) λ1/(2Ψ) − h ≤ 0.
+///
+/// With l = ln λ1 and y = ln λ2² on the path, λ3 = 1/(λ1 λ2):  ½ d ln Ψ/d ln λ1 = −1 − dy/dl,  so that
+///
+///   c = −1 − y' − h,   d ln λ3/d ln λ1 = −1 − y'/2,   y' = dy/dl by implicit differentiation of σ22 = 0.
+namespace tunica::stability {
+
+/// Where a strip stands at one stretch.
+struct StripState {
+  double stretch = 1, transverse = 1, normal = 1;  ///< λ1, λ2, λ3
+  double stress = 0;                               ///< Cauchy stress along the strip, kPa
+  double anisotropy = 1;                           ///< Ψ
+  double slope = 0;                                ///< (dΨ/dλ1) λ1/(2Ψ): at most h where the criterion holds
+  /// d ln λ3/d ln λ1 = (slope − 1)/2
+  [[nodiscard]] double normal_slope() const { return (slope - 1) / 2; }
+};
+
+/// The free strip at fixed stretches. Const and thread-safe; refers to the model.
+class FreePath {
+ public:
+  /// `axis`: the one pulled along, 0 = circumferential, 1 = axial. The slope at rest is the limit along the path, taken
+  /// at a stretch of 1.0013: families that are slack there and taut at rest must not count.
+  FreePath(const Model& model, std::size_t axis, std::vector<double> stretches);
+
+  [[nodiscard]] std::size_t axis() const { return axis_; }
+  [[nodiscard]] std::span<const double> stretches() const { return stretches_; }
+
+  /// (dΨ/dλ1) λ1/(2Ψ) at every stretch and, unless empty, its derivative by the model's parameters, parameter j of
+  /// stretch i at [j·n + i]. dy/dp is exact on the path; its derivative by l is taken by a five-point formula with a
+  /// step of 5e-4, of error 1e-10 or less relative but for kinks, where a family switches. Where the model has no
+  /// parameter derivatives, the slopes themselves are differenced.
+  Status slopes(std::span<const double> parameters, std::span<double> slope, std::span<double> slope_dp) const;
+  Status states(std::span<const double> parameters, std::span<StripState> states) const;
+
+ private:
+  /// Solves all rows at exp(l + shift) from u in place and leaves them evaluated in the scratch.
+  Status solve(std::span<const double> parameters, double shift, bool derivatives, std::span<double> u,
+               std::vector<double>& stretch) const;
+  Status difference(std::span<const double> parameters, std::span<double> slope_dp) const;
+
+  AxesView view_;
+  std::size_t axis_;
+  std::vector<double> stretches_, at_;  ///< as asked for; where they are evaluated
+  free_strip::Start start_;
+};
+
+/// What the criterion (h = 1) says of one direction.
+struct TransverseVerdict {
+  std::size_t axis = 0;
+  double measured_to = 1;                ///< largest measured stretch of a strip along it; 1 = none measured
+  bool stable = true;                    ///< up to measured_to
+  std::optional<double> first_unstable;  ///< stretch from which λ3 grows
+  std::optional<double> stable_again;    ///< and where it stops growing, when it does below checked_to
+  double checked_to = 1;                 ///< the response was followed so far; beyond, it overflows or nobody looked
+  double worst_slope = 0;                ///< largest d ln λ3/d ln λ1 up to checked_to
+};
+
+/// Follows the path from rest to the stretch `limit`, or as far as there is an equilibrium.
+TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis, double measured_to,
+                        double limit);
+
+}  // namespace tunica::stability
