@@ -16,12 +16,12 @@ using Values = std::vector<double>;
 
 std::size_t size_of(const Simulation& s) { return s.test.rows().count * s.test.rows().channels.size(); }
 
-/// The test's abscissae as spans, the first one replaced by `first`.
-Values values_at(const Simulation& s, const Values& p, const Values& q, const Values& first = {}) {
+/// Predictions at the test's own abscissae, or with abscissa k replaced by `other`.
+Values values_at(const Simulation& s, const Values& p, const Values& q, const Values& other = {}, std::size_t k = 0) {
   std::vector<std::span<const double>> abscissae;
-  if (!first.empty()) {
+  if (!other.empty()) {
     for (const auto& column : s.test.rows().abscissae) abscissae.push_back(column.values);
-    abscissae[0] = first;
+    abscissae[k] = other;
   }
   Values values(size_of(s));
   const Status status = s.test.predict({s.model, p, q, abscissae}, {values, {}, {}, {}});
@@ -68,16 +68,18 @@ std::string abscissa_derivative_matches_differences(const Simulation& s) {
   Values derivative(count * rows);
   const Status status = s.test.predict({s.model, s.model_parameters, s.test_parameters}, {{}, {}, derivative, {}});
   if (!status.ok()) return status.reason();
-  const auto bound = s.test.rows().abscissae[0].values;
-  Values up(bound.begin(), bound.end()), down = up;
   constexpr double h = 1e-6;
-  for (std::size_t i = 0; i < n; ++i) up[i] += h, down[i] -= h;
-  const Values above = values_at(s, s.model_parameters, s.test_parameters, up),
-               below = values_at(s, s.model_parameters, s.test_parameters, down);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const double expected = (above[i] - below[i]) / (2 * h);
-    if (!(std::abs(derivative[i] - expected) <= 1e-6 * std::max(1.0, std::abs(expected))))
-      return fmt::format("row {}: {:.12g}, differences give {:.12g}", i, derivative[i], expected);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto bound = s.test.rows().abscissae[k].values;
+    Values up(bound.begin(), bound.end()), down = up;
+    for (std::size_t i = 0; i < n; ++i) up[i] += h, down[i] -= h;
+    const Values above = values_at(s, s.model_parameters, s.test_parameters, up, k),
+                 below = values_at(s, s.model_parameters, s.test_parameters, down, k);
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double given = derivative[k * rows + i], expected = (above[i] - below[i]) / (2 * h);
+      if (!(std::abs(given - expected) <= 1e-6 * std::max(1.0, std::abs(expected))))
+        return fmt::format("abscissa {}, row {}: {:.12g}, differences give {:.12g}", k, i, given, expected);
+    }
   }
   return {};
 }

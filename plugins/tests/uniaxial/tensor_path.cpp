@@ -133,8 +133,11 @@ Status predict_on_tensors(const Strip& strip, const TestInput& input, double mis
   for (std::size_t i = 0; i < n; ++i) {
     double time_step = 0;
     if (!strip.time.empty()) time_step = i == 0 ? std::max(0.0, strip.time[0]) : strip.time[i] - strip.time[i - 1];
-    row.set(stretch[i], {&time_step, history > 0 && !strip.time.empty() ? std::size_t{1} : 0},
-            {old_state.data(), i > 0 ? history : 0});
+    const auto set_row = [&] {
+      row.set(stretch[i], {&time_step, history > 0 && !strip.time.empty() ? std::size_t{1} : 0},
+              {old_state.data(), i > 0 ? history : 0});
+    };
+    set_row();
     // Start: the last row's λ1 u carried over. Where that fails, in small stretch steps from it.
     const auto at = [&](double trial) {
       return row.evaluate(trial, false, {}) ? row.residual()
@@ -146,8 +149,15 @@ Status predict_on_tensors(const Strip& strip, const TestInput& input, double mis
       guess = y, found = true;
       for (int k = 1; k <= parts && found; ++k) {
         row.set(previous * std::pow(stretch[i] / previous, double(k) / parts), {}, {});
+        guess += std::log(previous / stretch[i]) / parts;
         found = free_strip::safeguarded_newton(at, guess);
       }
+    }
+    // Last, from λ2² = 1/λ1, where I1 is least: an energy with a limit of I1 is defined there if anywhere.
+    if (!found) {
+      set_row();
+      guess = -std::log(stretch[i]);
+      found = free_strip::safeguarded_newton(at, guess);
     }
     if (!found)
       return Status::failed("uniaxial: no lateral equilibrium at " + row_name(strip, stretch, i) +

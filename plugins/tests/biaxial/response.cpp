@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "response.hpp"
+
+#include <algorithm>
+
+namespace tunica::biaxial {
+namespace {
+
+/// (a, b) of the six pairs tt, zz, rr, tz, zr, tr.
+constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+}  // namespace
+
+void Response::reserve(std::size_t n, std::size_t parameters) {
+  if (c.size() < 3 * n) c.resize(3 * n), stress.resize(3 * n), tangent.resize(6 * n);
+  if (stress_dp.size() < 3 * n * parameters) stress_dp.resize(3 * n * parameters);
+}
+
+Status Response::evaluate(const Model& model, std::span<const double> parameters, std::span<const double> time,
+                          std::size_t n, Wants wants) {
+  const ModelDescription& description = model.describe();
+  if (description.principal_axes && description.history_size == 0) return on_axes(model, parameters, n, wants);
+  return on_tensors(model, parameters, time, n, wants);
+}
+
+Status Response::on_axes(const Model& model, std::span<const double> parameters, std::size_t n, Wants wants) {
+  Status status = model.evaluate_axes({n, {c.data(), 3 * n}, parameters},
+                                      {{},
+                                       {stress.data(), 3 * n},
+                                       {tangent.data(), wants.tangent ? 6 * n : 0},
+                                       {stress_dp.data(), wants.parameters ? 3 * n * parameters.size() : 0}});
+  if (!status.ok()) return status;
+  // S_aa = 2 ∂W/∂c_a,  2 ∂S_aa/∂C_bb = 4 ∂²W/∂c_a∂c_b
+  for (std::size_t k = 0; k < 3 * n; ++k) stress[k] *= 2;
+  for (std::size_t k = 0; wants.tangent && k < 6 * n; ++k) tangent[k] *= 4;
+  for (std::size_t k = 0; wants.parameters && k < 3 * n * parameters.size(); ++k) stress_dp[k] *= 2;
+  return {};
+}
+
+Status Response::on_tensors(const Model& model, std::span<const double> parameters, std::span<const double> time,
+                            std::size_t n, Wants wants) {
+  const std::size_t history = model.describe().history_size, count = parameters.size();
+  tensor_.assign(6, 0), tensor_stress_.resize(6), tensor_tangent_.resize(36), tensor_stress_dp_.resize(6 * count);
+  old_state_.resize(history), new_state_.resize(history);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t a = 0; a < 3; ++a) tensor_[a] = c[a * n + i];
+    double step = 0;
+    if (!time.empty()) step = i == 0 ? std::max(0.0, time[0]) : time[i] - time[i - 1];
+    Status status = model.evaluate({1,
+                                    tensor_,
+                                    parameters,
+                                    {&step, history > 0 && !time.empty() ? 1u : 0u},
+                                    {old_state_.data(), i > 0 ? history : 0}},
+                                   {{},
+                                    tensor_stress_,
+                                    {tensor_tangent_.data(), wants.tangent ? 36u : 0u},
+                                    {tensor_stress_dp_.data(), wants.parameters ? 6 * count : 0},
+                                    new_state_});
+    if (!status.ok()) return status;
+    std::swap(old_state_, new_state_);
+    for (std::size_t a = 0; a < 3; ++a) {
+      stress[a * n + i] = tensor_stress_[a];
+      for (std::size_t j = 0; wants.parameters && j < count; ++j)
+        stress_dp[(3 * j + a) * n + i] = tensor_stress_dp_[6 * j + a];
+    }
+    for (std::size_t k = 0; wants.tangent && k < 6; ++k)
+      tangent[k * n + i] = tensor_tangent_[6 * pair[k][0] + pair[k][1]];
+  }
+  return {};
+}
+
+}  // namespace tunica::biaxial
