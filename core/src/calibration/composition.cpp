@@ -118,10 +118,10 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   ComposedTest composed{{}, on_shelf.plugin, {}, {}};
   try {
     composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
+    composed.test = plugins::create(on_shelf, {entry.options, composed.dataset.rows(), entry.data.stress_measure});
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", owner, problem.what()));
   }
-  composed.test = plugins::create(on_shelf, {entry.options, composed.dataset.rows(), entry.data.stress_measure});
   const TestDescription& bare = composed.test->describe();
   composed.slots = own_slots(bare.parameters, entry.parameters, prefix, owner);
   for (std::size_t k = 0; k < std::min(bare.nulls.size(), composed.slots.size()); ++k)
