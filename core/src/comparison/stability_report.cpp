@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/stability_report.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "comparison/text.hpp"
+
+namespace tunica::comparison {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+const char* direction(std::size_t axis) { return axis == 0 ? "circumferential" : "axial"; }
+
+std::vector<double> values_of(const RunSummary& run) {
+  std::vector<double> free;
+  for (const auto& parameter : run.parameters) free.push_back(parameter.value);
+  return free;
+}
+
+stability::Domain domain_of(const calibration::Assembly& assembly) {
+  stability::Domain domain;
+  for (const auto& strip : assembly.strips())
+    for (const double stretch : strip.stretches) {
+      double& largest = strip.axis == 0 ? domain.circumferential : domain.axial;
+      largest = std::max(largest, stretch);
+    }
+  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
+  return domain;
+}
+
+std::string imposed(const experiment::RunEntry& run) {
+  std::vector<std::string> words;
+  for (const auto& constraint : run.constraints) {
+    if (constraint.type != "transverse_stability")
+      words.push_back("admissible");
+    else if (constraint.h.size() > 1)
+      words.push_back("h(stretch)");
+    else
+      words.push_back(fmt::format("h = {:g}", constraint.h.front().second));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// The best objective without constraints of each model in each group.
+std::map<std::string, double> free_objectives(const execution::Plan& plan, const Summary& summary) {
+  std::map<std::string, double> best;
+  for (std::size_t run = 0; run < summary.runs.size(); ++run) {
+    const auto& entry = summary.runs[run];
+    if (!entry.has_result || !plan.runs[run].entry->constraints.empty()) continue;
+    const auto [found, added] = best.emplace(entry.model + '\n' + entry.group, entry.objective);
+    if (!added) found->second = std::min(found->second, entry.objective);
+  }
+  return best;
+}
+
+json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+}  // namespace
+
+void add_stability(const execution::Plan& plan, Summary& summary) {
+  const auto unconstrained = free_objectives(plan, summary);
+  for (std::size_t run = 0; run < summary.runs.size(); ++run) {
+    auto& entry = summary.runs[run];
+    if (!entry.has_result) continue;
+    const auto& assembly = *plan.runs[run].assembly;
+    const auto parameters = assembly.model_parameters(values_of(entry));
+    StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}, {}};
+    found.verdict = stability::judge(assembly.model(), parameters, domain_of(assembly));
+    for (const auto& inequality : assembly.model().describe().admissible) {
+      const double value = inequality.value(parameters);
+      if (value < -1e-9) found.inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
+    }
+    const auto free = unconstrained.find(entry.model + '\n' + entry.group);
+    if (!found.imposed.empty() && free != unconstrained.end() && free->second > 0)
+      found.ratio_to_free = entry.objective / free->second;
+    entry.stability = std::move(found);
+  }
+}
+
+std::string stability_table(const Summary& summary) {
+  std::size_t width = 5;
+  bool any = false;
+  for (const auto& run : summary.runs)
+    if (run.stability) any = true, width = std::max(width, columns(run.label));
+  if (!any) return {};
+  width = std::min<std::size_t>(width, 26);
+  std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<8} λ3 grows from stretch\n", pad("run", width), "imposed",
+                      "objective", "x free", "stable");
+  for (const auto& run : summary.runs) {
+    if (!run.stability) continue;
+    const auto& found = *run.stability;
+    std::vector<std::string> where;
+    for (const auto& verdict : found.verdict.transverse)
+      if (verdict.first_unstable && (!verdict.stable || *verdict.first_unstable < 2 * verdict.measured_to))
+        where.push_back(fmt::format("{:.3f} {}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial"));
+    text += fmt::format("  {}  {:<10} {:>#12.6g} {:>7}  {:<8} {}\n", pad(run.label, width),
+                        found.imposed.empty() ? "-" : found.imposed, run.objective,
+                        found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
+                        found.verdict.transversely_stable() ? "yes" : "NO", fmt::join(where, ", "));
+  }
+  return text;
+}
+
+json stability_json(const RunSummary& run) {
+  if (!run.stability) return nullptr;
+  const auto& found = *run.stability;
+  json directions = json::array();
+  for (const auto& verdict : found.verdict.transverse)
+    directions.push_back({{"direction", direction(verdict.axis)},
+                          {"measured_to", verdict.measured_to > 1 ? json(verdict.measured_to) : json(nullptr)},
+                          {"stable", verdict.stable},
+                          {"first_unstable", optional_number(verdict.first_unstable)},
+                          {"stable_again", optional_number(verdict.stable_again)},
+                          {"checked_to", verdict.checked_to}});
+  const auto& ellipticity = found.verdict.ellipticity;
+  const auto& drucker = found.verdict.drucker;
+  return {{"imposed", found.imposed.empty() ? json(nullptr) : json(found.imposed)},
+          {"ratio_to_free", optional_number(found.ratio_to_free)},
+          {"transverse", std::move(directions)},
+          {"ellipticity",
+           {{"holds", !ellipticity.first_lost.has_value()},
+            {"first_lost", optional_number(ellipticity.first_lost)},
+            {"path", ellipticity.path},
+            {"checked_to", found.verdict.domain.largest}}},
+          {"drucker", drucker ? json{{"holds", !drucker->first_lost.has_value()},
+                                     {"first_lost", optional_number(drucker->first_lost)},
+                                     {"path", drucker->path},
+                                     {"checked_to", found.verdict.domain.largest}}
+                              : json(nullptr)},
+          {"inadmissible", found.inadmissible},
+          {"sentences", found.verdict.sentences()}};
+}
+
+}  // namespace tunica::comparison

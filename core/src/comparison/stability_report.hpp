@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "comparison/summary.hpp"
+
+namespace tunica::comparison {
+
+/// Whether the best point of every run behaves as a material, asked for or not: transverse stability over the measured
+/// strips and beyond, ellipticity, Drucker's condition, the model's own inequalities; and what a constraint costs, the
+/// ratio of the objective to that of the best run of the same model, tests and objective without constraints.
+void add_stability(const execution::Plan& plan, Summary& summary);
+
+/// One line a run, for the terminal; empty without results.
+std::string stability_table(const Summary& summary);
+
+/// `stability` of a run's best point in result.json; null without.
+nlohmann::ordered_json stability_json(const RunSummary& run);
+
+/// stability.csv   λ2, λ3, stress, Ψ and slope of the free strips of every run's best point, from rest to the largest
+///                 stretch of the run
+/// energy.csv      W(λ_circumferential, λ_axial) of an incompressible sheet on a grid over the same stretches: its
+///                 isocontours, with the strips of stability.csv on them
+void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
+                            const Summary& summary);
+
+}  // namespace tunica::comparison

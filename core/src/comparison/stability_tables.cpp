@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comparison/stability_report.hpp"
+#include "execution/evaluation_table.hpp"
+#include "execution/files.hpp"
+
+namespace tunica::comparison {
+namespace {
+
+constexpr std::size_t steps = 60, grid = 41;
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+
+/// Rows of one strip, as far as it has an equilibrium.
+void append_strip(std::string& table, const std::string& label, const Model& model,
+                  const std::vector<double>& parameters, std::size_t axis, double limit) {
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double stretch = 1 + (limit - 1) * static_cast<double>(k) / steps;
+    stability::StripState at;
+    if (!stability::FreePath(model, axis, {stretch}).states(parameters, {&at, 1}).ok()) return;
+    table += fmt::format("{},{},{},{},{},{},{},{}\n", label, axis == 0 ? "circumferential" : "axial", number(stretch),
+                         number(at.transverse), number(at.normal), number(at.stress), number(at.anisotropy),
+                         number(at.normal_slope()));
+  }
+}
+
+void append_energy(std::string& table, const std::string& label, const Model& model,
+                   const std::vector<double>& parameters, double limit) {
+  const auto energy = [&](double t, double z) {
+    const double r = 1 / (t * z);
+    const std::array<double, 6> C{t * t, z * z, r * r, 0, 0, 0};
+    double W = std::nan("");
+    return model.evaluate({1, C, parameters, {}, {}}, {{&W, 1}, {}, {}, {}, {}}).ok() ? W : std::nan("");
+  };
+  // Down to where a strip contracts: λ2 ≥ 1/λ1 of an incompressible sheet.
+  const double low = 1 / limit, at_rest = energy(1, 1);
+  for (std::size_t i = 0; i < grid; ++i)
+    for (std::size_t j = 0; j < grid; ++j) {
+      const double t = low + (limit - low) * static_cast<double>(i) / (grid - 1);
+      const double z = low + (limit - low) * static_cast<double>(j) / (grid - 1);
+      table += fmt::format("{},{},{},{}\n", label, number(t), number(z), number(energy(t, z) - at_rest));
+    }
+}
+
+}  // namespace
+
+void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
+                            const Summary& summary) {
+  std::string strips =
+      "# Free strips at the best point of every run. normal_slope = d ln(normal stretch)/d ln(stretch): positive = "
+      "unstable.\nrun,direction,stretch [1],transverse_stretch [1],normal_stretch [1],cauchy_stress [kPa],anisotropy "
+      "[1],normal_slope [1]\n";
+  std::string energies =
+      "# Energy of an incompressible sheet at the best point of every run, zero at rest: its isocontours over the two "
+      "stretches.\nrun,circumferential_stretch [1],axial_stretch [1],energy [kPa]\n";
+  bool any = false;
+  for (std::size_t run = 0; run < summary.runs.size(); ++run) {
+    const auto& entry = summary.runs[run];
+    if (!entry.stability) continue;
+    any = true;
+    std::vector<double> free;
+    for (const auto& parameter : entry.parameters) free.push_back(parameter.value);
+    const auto& assembly = *plan.runs[run].assembly;
+    const auto parameters = assembly.model_parameters(free);
+    const std::string label = execution::csv_cell(entry.label);
+    const double limit = entry.stability->verdict.domain.largest;
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+      append_strip(strips, label, assembly.model(), parameters, axis, limit);
+    append_energy(energies, label, assembly.model(), parameters, limit);
+  }
+  if (!any) return;
+  execution::write_atomically(directory / "stability.csv", strips);
+  execution::write_atomically(directory / "energy.csv", energies);
+}
+
+}  // namespace tunica::comparison
