@@ -31,4 +31,26 @@ INSTANTIATE_TEST_SUITE_P(
                               .budget = 3000}),
     label);
 
+INSTANTIATE_TEST_SUITE_P(
+    Nlopt, OptimizerConformance,
+    ::testing::Values(Subject{.label = "crs2_lm", .type = "nlopt"},
+                      Subject{.label = "isres", .type = "nlopt", .options = {{"algorithm", "isres"}}, .oblique = false},
+                      Subject{.label = "direct_l",
+                              .type = "nlopt",
+                              .options = {{"algorithm", "direct_l"}},
+                              .oblique = false,
+                              .boundary = 1e-2},
+                      Subject{.label = "mlsl_slsqp", .type = "nlopt", .options = {{"algorithm", "mlsl"}}},
+                      Subject{.label = "mlsl_bobyqa",
+                              .type = "nlopt",
+                              .options = {{"algorithm", "mlsl"}, {"local_algorithm", "bobyqa"}},
+                              .oblique = false},
+                      Subject{.label = "cobyla",
+                              .type = "nlopt",
+                              .options = {{"algorithm", "cobyla"}, {"step_tolerance", 1e-6}},
+                              .oblique = false},
+                      Subject{.label = "bobyqa", .type = "nlopt", .options = {{"algorithm", "bobyqa"}}},
+                      Subject{.label = "slsqp", .type = "nlopt", .options = {{"algorithm", "slsqp"}}, .budget = 5000}),
+    label);
+
 }  // namespace tunica::testing

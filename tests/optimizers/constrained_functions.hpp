@@ -91,6 +91,7 @@ inline Function limited_curve() {
     }
   });
   function.name = "limited_curve";
+  function.optimum = 11.673945;
   function.start.assign(4, 0.75);
   return function;
 }

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "tunica/augmented_lagrangian.hpp"
+
+namespace tunica::nlopt_plugin {
+namespace {
+
+nlopt::algorithm algorithm_of(Algorithm algorithm, Algorithm local) {
+  switch (algorithm) {
+    case Algorithm::crs2_lm:
+      return nlopt::GN_CRS2_LM;
+    case Algorithm::isres:
+      return nlopt::GN_ISRES;
+    case Algorithm::direct_l:
+      return nlopt::GN_DIRECT_L;
+    case Algorithm::mlsl:
+      return uses_gradient(local) ? nlopt::GD_MLSL_LDS : nlopt::GN_MLSL_LDS;
+    case Algorithm::cobyla:
+      return nlopt::LN_COBYLA;
+    case Algorithm::bobyqa:
+      return nlopt::LN_BOBYQA;
+    case Algorithm::slsqp:
+      return nlopt::LD_SLSQP;
+  }
+  return nlopt::LN_COBYLA;
+}
+
+/// BOBYQA is not made for one dimension.
+Algorithm possible(Algorithm algorithm, std::size_t n) {
+  return algorithm == Algorithm::bobyqa && n == 1 ? Algorithm::cobyla : algorithm;
+}
+
+/// Measured where three evaluations in ten fail and where a region does: docs/optimizers.md.
+Failed failed(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::crs2_lm:
+      return Failed::infinite;
+    case Algorithm::cobyla:
+    case Algorithm::bobyqa:
+      return Failed::nearer;
+    case Algorithm::slsqp:
+      return Failed::beyond;
+    default:
+      return Failed::worst;
+  }
+}
+
+void set_local(nlopt::opt& opt, Algorithm algorithm, const Settings& settings) {
+  opt.set_xtol_abs(settings.step_tolerance);
+  opt.set_ftol_rel(settings.tolerance);
+  if (!uses_gradient(algorithm)) opt.set_initial_step(settings.initial_step);
+}
+
+/// Runs NLopt; its exceptions for the ends of a search become ends.
+void run(nlopt::opt& opt, const Bridge& bridge, std::span<const double> from, Search& search) {
+  std::vector<double> x(from.begin(), from.end());
+  for (double& value : x) value = std::clamp(value, 0.0, 1.0);
+  double objective = 0;
+  try {
+    opt.optimize(x, objective);
+    search.end = Search::End::converged;
+  } catch (const nlopt::roundoff_limited&) {
+    search.end = Search::End::roundoff;
+  } catch (const nlopt::forced_stop&) {
+    search.end = Search::End::stopped;
+  } catch (const std::runtime_error& error) {
+    search.end = Search::End::gave_up;
+    search.message = error.what();
+  }
+  bridge.rethrow();
+  if (bridge.stop() == Bridge::Stop::stalled) search.end = Search::End::stalled;
+  if (bridge.stop() == Bridge::Stop::problem) search.end = Search::End::stopped;
+  search.evaluated += bridge.evaluated();
+  if (search.failure.empty()) search.failure = bridge.failure();
+  if (bridge.best().better_than(search.best)) search.best = bridge.best();
+  if (search.best.x.empty() && search.end != Search::End::stopped) search.end = Search::End::nothing;
+  if (bridge.stop() == Bridge::Stop::nothing_succeeded) search.end = Search::End::nothing;
+}
+
+Search run_locally(Problem& problem, std::span<const double> x, Algorithm algorithm, const Settings& settings) {
+  Search search;
+  Bridge bridge(problem, {.gradient = uses_gradient(algorithm), .failed = failed(algorithm)});
+  nlopt::opt opt(algorithm_of(algorithm, algorithm), static_cast<unsigned>(problem.dimension()));
+  bridge.attach(opt, true);
+  set_local(opt, algorithm, settings);
+  run(opt, bridge, x, search);
+  return search;
+}
+
+void take(const AugmentedLagrangian::Point& best, Search& search) {
+  search.best = {best.x, best.objective, best.violation};
+  if (best.x.empty()) search.best = {};
+}
+
+/// Rounds of an algorithm that knows bounds alone: round(lagrangian, from, k), each from where the last one ended.
+Search follow_multipliers(Problem& problem, std::span<const double> x,
+                          const std::function<Search(Problem&, std::span<const double>, int)>& round) {
+  AugmentedLagrangian lagrangian(problem);
+  Search search;
+  constexpr int rounds = 30;
+  for (int k = 0; k < rounds; ++k) {
+    const std::vector<double> from(k == 0 ? std::vector<double>(x.begin(), x.end()) : lagrangian.point().x);
+    const Search last = round(lagrangian, from, k);
+    search.evaluated += last.evaluated;
+    search.end = last.end;
+    if (search.failure.empty()) search.failure = last.failure;
+    if (last.end == Search::End::stopped || last.end == Search::End::nothing) break;
+    const AugmentedLagrangian::Progress progress = lagrangian.update();
+    if (progress == AugmentedLagrangian::Progress::infeasible) search.end = Search::End::infeasible;
+    if (progress != AugmentedLagrangian::Progress::going_on) break;
+  }
+  take(lagrangian.best(), search);
+  return search;
+}
+
+/// ISRES improves its best point rarely: at 2000 evaluations it was stopped on its way in every test function.
+std::size_t stall_of(const Settings& settings, std::size_t n) {
+  if (settings.stall > 0) return settings.stall;
+  return (settings.algorithm == Algorithm::isres ? 2000 : 200) * (n + 1);
+}
+
+/// MLSL on a quadratic penalty until it stalls, then its local algorithm from the best point.
+Search search_in_two_steps(Problem& problem, std::span<const double> start, std::uint64_t seed,
+                           const Settings& settings) {
+  AugmentedLagrangian penalised(problem);
+  Search first = search_globally(penalised, start, seed, settings);
+  const auto from = penalised.best().x.empty() ? std::vector<double>(start.begin(), start.end()) : penalised.best().x;
+  take(penalised.best(), first);
+  if (problem.should_stop() || first.end == Search::End::nothing) return first;
+  Search second = search_locally(problem, from, settings.local, settings);
+  second.evaluated += first.evaluated;
+  if (second.failure.empty()) second.failure = first.failure;
+  if (first.best.better_than(second.best)) second.best = first.best;
+  return second;
+}
+
+}  // namespace
+
+std::string Search::words() const {
+  switch (end) {
+    case End::converged:
+      return "it met a tolerance";
+    case End::roundoff:
+      return "rounding left no further progress";
+    case End::stalled:
+      return "it made no more progress";
+    case End::infeasible:
+      return "the constraints could not be met";
+    case End::gave_up:
+      return fmt::format("NLopt gave up: {}", message);
+    case End::stopped:
+      return "it was still under way";
+    case End::nothing:
+      return "nothing could be evaluated";
+  }
+  return "";
+}
+
+Search search_globally(Problem& problem, std::span<const double> start, std::uint64_t seed, const Settings& settings) {
+  const Algorithm algorithm = settings.algorithm;
+  const bool constrained = problem.constraint_count() > 0;
+  if (algorithm == Algorithm::mlsl && constrained) return search_in_two_steps(problem, start, seed, settings);
+  if (algorithm == Algorithm::direct_l && constrained) {
+    return follow_multipliers(problem, start, [&](Problem& lagrangian, std::span<const double> from, int /*round*/) {
+      return search_globally(lagrangian, from, seed, settings);
+    });
+  }
+  // NLopt's generator is one a thread. Evaluations are serial here, so that no other search runs on it in between.
+  nlopt::srand(static_cast<unsigned long>(seed));
+  const Algorithm local = possible(settings.local, problem.dimension());
+  Bridge bridge(problem, {.gradient = algorithm == Algorithm::mlsl && uses_gradient(local),
+                          .infeasible = algorithm == Algorithm::crs2_lm ? Infeasible::ranked : Infeasible::as_is,
+                          .failed = failed(algorithm == Algorithm::mlsl ? local : algorithm),
+                          .stall = stall_of(settings, problem.dimension()),
+                          .tolerance = settings.tolerance});
+  nlopt::opt opt(algorithm_of(algorithm, local), static_cast<unsigned>(problem.dimension()));
+  bridge.attach(opt, takes_constraints(algorithm));
+  if (settings.population > 0) opt.set_population(static_cast<unsigned>(settings.population));
+  if (algorithm == Algorithm::mlsl) {
+    nlopt::opt inner(algorithm_of(local, local), static_cast<unsigned>(problem.dimension()));
+    set_local(inner, local, settings);
+    opt.set_local_optimizer(inner);
+  }
+  Search search;
+  run(opt, bridge, start, search);
+  return search;
+}
+
+Search search_locally(Problem& problem, std::span<const double> x, Algorithm algorithm, const Settings& settings) {
+  algorithm = possible(algorithm, problem.dimension());
+  if (problem.constraint_count() > 0 && !takes_constraints(algorithm)) {
+    return follow_multipliers(problem, x, [&](Problem& lagrangian, std::span<const double> from, int round) {
+      Settings shorter = settings;
+      shorter.initial_step = std::max(settings.initial_step * std::pow(0.3, round), 1e-4);
+      return run_locally(lagrangian, from, algorithm, shorter);
+    });
+  }
+  return run_locally(problem, x, algorithm, settings);
+}
+
+}  // namespace tunica::nlopt_plugin
