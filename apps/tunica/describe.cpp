@@ -134,9 +134,9 @@ void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
   try {
     const auto test = plugins::create(entry, setup);
     print_parameters(test->describe().parameters, test->describe().nulls);
-  } catch (const InputError& problem) {
-    // A test is made from options and data; which parameters it has can depend on them.
-    fmt::print("\nparameters: shown by `tunica check` for an experiment ({})\n", problem.what());
+  } catch (const InputError&) {
+    // A test is made from options and data, and these may not suit it: then what any test of the type can have.
+    print_parameters(factory.parameters);
   }
   print_options(factory.options);
 }

@@ -52,6 +52,15 @@ TEST(InvalidInput, MissingColumn) {
   EXPECT_THAT(refused(bench), AllOf(HasSubstr("'stres'"), HasSubstr("circ.csv"), HasSubstr("stress")));
 }
 
+TEST(InvalidInput, ColumnThatTheProtocolOfATestNeeds) {
+  trial::Bench bench;
+  bench.experiment["tests"]["circ"]["type"] = "biaxial";
+  bench.experiment["tests"]["circ"]["protocol"] = "general";
+  EXPECT_THAT(refused(bench),
+              AllOf(HasSubstr("test 'circ'"), HasSubstr("no column is mapped to 'stretch_circumferential'"),
+                    HasSubstr("the protocol 'general' needs both in-plane stretches")));
+}
+
 TEST(InvalidInput, InitialValueOutsideItsBounds) {
   trial::Bench bench;
   bench.experiment["models"]["gho"]["parameters"]["mu"] = {{"min", 1}, {"max", 10}, {"initial", 11}};

@@ -48,6 +48,15 @@ void add_models(Registry& registry) {
                               return std::make_unique<FakeModel>("plain", std::vector<Parameter>{gho_parameters[0]},
                                                                  false);
                             }});
+  const Option terms{"terms", Option::Kind::integer, std::int64_t{2}, "Number of terms", "", 1, 4, {}};
+  registry.add(ModelFactory{"series", "As many parameters as terms", "", {terms}, [](const Options& options) {
+                              std::vector<Parameter> parameters;
+                              for (std::int64_t k = 1; k <= options.integer("terms"); ++k) {
+                                parameters.push_back(gho_parameters[0]);
+                                parameters.back().name = "c_" + std::to_string(k);
+                              }
+                              return std::make_unique<FakeModel>("series", std::move(parameters), false);
+                            }});
 }
 
 void add_tests(Registry& registry) {

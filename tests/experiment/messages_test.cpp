@@ -85,7 +85,7 @@ TEST_F(Messages, NameWrongTypes) {
 TEST_F(Messages, AnswerUnknownTypesWithTheNearest) {
   expect_within(
       refusal(R"("type": "gho")", R"("type": "goh")"),
-      "unknown model type 'goh' (/models/gho/type, line 6, column 7). Did you mean 'gho'? Known: gho, plain.");
+      "unknown model type 'goh' (/models/gho/type, line 6, column 7). Did you mean 'gho'? Known: gho, plain, series.");
   expect_within(
       refusal(R"("type": "uniaxial")", R"("type": "uniaxal")"),
       "unknown test type 'uniaxal' (/tests/circumferential_strip/type, line 16, column 7). Did you mean 'uniaxial'?");

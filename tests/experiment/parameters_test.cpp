@@ -21,6 +21,17 @@ TEST_F(Parameters, AnswerAnUnknownNameWithTheNearest) {
       "unknown parameter 'gg' of mechanism 'viscoelasticity' (/models/gho/mechanisms/0/parameters/gg, line 11");
 }
 
+TEST_F(Parameters, AreThoseOfTheModelWithItsOptions) {
+  const auto series = [](std::string_view body) {
+    return with(R"("models": {)", R"("models": {"s": {"type": "series", )" + std::string(body) + "},");
+  };
+  EXPECT_EQ(read(series(R"("terms": 3, "parameters": {"c_3": {"max": 20}})")).model("s").parameters.size(), 3u);
+  EXPECT_EQ(read(series(R"("parameters": {})")).model("s").parameters.size(), 2u);
+  expect_within(refusal(series(R"("terms": 2, "parameters": {"c_3": {"max": 20}})")),
+                "unknown parameter 'c_3' of model 's'");
+  expect_within(refusal(series(R"("terms": 5)")), "the option 'terms' is 5, more than its largest value 4");
+}
+
 TEST_F(Parameters, RefuseReversedBounds) {
   EXPECT_EQ(refusal(R"("min": "0.5 kPa", "max": "200 kPa")", R"("min": "200 kPa", "max": "0.5 kPa")"),
             "experiment.json: the bounds of 'mu' of model 'gho' are reversed: min is 200 kPa, max is 0.5 kPa "

@@ -95,6 +95,10 @@ TEST_F(Schema, CarriesTheDeclarationsOfThePlugins) {
   EXPECT_EQ(radius["type"], json({"number", "string"}));
   EXPECT_EQ(radius["minimum"], 1e-3);
   EXPECT_EQ(text["definitions"]["optimizer_es"]["properties"]["parents"]["default"], 15);
+  // Parameters that only some value of an option brings are there too.
+  const json& series = text["definitions"]["model_series"]["properties"]["parameters"]["properties"];
+  EXPECT_TRUE(series.contains("c_1") && series.contains("c_4"));
+  EXPECT_EQ(series.size(), 4u);
 }
 
 struct ResultSchema : ::testing::Test {

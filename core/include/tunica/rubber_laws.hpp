@@ -31,7 +31,7 @@ struct Cubic {
   }
 };
 
-/// ψ = −(μ Jm/2) ln(1 − x/Jm), x = I1 − 3 (Gent 1996, eq. 3). From x = Jm on, where the chains are at their full
+/// ψ = −(μ Jm/2) ln(1 − x/Jm), x = I1 − 3 (Gent 1996). From x = Jm on, where the chains are at their full
 /// length, there is no energy: every number is infinite. Automatic differentiation would go on beyond the limit, where
 /// ln is not a number but its derivative is an ordinary one; hence by hand.
 struct Gent {
@@ -69,7 +69,7 @@ struct Gent {
   }
 };
 
-/// w(λ) = Σ_i (μ_i/α_i) (λ^α_i − 1), the share of one principal stretch in Ogden's energy (Ogden 1972, eq. 17);
+/// w(λ) = Σ_i (μ_i/α_i) (λ^α_i − 1), the share of one principal stretch in Ogden's energy (Ogden 1972);
 /// parameters μ_1, α_1, μ_2, α_2, …. At α_i = 0 the limit μ_i ln λ.
 template <std::size_t terms>
 struct Ogden {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ogden (1972), Proc. R. Soc. A 326:565–584, doi 10.1098/rspa.1972.0026, eq. 17, in his own convention:
+// Ogden (1972), Proc. R. Soc. A 326:565–584, doi 10.1098/rspa.1972.0026, in his own convention:
 //
 //   W = Σ_i (μ_i/α_i) (λ1^α_i + λ2^α_i + λ3^α_i − 3),   shear modulus ½ Σ_i μ_i α_i.
 //
@@ -18,7 +18,7 @@ constexpr std::array<double, most_terms> first_mu{630, 1.2, -10, 1, -1, 1}, firs
 
 template <std::size_t terms>
 std::unique_ptr<Model> create() {
-  const std::string source = "Ogden, Proc. R. Soc. A 326:565 (1972), eq. 17";
+  const std::string source = "Ogden, Proc. R. Soc. A 326:565 (1972)";
   ModelDescription description;
   description.type = "ogden";
   for (std::size_t k = 0; k < terms; ++k) {
