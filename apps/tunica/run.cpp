@@ -9,10 +9,13 @@
 #include <optional>
 #include <string>
 
+#include "comparison/certify.hpp"
 #include "comparison/fit_table.hpp"
 #include "comparison/provenance.hpp"
 #include "comparison/ranking_table.hpp"
 #include "comparison/result_json.hpp"
+#include "comparison/stability_report.hpp"
+#include "comparison/study_tables.hpp"
 #include "comparison/summary.hpp"
 #include "comparison/text.hpp"
 #include "execution/files.hpp"
@@ -20,6 +23,7 @@
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "exit_codes.hpp"
+#include "fresh_process.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -30,7 +34,7 @@ struct RunOptions {
   std::string file, directory;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
-  bool resume = false;
+  bool resume = false, certificate = true;
 };
 
 /// The seed of the command line, in the experiment and in the input.json it is documented by.
@@ -59,6 +63,17 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
     command += " --plugin-path " + quoted(std::filesystem::path(path).string());
   if (global.allow_world_writable_plugins) command += " --allow-world-writable-plugins";
   return command;
+}
+
+/// Asks a process that has seen nothing of the search; the numbers it needs are in the folder.
+void certify(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
+             comparison::Summary& summary) {
+  if (!options.certificate) return comparison::add_certificates("", "--no-certificate was given", summary);
+  std::vector<std::string> arguments{"certify", directory.string(), "--quiet"};
+  for (const auto& path : global.plugin_paths) arguments.insert(arguments.end(), {"--plugin-path", path});
+  if (global.allow_world_writable_plugins) arguments.emplace_back("--allow-world-writable-plugins");
+  const Answer answer = ask_fresh_process(arguments);
+  comparison::add_certificates(answer.problem.empty() ? answer.out : "", answer.problem, summary);
 }
 
 /// 1 when a run has nothing to show, broke its constraints or was given up by the failure policy.
@@ -116,9 +131,13 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   }
 
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
-  const auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
+  auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
   const auto provenance = comparison::provenance_of(plan);
   comparison::write_fit_tables(directory.path(), plan, summary);
+  comparison::write_stability_tables(directory.path(), plan, summary);
+  comparison::write_study_tables(directory.path(), plan, outcome.runs, summary);
+  execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
+  certify(global, options, directory.path(), summary);
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
              comparison::ranking_table(summary));
@@ -147,13 +166,16 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(seed_number())
       ->type_name("S");
   verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
+  verb->add_flag("!--no-certificate", options->certificate,
+                 "Do not evaluate the best points and their neighbours again in a fresh process");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Examples:\n"
       "  tunica run experiment.json\n"
       "  tunica run experiment.json -o results/a -j 4 --seed 7\n"
       "  tunica run experiment.json -o results/a --resume\n\n"
-      "Writes result.json, evaluations.csv (live), fit_<test>.csv, input.json, run.log and checkpoint.json.");
+      "Writes result.json, evaluations.csv (live), fit_<test>.csv, ranking.csv, realisations.csv, convergence.csv,\n"
+      "performance_profile.csv, data_profile.csv, input.json, run.log and checkpoint.json.");
   verb->callback([&global, &action, options] { action = [&global, options] { return run(global, *options); }; });
 }
 

@@ -43,7 +43,10 @@ Bench::Bench() {
 }
 
 nlohmann::json without_times(nlohmann::json result) {
-  for (auto& run : result["runs"]) run.erase("seconds");
+  for (auto& run : result["runs"]) {
+    run.erase("seconds");
+    run["statistics"].erase("seconds");
+  }
   result["provenance"].erase("date");
   return result;
 }

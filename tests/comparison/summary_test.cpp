@@ -36,6 +36,7 @@ struct Summarised {
     std::vector<double> per_test(1);
     auto workspace = plan->runs[0].assembly->make_workspace();
     static_cast<void>(plan->runs[0].assembly->evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
+    result.trace = {{2, 1e6}, {result.best.index + 1, result.best.objective}};
     result.tally = {100, 20, 4, 0, "row 2: overflow"};
     result.seconds = 0.5;
     return result;
@@ -61,6 +62,11 @@ TEST(Summary, ReportsTheBestEvaluatedPointAndCountsEverything) {
   EXPECT_EQ(run.jacobians, 40u);
   EXPECT_EQ(run.seconds, 1);
   EXPECT_EQ(run.success_rate, 0.5);
+  EXPECT_EQ(run.successes, 1u);
+  EXPECT_EQ(run.evaluations_to_target.box->median, 21);
+  EXPECT_EQ(*run.expected_running_time, 100 + 21) << "the failed realisation was paid for in full";
+  EXPECT_EQ(run.certificate.agreeing, 1u);
+  EXPECT_EQ(run.certificate.realisations, 2u);
   EXPECT_EQ(run.objectives.count, 2u);
   EXPECT_DOUBLE_EQ(run.parameters[0].over_realisations.mean, 2.25);
   ASSERT_EQ(run.quality.size(), 2u);

@@ -25,6 +25,7 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   execution::RealisationResult result;
   result.realisation = 4;
   result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};
+  result.trace = {{3, 1e300}, {18, 66.1}};
   result.tally = {120, 30, 5, 2, "row 3: \"no\" root"};
   result.converged = true;
   result.reason = "step below tolerance";
@@ -42,6 +43,9 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.best.parameters, result.best.parameters);
   EXPECT_EQ(back.best.objective, result.best.objective);
   EXPECT_EQ(back.best.index, 17u);
+  ASSERT_EQ(back.trace.size(), 2u);
+  EXPECT_EQ(back.trace[0].objective, 1e300);
+  EXPECT_EQ(back.trace[1].evaluations, 18u);
   EXPECT_EQ(back.tally.evaluations, 120u);
   EXPECT_EQ(back.tally.jacobians, 30u);
   EXPECT_EQ(back.tally.failures, 5u);

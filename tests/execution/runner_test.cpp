@@ -44,6 +44,12 @@ void expect_equal(const Execution& a, const Execution& b) {
       EXPECT_EQ(left.best.parameters, right.best.parameters);
       EXPECT_EQ(left.best.objective, right.best.objective);
       EXPECT_EQ(left.best.index, right.best.index);
+      const auto numbers = [](const auto& trace) {
+        std::vector<std::pair<std::uint64_t, double>> pairs;
+        for (const auto& [evaluations, objective] : trace) pairs.emplace_back(evaluations, objective);
+        return pairs;
+      };
+      EXPECT_EQ(numbers(left.trace), numbers(right.trace));
       EXPECT_EQ(left.tally.evaluations, right.tally.evaluations);
       EXPECT_EQ(left.stop_reason, right.stop_reason);
       EXPECT_EQ(left.reason, right.reason);
@@ -181,6 +187,21 @@ TEST(Runner, SharesTheBudgetBetweenStagesAndStartsFromTheBest) {
     first_of_second = entry.objective;
   }
   EXPECT_NEAR(first_of_second, best, 1e-9 * best);
+}
+
+TEST(Runner, TracesEveryImprovementUpToTheBest) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk", 500);
+  const trial::Folder folder;
+  const auto execution = run(laboratory, folder.path());
+  const auto& result = execution.runs[0].realisations[0];
+  ASSERT_GT(result.trace.size(), 2u);
+  for (std::size_t k = 1; k < result.trace.size(); ++k) {
+    EXPECT_GT(result.trace[k].evaluations, result.trace[k - 1].evaluations);
+    EXPECT_LT(result.trace[k].objective, result.trace[k - 1].objective);
+  }
+  EXPECT_EQ(result.trace.back().evaluations, result.best.index + 1);
+  EXPECT_EQ(result.trace.back().objective, result.best.objective);
 }
 
 TEST(Runner, ReportsTheFirstReasonWhenNothingSucceeds) {

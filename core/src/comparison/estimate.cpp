@@ -49,7 +49,7 @@ void add_parameters(const calibration::Assembly& assembly, const execution::Real
     if (unit[j] >= 1 - on_bound) estimate.at_bound = Estimate::Bound::upper;
     std::vector<double> sample;
     for (const auto& realisation : all.realisations)
-      if (!realisation.best.parameters.empty()) sample.push_back(realisation.best.parameters[j]);
+      if (realisation.best.feasible()) sample.push_back(realisation.best.parameters[j]);
     estimate.over_realisations = sample_statistics(sample);
     summary.parameters.push_back(std::move(estimate));
   }

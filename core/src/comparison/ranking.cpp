@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace tunica::comparison {
 
 namespace {
+
+/// 0: fits and keeps the constraints; 1: breaks one; 2: no result.
+int standing(const RunSummary& run) { return !run.has_result ? 2 : run.status.ok() ? 0 : 1; }
+
+}  // namespace
 
 const char* name_of(experiment::ObjectiveType type) {
   switch (type) {
@@ -24,11 +29,6 @@ const char* name_of(experiment::ObjectiveType type) {
   return "";
 }
 
-/// 0: fits and keeps the constraints; 1: breaks one; 2: no result.
-int standing(const RunSummary& run) { return !run.has_result ? 2 : run.status.ok() ? 0 : 1; }
-
-}  // namespace
-
 std::string group_of(const experiment::RunEntry& run) {
   return fmt::format("{} on {}", name_of(run.objective), fmt::join(run.tests, ", "));
 }
@@ -37,7 +37,7 @@ std::vector<Ranked> rank(const std::vector<RunSummary>& runs) {
   std::map<std::string, std::size_t> group_order;
   for (const auto& run : runs) group_order.emplace(run.group, group_order.size());
   std::vector<Ranked> order;
-  for (std::size_t run = 0; run < runs.size(); ++run) order.push_back({run, std::nullopt});
+  for (std::size_t run = 0; run < runs.size(); ++run) order.push_back({run, std::nullopt, std::nullopt});
   std::stable_sort(order.begin(), order.end(), [&](const Ranked& a, const Ranked& b) {
     const auto key = [&](const RunSummary& run) {
       return std::tuple(group_order.at(run.group), standing(run), run.has_result ? run.objective : 0.0);
@@ -50,29 +50,19 @@ std::vector<Ranked> rank(const std::vector<RunSummary>& runs) {
   return order;
 }
 
-void count_successes(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                     std::vector<RunSummary>& runs) {
-  const auto conditions = [&](std::size_t run) {
-    const auto& entry = *plan.runs[run].entry;
-    std::string key = entry.model + '\n' + group_of(entry);
-    for (const auto& constraint : entry.constraints) key += '\n' + constraint.json;
-    return key;
-  };
-  std::map<std::string, double> best_known;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    auto& best = best_known.emplace(conditions(run), std::numeric_limits<double>::infinity()).first->second;
-    for (const auto& realisation : results[run].realisations)
-      if (realisation.best.feasible()) best = std::min(best, realisation.best.objective);
+void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked>& ranking) {
+  std::map<std::string, std::set<std::string>> models;
+  std::map<std::string, double> least;
+  for (const auto& run : runs) {
+    if (!run.has_result || !run.information || !run.information->aicc) continue;
+    models[run.group].insert(run.model);
+    const double aicc = *run.information->aicc;
+    least[run.group] = std::min(least.emplace(run.group, aicc).first->second, aicc);
   }
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    auto& summary = runs[run];
-    const auto& realisations = results[run].realisations;
-    summary.threshold = success_threshold(plan.runs[run].entry->stop.target, best_known.at(conditions(run)));
-    const auto successes = std::count_if(realisations.begin(), realisations.end(), [&](const auto& realisation) {
-      return realisation.best.feasible() && realisation.best.objective <= summary.threshold;
-    });
-    summary.success_rate =
-        realisations.empty() ? 0 : static_cast<double>(successes) / static_cast<double>(realisations.size());
+  for (auto& entry : ranking) {
+    const auto& run = runs[entry.run];
+    if (!run.has_result || !run.information || !run.information->aicc || models[run.group].size() < 2) continue;
+    entry.delta_aicc = *run.information->aicc - least[run.group];
   }
 }
 

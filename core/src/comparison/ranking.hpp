@@ -8,6 +8,8 @@
 
 namespace tunica::comparison {
 
+const char* name_of(experiment::ObjectiveType type);
+
 /// Runs of one group have the same objective on the same tests: only their objectives can be compared.
 std::string group_of(const experiment::RunEntry& run);
 
@@ -15,9 +17,7 @@ std::string group_of(const experiment::RunEntry& run);
 /// without a result.
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 
-/// The share of realisations that came as far as the best known for the same model under the same conditions; fills
-/// in threshold and success_rate.
-void count_successes(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                     std::vector<RunSummary>& runs);
+/// Where runs of a group fit different models: AICc above the least of the group.
+void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked>& ranking);
 
 }  // namespace tunica::comparison

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "comparison/stability_report.hpp"
 #include "comparison/text.hpp"
 
 namespace tunica::comparison {
@@ -21,27 +22,62 @@ std::string lines(const std::string& title, const std::vector<std::string>& sent
   return text + '\n';
 }
 
+/// A count in at most seven columns.
+std::string count_text(std::optional<double> count) {
+  if (!count) return "-";
+  return *count < 1e7 ? fmt::format("{:.0f}", *count) : fmt::format("{:.3g}", *count);
+}
+
+/// Seven digits where they fit into ten columns.
+std::string objective_text(double objective) {
+  std::string text = fmt::format("{:.7g}", objective);
+  return text.size() <= 10 ? text : fmt::format("{:.4g}", objective);
+}
+
+/// What a reader must know of a run that has no rank, or one that does not count.
+std::string flaw(const RunSummary& run) {
+  if (!run.has_result) return "NO RESULT: " + run.status.reason();
+  if (run.status.kind() == Status::Kind::infeasible) return "BREAKS A CONSTRAINT: " + run.status.reason();
+  return run.status.ok() ? "" : run.status.reason();
+}
+
+constexpr std::size_t label_width = 20;  // longer ones stand on a line of their own
+
+std::string row(const Ranked& entry, const RunSummary& run, bool compares_models) {
+  const std::string objective = run.has_result ? objective_text(run.objective) : "-";
+  const auto& to_target = run.evaluations_to_target.box;
+  std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
+  if (columns(run.label) > label_width) text += run.label + '\n' + std::string(3, ' ');
+  text += fmt::format(
+      "{} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6.3g}", pad(columns(run.label) > label_width ? "" : run.label, label_width),
+      objective, fmt::format("{}/{}", run.successes, run.realisations),
+      count_text(to_target ? std::optional(to_target->median) : std::nullopt), count_text(run.expected_running_time),
+      count_text(static_cast<double>(run.failures)), run.seconds);
+  if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
+  text += '\n';
+  if (const std::string reason = flaw(run); !reason.empty()) text += hanging("     ", reason) + '\n';
+  return text;
+}
+
 std::string ranking_lines(const Summary& summary) {
-  std::size_t width = 5;
-  for (const auto& run : summary.runs) width = std::max(width, columns(run.label));
-  width = std::min<std::size_t>(width, 26);
+  const bool compares_models = std::any_of(summary.ranking.begin(), summary.ranking.end(),
+                                           [](const Ranked& entry) { return entry.delta_aicc.has_value(); });
   std::string text, group;
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
     if (run.group != group) {
       group = run.group;
       text += hanging("Ranking by ", group) + '\n';
-      text += fmt::format("  #  {}  {:>12} {:>9} {:>7} {:>9}  {}\n", pad("run", width), "objective", "evals", "failed",
-                          "seconds", "success");
+      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n", pad("run", label_width), "objective",
+                          "success", "evals", "ERT", "failed", "sec", compares_models ? "  ΔAICc" : "");
     }
-    const std::string rank = entry.rank ? fmt::format("{}", *entry.rank) : "-";
-    const std::string objective = run.has_result ? fmt::format("{:#.7g}", run.objective) : "NO RESULT";
-    const auto successes = std::lround(run.success_rate * static_cast<double>(run.realisations));
-    text += fmt::format("{:>3}  {}  {:>12} {:>9} {:>7} {:>9.4g}  {}/{}{}\n", rank, pad(run.label, width), objective,
-                        run.evaluations, run.failures, run.seconds, successes, run.realisations,
-                        run.has_result && !run.status.ok() ? " BREAKS A CONSTRAINT" : "");
+    text += row(entry, run, compares_models);
   }
-  return text;
+  return text +
+         hanging("   ",
+                 "success: realisations at or below the target, or 0.1 % above the best known; evals: their "
+                 "median of evaluations to it; ERT: evaluations spent for one success, failures included") +
+         '\n';
 }
 
 std::string quality_text(const Quality& quality) {
@@ -59,6 +95,7 @@ std::string run_lines(const RunSummary& run) {
   if (run.realisations > 1) text += fmt::format(", best of {} realisations", run.realisations);
   text = hanging(text + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n';
   if (!run.has_result) return text + hanging("  no result: ", run.status.reason()) + '\n';
+  if (!run.certificate.verdict.empty()) text += hanging("  optimum: ", run.certificate.verdict) + '\n';
   std::size_t width = 8;
   for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
   for (const auto& parameter : run.parameters)
@@ -93,6 +130,7 @@ std::string value_text(const Estimate& estimate) {
 
 std::string ranking_table(const Summary& summary) {
   std::string text = lines("WARNINGS", summary.warnings) + ranking_lines(summary);
+  if (const std::string stability = stability_table(summary); !stability.empty()) text += '\n' + stability;
   for (const auto& entry : summary.ranking) text += '\n' + run_lines(summary.runs[entry.run]);
   if (!summary.identifiability.empty()) text += "\nWhat the data fix, and what they do not\n";
   for (const auto& sentence : summary.identifiability) text += hanging("  ", sentence) + '\n';

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "comparison/stability_report.hpp"
+
 namespace tunica::comparison {
 
 namespace {
@@ -19,11 +21,57 @@ json interval(const std::optional<Interval>& value) {
 }
 
 json statistics(const SampleStatistics& sample) {
-  if (sample.count == 0) return {{"mean", nullptr}, {"sd", nullptr}, {"ci95", nullptr}};
-  return {{"mean", sample.mean}, {"sd", or_null(sample.sd)}, {"ci95", interval(sample.ci95)}};
+  if (sample.count == 0) return {{"count", 0}, {"mean", nullptr}, {"sd", nullptr}, {"ci95", nullptr}};
+  return {{"count", sample.count},         {"mean", sample.mean},     {"sd", or_null(sample.sd)},
+          {"ci95", interval(sample.ci95)}, {"min", sample.box->min},  {"q1", sample.box->lower},
+          {"median", sample.box->median},  {"q3", sample.box->upper}, {"max", sample.box->max}};
 }
 
 const char* word(Estimate::Bound bound) { return bound == Estimate::Bound::lower ? "lower" : "upper"; }
+
+json certificate(const Certificate& certificate) {
+  json spread = json::object(), fresh = nullptr, neighbours = nullptr;
+  for (const auto& parameter : certificate.spread)
+    spread[parameter.name] = {
+        {"min", parameter.min}, {"max", parameter.max}, {"unit", parameter.unit}, {"share_of_bounds", parameter.share}};
+  if (certificate.fresh) {
+    const auto& around = certificate.fresh->around;
+    const bool evaluated = around.status.kind() != Status::Kind::failed;
+    fresh = {{"status", name(around.status.kind())},
+             {"objective", evaluated ? json(around.objective) : json(nullptr)},
+             {"difference", evaluated ? json(certificate.fresh->difference) : json(nullptr)},
+             {"identical", certificate.fresh->identical}};
+    neighbours = {{"evaluated", around.evaluated},
+                  {"infeasible", around.infeasible},
+                  {"failed", around.failed},
+                  {"better", around.better},
+                  {"lowest", nullptr}};
+    if (around.lowest)
+      neighbours["lowest"] = {
+          {"objective", around.lowest->objective}, {"along", around.lowest->along}, {"step", around.lowest->step}};
+  }
+  return {{"verdict", certificate.verdict},
+          {"fresh_process", std::move(fresh)},
+          {"neighbours", std::move(neighbours)},
+          {"realisations",
+           {{"agree", certificate.agreeing}, {"of", certificate.realisations}, {"spread", std::move(spread)}}},
+          {"at_bounds", certificate.at_bounds},
+          {"constraints",
+           {{"count", certificate.fresh ? certificate.fresh->around.constraints : 0},
+            {"active", certificate.fresh ? certificate.fresh->around.active_constraints : 0}}}};
+}
+
+const char* word(Information::Noise noise) {
+  switch (noise) {
+    case Information::Noise::stated:
+      return "stated";
+    case Information::Noise::estimated:
+      return "estimated";
+    case Information::Noise::mixed:
+      return "mixed";
+  }
+  return "";
+}
 
 json best(const RunSummary& run) {
   json parameters = json::object();
@@ -50,10 +98,20 @@ json best(const RunSummary& run) {
     per_test[run.tests[test]] = {{"cost", test < run.per_test.size() ? json(run.per_test[test]) : json(nullptr)},
                                  {"channels", std::move(channels)}};
   }
-  return {{"parameters", std::move(parameters)}, {"objective", run.objective},
-          {"per_test", std::move(per_test)},     {"stable", nullptr},  // not assessed
-          {"status", name(run.status.kind())},   {"reason", run.status.reason()},
-          {"realisation", run.best_realisation}, {"evaluation", run.best_id}};
+  json result = {{"parameters", std::move(parameters)},
+                 {"objective", run.objective},
+                 {"per_test", std::move(per_test)},
+                 {"stable", run.stability ? json(run.stability->verdict.transversely_stable()) : json(nullptr)},
+                 {"status", name(run.status.kind())},
+                 {"reason", run.status.reason()},
+                 {"stability", stability_json(run)},
+                 {"realisation", run.best_realisation},
+                 {"evaluation", run.best_id}};
+  result["aicc"] = run.information ? or_null(run.information->aicc) : json(nullptr);
+  result["bic"] = run.information ? json(run.information->bic) : json(nullptr);
+  result["noise"] = run.information ? json(word(run.information->noise)) : json(nullptr);
+  result["certificate"] = certificate(run.certificate);
+  return result;
 }
 
 json run_json(const RunSummary& run) {
@@ -65,7 +123,13 @@ json run_json(const RunSummary& run) {
     over_parameters[parameter.name] = statistics(parameter.over_realisations);
   json over_realisations = statistics(run.objectives);
   over_realisations["success_rate"] = run.success_rate;
+  over_realisations["successes"] = run.successes;
+  over_realisations["success_ci95"] = {run.success_ci95.first, run.success_ci95.second};
   over_realisations["success_threshold"] = run.has_result ? json(run.threshold) : json(nullptr);
+  over_realisations["evaluations_to_target"] = statistics(run.evaluations_to_target);
+  over_realisations["expected_running_time"] = or_null(run.expected_running_time);
+  over_realisations["evaluations"] = statistics(run.evaluations_spent);
+  over_realisations["seconds"] = statistics(run.seconds_spent);
   over_realisations["parameters"] = std::move(over_parameters);
   return {{"run", run.label},
           {"model", run.model},
@@ -96,7 +160,11 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                        {"run", run.label},
                        {"group", run.group},
                        {"objective", run.has_result ? json(run.objective) : json(nullptr)},
-                       {"failures", run.failures}});
+                       {"delta_aicc", or_null(entry.delta_aicc)},
+                       {"successes", run.successes},
+                       {"expected_running_time", or_null(run.expected_running_time)},
+                       {"failures", run.failures},
+                       {"reason", run.status.reason()}});
   }
   for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
   const json document = {{"format", 1},

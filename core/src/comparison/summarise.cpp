@@ -6,6 +6,8 @@
 
 #include "comparison/estimate.hpp"
 #include "comparison/ranking.hpp"
+#include "comparison/stability_report.hpp"
+#include "comparison/success.hpp"
 #include "comparison/summary.hpp"
 #include "comparison/warnings.hpp"
 
@@ -31,7 +33,7 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
     summary.seconds += realisation.seconds;
     if (summary.first_failure.empty()) summary.first_failure = realisation.tally.first_failure;
     summary.given_up += realisation.stop_reason.starts_with("failure");
-    if (!realisation.best.parameters.empty()) objectives.push_back(realisation.best.objective);
+    if (realisation.best.feasible()) objectives.push_back(realisation.best.objective);
   }
   summary.realisations = result.realisations.size();
   summary.objectives = sample_statistics(objectives);
@@ -63,6 +65,10 @@ RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunR
   summary.best_id = best->best.index + 1;
   summary.objective = best->best.objective;
   estimate(*run.assembly, *best, result, summary, warnings);
+  summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
+  if (best->best.feasible()) add_agreement(*run.assembly, result, summary.objective, summary.certificate);
+  for (const auto& parameter : summary.parameters)
+    if (parameter.at_bound != Estimate::Bound::none) summary.certificate.at_bounds.push_back(parameter.name);
   return summary;
 }
 
@@ -94,6 +100,8 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
     summary.runs.push_back(summarise_run(plan.runs[run], results[run], mismatches));
   count_successes(plan, results, summary.runs);
   summary.ranking = rank(summary.runs);
+  compare_information(summary.runs, summary.ranking);
+  add_stability(plan, summary);
   summary.identifiability = merge_sentences(summary.runs);
   const auto add = [&](const std::string& warning) {
     auto& all = summary.warnings;

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "calibration/quality.hpp"
+#include "comparison/certificate.hpp"
+#include "comparison/information.hpp"
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
 #include "execution/results.hpp"
+#include "stability/admissibility.hpp"
 
 namespace tunica::comparison {
-
-using Interval = std::pair<double, double>;
 
 /// One parameter at the best point of a run.
 struct Estimate {
@@ -34,6 +35,14 @@ struct Quality {
   calibration::Agreement agreement;
 };
 
+/// Whether the best point behaves as a material, see stability_report.hpp.
+struct StabilitySummary {
+  std::string imposed;  ///< "h = 0.7"; empty = no constraint
+  stability::Admissibility verdict;
+  std::vector<std::string> inadmissible;  ///< "1 - 2A - B = -0.2": inequalities of the model that do not hold
+  std::optional<double> ratio_to_free;    ///< objective over that of the best unconstrained run of the model
+};
+
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
@@ -49,7 +58,15 @@ struct RunSummary {
 
   std::uint64_t realisations = 0, best_realisation = 0, best_id = 0;  ///< both from 1, as in evaluations.csv
   SampleStatistics objectives;                                        ///< of the realisations that have a result
-  double success_rate = 0, threshold = 0;
+  double success_rate = 0, threshold = 0;                             ///< of the objective, see success_threshold
+  std::uint64_t successes = 0;
+  Interval success_ci95{0, 1};                        ///< Wilson's, of the success rate
+  SampleStatistics evaluations_to_target;             ///< of the successes: evaluations until the threshold was reached
+  std::optional<double> expected_running_time;        ///< evaluations a success; none without success
+  SampleStatistics evaluations_spent, seconds_spent;  ///< per realisation
+  std::optional<Information> information;
+  Certificate certificate;
+  std::optional<StabilitySummary> stability;  ///< with a result
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::string first_failure;
   std::uint64_t given_up = 0;  ///< realisations that the failure policy ended
@@ -59,8 +76,9 @@ struct RunSummary {
 };
 
 struct Ranked {
-  std::size_t run = 0;              ///< index in Summary::runs
-  std::optional<std::size_t> rank;  ///< within its group, from 1; none without a result
+  std::size_t run = 0;                    ///< index in Summary::runs
+  std::optional<std::size_t> rank;        ///< within its group, from 1; none without a result
+  std::optional<double> delta_aicc = {};  ///< AICc above the least of the group; where that compares several models
 };
 
 /// What a run of an experiment has shown.

@@ -22,6 +22,11 @@ constexpr int checkpoint_format = 2;
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
 json to_json(std::size_t task, const RealisationResult& result) {
+  json evaluations = json::array(), objectives = json::array();
+  for (const auto& improvement : result.trace) {
+    evaluations.push_back(improvement.evaluations);
+    objectives.push_back(improvement.objective);
+  }
   return {{"task", task},
           {"realisation", result.realisation},
           {"best",
@@ -29,6 +34,7 @@ json to_json(std::size_t task, const RealisationResult& result) {
             {"objective", result.best.objective},
             {"index", result.best.index},
             {"violation", result.best.violation}}},
+          {"trace", {{"evaluations", std::move(evaluations)}, {"objectives", std::move(objectives)}}},
           {"evaluations", result.tally.evaluations},
           {"jacobians", result.tally.jacobians},
           {"failures", result.tally.failures},
@@ -48,6 +54,9 @@ RealisationResult from_json(const json& entry) {
   result.best.objective = entry.at("best").at("objective");
   result.best.index = entry.at("best").at("index");
   result.best.violation = entry.at("best").at("violation");
+  const auto& trace = entry.at("trace");
+  for (std::size_t k = 0; k < trace.at("evaluations").size(); ++k)
+    result.trace.push_back({trace.at("evaluations").at(k), trace.at("objectives").at(k)});
   result.tally.evaluations = entry.at("evaluations");
   result.tally.jacobians = entry.at("jacobians");
   result.tally.failures = entry.at("failures");
@@ -101,11 +110,22 @@ Facts facts_of(const Plan& plan) {
   return facts;
 }
 
+std::string checkpoint_entry(std::size_t task, const RealisationResult& result) {
+  return to_json(task, result).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
+                      const std::map<std::size_t, std::string>& entries) {
+  std::string text = fmt::format("{{\n\"format\": {},\n\"facts\": {},\n\"finished\": [", checkpoint_format,
+                                 json(facts).dump(1, ' ', false, json::error_handler_t::replace));
+  for (const auto& [task, entry] : entries) text.append(text.back() == '[' ? "\n" : ",\n").append(entry);
+  write_atomically(checkpoint_file(directory), text + "\n]\n}\n");
+}
+
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint) {
-  json finished = json::array();
-  for (const auto& [task, result] : checkpoint.finished) finished.push_back(to_json(task, result));
-  const json document = {{"format", checkpoint_format}, {"facts", checkpoint.facts}, {"finished", std::move(finished)}};
-  write_atomically(checkpoint_file(directory), document.dump(1, ' ', false, json::error_handler_t::replace) + '\n');
+  std::map<std::size_t, std::string> entries;
+  for (const auto& [task, result] : checkpoint.finished) entries[task] = checkpoint_entry(task, result);
+  write_checkpoint(directory, checkpoint.facts, entries);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& directory) {

@@ -18,8 +18,8 @@ struct Improvement {
 /// How one realisation of one run ended.
 struct RealisationResult {
   std::uint64_t realisation = 1;
-  bool finished = false;   ///< false: interrupted
-  calibration::Best best;  ///< parameters are empty when no evaluation succeeded
+  bool finished = false;           ///< false: interrupted
+  calibration::Best best;          ///< parameters are empty when no evaluation succeeded
   std::vector<Improvement> trace;  ///< every improvement, in order; the convergence of this realisation
   calibration::Tally tally;
   bool converged = false;   ///< the optimiser's own word

@@ -70,18 +70,19 @@ class Run {
   std::atomic<bool> broken_ = false;  ///< an exception is on its way, or the checkpoint cannot be written
   std::string write_failure_;         ///< of the checkpoint
   std::mutex mutex_;
-  Checkpoint checkpoint_;
+  Facts facts_;
+  std::map<std::size_t, std::string> finished_;  ///< entries of the checkpoint, by task
   Clock::time_point saved_ = Clock::now();
 };
 
 void Run::open() {
   const auto& directory = settings_.directory;
   const auto& input = plan_.experiment->input_json;
-  checkpoint_.facts = facts_of(plan_);
+  facts_ = facts_of(plan_);
   Journal::Stored stored;
   if (settings_.resume) {
     Checkpoint before = read_checkpoint(directory);
-    refuse_changes(directory, before.facts, checkpoint_.facts, input);
+    refuse_changes(directory, before.facts, facts_, input);
     std::vector<bool> wanted(plan_.tasks.size(), true);
     for (const auto& [task, result] : before.finished)
       if (task < wanted.size()) wanted[task] = false;
@@ -89,13 +90,13 @@ void Run::open() {
     for (auto& [task, result] : before.finished) {
       // Without all of its rows (a loss of power) a finished realisation counts as unfinished, from its beginning.
       if (task >= wanted.size() || recovered.stored.rows[task] != result.tally.evaluations) continue;
-      results_[task] = result;
-      checkpoint_.finished.emplace_back(task, std::move(result));
+      finished_[task] = checkpoint_entry(task, result);
+      results_[task] = std::move(result);
     }
     stored_ = std::move(recovered.evaluations);
     stored = std::move(recovered.stored);
     log_->info("resumed: {} of {} realisations are finished, the others are replayed from evaluations.csv",
-               checkpoint_.finished.size(), plan_.tasks.size());
+               finished_.size(), plan_.tasks.size());
   } else {
     write_atomically(directory / "input.json", input);
     log_->info("experiment '{}', seed {}, {} threads", plan_.experiment->name, plan_.experiment->seed,
@@ -103,13 +104,14 @@ void Run::open() {
   }
   for (const auto& warning : plan_.warnings) log_->warn("{}", warning);
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
-  for (const auto& [task, result] : checkpoint_.finished) {
+  for (const auto& [task, entry] : finished_) {
+    const auto& result = results_[task];
     journal_->finish(task);
     meters_[task].evaluations = result.tally.evaluations;
     meters_[task].best = result.best.parameters.empty() ? meters_[task].best.load() : result.best.objective;
     meters_[task].finished = true;
   }
-  write_checkpoint(directory, checkpoint_);
+  write_checkpoint(directory, facts_, finished_);
 }
 
 /// Rows first, then the checkpoint that counts on them.
@@ -118,10 +120,8 @@ void Run::save(bool now) {
   if (!now && Clock::now() - saved_ < checkpoint_interval) return;
   journal_->flush(true);
   if (journal_->failed()) return;
-  std::sort(checkpoint_.finished.begin(), checkpoint_.finished.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
   try {
-    write_checkpoint(settings_.directory, checkpoint_);
+    write_checkpoint(settings_.directory, facts_, finished_);
   } catch (const WriteFailure& problem) {
     write_failure_ = problem.what();
     broken_ = true;
@@ -157,8 +157,9 @@ void Run::run_task(std::size_t task) {
   if (result.finished) {
     journal_->finish(task);
     meter.finished = true;
+    std::string entry = checkpoint_entry(task, result);
     const std::lock_guard lock(mutex_);
-    checkpoint_.finished.emplace_back(task, result);
+    finished_[task] = std::move(entry);
   }
   results_[task] = std::move(result);
   save(false);

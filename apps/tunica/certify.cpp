@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "execution/files.hpp"
+#include "execution/plan.hpp"
+#include "exit_codes.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+int certify(const GlobalOptions& global, const std::filesystem::path& folder) {
+  for (const char* file : {"input.json", "result.json"})
+    if (!std::filesystem::exists(folder / file))
+      throw InputError(fmt::format("{}: there is no {}; name the folder of a finished run", folder.string(), file));
+  const Session session(global);
+  const auto experiment = session.read(folder / "input.json");
+  const auto plan = execution::make_plan(experiment, session.catalogue());
+  fmt::print("{}", comparison::certify(plan, execution::read_text(folder / "result.json")));
+  return done;
+}
+
+}  // namespace
+
+void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto folder = std::make_shared<std::string>();
+  auto* verb = app.add_subcommand("certify", "Evaluate the best points of a finished run and their neighbours again");
+  verb->add_option("folder", *folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
+  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+  verb->footer(
+      "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
+      "of the neighbours. `tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
+      "Example:\n"
+      "  tunica certify results/a");
+  verb->callback([&global, &action, folder] { action = [&global, folder] { return certify(global, *folder); }; });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fresh_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace tunica::app {
+
+Answer ask_fresh_process(const std::vector<std::string>& arguments) {
+  // The kernel's link to our own image: right even when the file was moved or replaced meanwhile.
+  const std::string executable = "/proc/self/exe";
+  std::vector<std::string> words{"tunica"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  int pipe[2];
+  if (::pipe2(pipe, O_CLOEXEC) != 0) return {{}, fmt::format("no pipe: {}", std::strerror(errno))};
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
+  pid_t child = -1;
+  const int error = ::posix_spawn(&child, executable.c_str(), &actions, nullptr, argv.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(pipe[1]);
+  Answer answer;
+  if (error != 0) {
+    ::close(pipe[0]);
+    answer.problem = fmt::format("it could not be started: {}", std::strerror(error));
+    return answer;
+  }
+  std::array<char, 4096> buffer;
+  for (;;) {
+    const ssize_t count = ::read(pipe[0], buffer.data(), buffer.size());
+    if (count > 0) answer.out.append(buffer.data(), static_cast<std::size_t>(count));
+    if (count == 0 || (count < 0 && errno != EINTR)) break;
+  }
+  ::close(pipe[0]);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) answer.problem = fmt::format("it was ended by signal {}", WTERMSIG(status));
+  if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
+    answer.problem = fmt::format("it ended with code {}", WEXITSTATUS(status));
+  return answer;
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "comparison/statistics.hpp"
+#include "comparison/text.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+/// Relative drop of the objective that a success does not allow.
+constexpr double not_an_optimum = 1e-3;
+
+std::string fresh_words(const Certificate& certificate) {
+  if (!certificate.fresh) return fmt::format("not evaluated again in a fresh process ({})", certificate.missing);
+  const auto& fresh = *certificate.fresh;
+  if (fresh.around.status.kind() == Status::Kind::failed)
+    return fmt::format("it FAILED in a fresh process: {}", fresh.around.status.reason());
+  if (fresh.identical) return "re-evaluated identically in a fresh process";
+  const bool rounding = calibration::same_objective(fresh.around.objective, fresh.around.objective - fresh.difference);
+  return fmt::format("re-evaluated in a fresh process, {} by {:.2g}",
+                     rounding ? "equal to rounding: the objective differs" : "where THE OBJECTIVE DIFFERS",
+                     fresh.difference);
+}
+
+std::string neighbour_words(const calibration::Neighbourhood& around) {
+  if (!around.lowest) return "no neighbour could be compared";
+  if (!around.better) return "no better neighbour";
+  const double drop = around.objective - around.lowest->objective;
+  const double share = drop / std::abs(around.objective);
+  return fmt::format("{}a step of {:g} along {} lowers the objective by {:.2g} %",
+                     share > not_an_optimum ? "NOT AN OPTIMUM: " : "", around.lowest->step, around.lowest->along,
+                     100 * share);
+}
+
+}  // namespace
+
+void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
+                   Certificate& certificate) {
+  const auto& parameters = assembly.parameters();
+  const double threshold = success_threshold({}, best);
+  std::vector<double> low, high, unit(parameters.size()), unit_low, unit_high;
+  certificate.realisations = result.realisations.size();
+  for (const auto& realisation : result.realisations) {
+    if (!realisation.best.feasible() || realisation.best.objective > threshold) continue;
+    const auto& values = realisation.best.parameters;
+    assembly.to_unit(values, unit);
+    if (certificate.agreeing++ == 0) low = high = values, unit_low = unit_high = unit;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      low[j] = std::min(low[j], values[j]), high[j] = std::max(high[j], values[j]);
+      unit_low[j] = std::min(unit_low[j], unit[j]), unit_high[j] = std::max(unit_high[j], unit[j]);
+    }
+  }
+  for (std::size_t j = 0; j < low.size(); ++j)
+    certificate.spread.push_back({parameters[j].name, parameters[j].unit, low[j], high[j], unit_high[j] - unit_low[j]});
+}
+
+std::string verdict(const Certificate& certificate) {
+  std::vector<std::string> parts{fresh_words(certificate)};
+  const bool known = certificate.fresh && certificate.fresh->around.status.kind() != Status::Kind::failed;
+  if (known && certificate.fresh->around.status.ok()) parts.push_back(neighbour_words(certificate.fresh->around));
+  if (known && !certificate.fresh->around.status.ok()) parts.emplace_back("it BREAKS A CONSTRAINT");
+  if (certificate.realisations > 1)
+    parts.push_back(fmt::format("{} of {} realisations agree", certificate.agreeing, certificate.realisations));
+  parts.push_back(certificate.at_bounds.empty()
+                      ? std::string("no bound active")
+                      : fmt::format("{} at {}", fmt::join(certificate.at_bounds, ", "),
+                                    certificate.at_bounds.size() == 1 ? "its bound" : "their bounds"));
+  if (known && certificate.fresh->around.constraints > 0)
+    parts.push_back(fmt::format("{} of {} active", certificate.fresh->around.active_constraints,
+                                counted(certificate.fresh->around.constraints, "constraint", "constraints")));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace tunica::comparison

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/assembly.hpp"
+#include "calibration/neighbours.hpp"
+#include "execution/results.hpp"
+
+namespace tunica::comparison {
+
+/// What speaks for the best point of a run being the optimum, and what against it.
+struct Certificate {
+  /// What a process that knows only input.json and result.json found.
+  struct Fresh {
+    calibration::Neighbourhood around;
+    double difference = 0;   ///< its objective minus the recorded one
+    bool identical = false;  ///< bit for bit
+  };
+  /// Over the realisations that agree with the best one.
+  struct Spread {
+    std::string name, unit;
+    double min = 0, max = 0, share = 0;  ///< max − min as a share of the bounds, in the coordinate of the search
+  };
+  std::optional<Fresh> fresh;
+  std::string missing;  ///< why there is no `fresh`
+  std::uint64_t realisations = 0, agreeing = 0;
+  std::vector<Spread> spread;
+  std::vector<std::string> at_bounds;
+  std::string verdict;  ///< one sentence
+};
+
+/// Fills in how many realisations end within 1e-3 (relative) of the best objective, and how far their parameters are
+/// apart. `best`: its objective, of a feasible point.
+void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
+                   Certificate& certificate);
+
+/// The sentence of the report.
+std::string verdict(const Certificate& certificate);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/certify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "tunica/error.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json to_json(const calibration::Neighbourhood& around) {
+  json lowest = nullptr;
+  if (around.lowest)
+    lowest = {{"objective", around.lowest->objective},
+              {"along", around.lowest->along},
+              {"step", around.lowest->step},
+              {"parameters", around.lowest->parameters}};
+  return {{"status", name(around.status.kind())},
+          {"reason", around.status.reason()},
+          {"violation", around.status.violation()},
+          {"objective", around.objective},
+          {"evaluated", around.evaluated},
+          {"infeasible", around.infeasible},
+          {"failed", around.failed},
+          {"lowest", std::move(lowest)},
+          {"better", around.better},
+          {"constraints", around.constraints},
+          {"active_constraints", around.active_constraints}};
+}
+
+calibration::Neighbourhood from_json(const json& around) {
+  calibration::Neighbourhood result;
+  const std::string status = around.at("status");
+  if (status == "failed") result.status = Status::failed(around.at("reason"));
+  if (status == "infeasible") result.status = Status::infeasible(around.at("reason"), around.at("violation"));
+  result.objective = around.at("objective");
+  result.evaluated = around.at("evaluated");
+  result.infeasible = around.at("infeasible");
+  result.failed = around.at("failed");
+  if (const auto& lowest = around.at("lowest"); !lowest.is_null())
+    result.lowest = {lowest.at("objective"), lowest.at("step"), lowest.at("along"), lowest.at("parameters")};
+  result.better = around.at("better");
+  result.constraints = around.at("constraints");
+  result.active_constraints = around.at("active_constraints");
+  return result;
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InputError(
+      fmt::format("result.json and input.json do not belong together: {}; take a folder that `tunica run` "
+                  "has written",
+                  what));
+}
+
+const json& run_named(const json& result, const std::string& label) {
+  for (const auto& run : result.at("runs"))
+    if (run.at("run") == label) return run;
+  refuse(fmt::format("there is no run '{}' in the result", label));
+}
+
+}  // namespace
+
+std::string certify(const execution::Plan& plan, const std::string& result_json) {
+  json runs = json::array();
+  try {
+    const json result = json::parse(result_json);
+    for (const auto& planned : plan.runs) {
+      const json& run = run_named(result, planned.label);
+      if (run.at("best").is_null()) continue;
+      const json& values = run.at("best").at("parameters");
+      std::vector<double> free;
+      for (const auto& parameter : planned.assembly->parameters()) {
+        if (!values.contains(parameter.name))
+          refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
+        free.push_back(values.at(parameter.name).at("value"));
+      }
+      json entry = to_json(calibration::look_around(*planned.assembly, free));
+      const double recorded = run.at("best").at("objective"), now = entry.at("objective");
+      entry["run"] = planned.label;
+      entry["recorded"] = recorded;
+      entry["difference"] = now - recorded;
+      entry["identical"] = std::bit_cast<std::uint64_t>(now) == std::bit_cast<std::uint64_t>(recorded);
+      runs.push_back(std::move(entry));
+    }
+  } catch (const json::exception& problem) {
+    throw InputError(fmt::format("result.json cannot be understood: {}", problem.what()));
+  }
+  const json document = {{"runs", std::move(runs)}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+void add_certificates(const std::string& certified, const std::string& missing, Summary& summary) {
+  const json document = json::parse(certified, nullptr, false);
+  for (auto& run : summary.runs) {
+    if (!run.has_result) continue;
+    auto& certificate = run.certificate;
+    certificate.missing = missing;
+    if (!document.is_discarded()) {
+      try {
+        const json& entry = run_named(document, run.label);
+        certificate.fresh = {from_json(entry), entry.at("difference"), entry.at("identical")};
+      } catch (const std::exception& problem) {  // another program answered; say so rather than stop
+        certificate.missing = problem.what();
+      }
+    }
+    certificate.verdict = verdict(certificate);
+  }
+}
+
+}  // namespace tunica::comparison

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "comparison/summary.hpp"
+
+namespace tunica::comparison {
+
+/// What `tunica certify` prints: for every run of a result.json that has a best point, that point evaluated again by
+/// this process, and its neighbours, as JSON. `plan` is made from the input.json beside it. Throws InputError when the
+/// two do not belong together.
+std::string certify(const execution::Plan& plan, const std::string& result_json);
+
+/// Reads what certify() printed elsewhere into the certificates of the summary and words every verdict. A run that is
+/// not in it, or an empty text, is left without; `missing` then says why.
+void add_certificates(const std::string& certified, const std::string& missing, Summary& summary);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/information.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tunica::comparison {
+
+std::optional<Information> information(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+                                       std::span<const double> free) {
+  if (objective != experiment::ObjectiveType::least_squares) return {};
+  for (const auto& parameter : assembly.parameters())
+    if (parameter.prior) return {};
+  std::vector<double> predictions(assembly.prediction_count()), residuals(assembly.residual_count());
+  const auto workspace = assembly.make_workspace();
+  double value = 0;
+  if (assembly.evaluate(free, value, {}, residuals, {}, *workspace).kind() == Status::Kind::failed) return {};
+  if (!assembly.predict(free, predictions, {}, *workspace).ok()) return {};
+
+  double deviance = 0, rows = 0;
+  std::size_t parameters = free.size(), stated = 0, estimated = 0, block = 0;
+  for (const auto& channel : assembly.channels()) {
+    const auto count = static_cast<std::size_t>(std::count(channel.fitted.begin(), channel.fitted.end(), true));
+    if (count == 0) continue;  // has no block
+    const ResidualBlock& own = assembly.blocks()[block++];
+    if (channel.weight == 0) continue;
+    if (channel.weight != 1) return {};
+    rows += static_cast<double>(count);
+    double squares = 0;
+    if (channel.noise) {
+      ++stated;
+      for (std::size_t k = 0; k < own.size; ++k) squares += residuals[own.offset + k] * residuals[own.offset + k];
+      deviance += squares;
+    } else {
+      ++estimated, ++parameters;
+      for (std::size_t i = 0; i < channel.count; ++i)
+        if (channel.fitted[i]) squares += std::pow(predictions[channel.offset + i] - channel.measured[i], 2);
+      deviance += static_cast<double>(count) * std::log(squares / static_cast<double>(count));
+    }
+  }
+  if (rows == 0 || !std::isfinite(deviance)) return {};
+  const double k = static_cast<double>(parameters);
+  Information result;
+  if (rows > k + 1) result.aicc = deviance + 2 * k + 2 * k * (k + 1) / (rows - k - 1);
+  result.bic = deviance + k * std::log(rows);
+  result.noise = estimated == 0 ? Information::Noise::stated
+                 : stated == 0  ? Information::Noise::estimated
+                                : Information::Noise::mixed;
+  return result;
+}
+
+}  // namespace tunica::comparison

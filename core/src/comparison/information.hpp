@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "calibration/assembly.hpp"
+#include "experiment/experiment.hpp"
+
+namespace tunica::comparison {
+
+/// What a model costs in parameters against what it gains in fit.
+struct Information {
+  enum class Noise { stated, estimated, mixed };
+  std::optional<double> aicc;  ///< none when there are too few rows for the correction
+  double bic = 0;
+  Noise noise = Noise::stated;
+};
+
+/// Akaike's criterion with the correction for small samples (Hurvich and Tsai, Biometrika 76:297, 1989) and the
+/// Bayesian one (Schwarz, Ann. Stat. 6:461, 1978), up to a constant that only depends on the data:
+///
+///   AICc = D + 2k + 2k(k + 1)/(N − k − 1),   BIC = D + k ln N,
+///   D = Σ_stated Σ r²  +  Σ_estimated n ln(SSE/n)
+///
+/// over the N fitted rows of all channels; r are the whitened residuals of a channel whose noise is stated, SSE the sum
+/// of squares of one whose noise is not, where the standard deviation is one more parameter: k counts the free
+/// parameters and those channels. Differences between models on the same tests mean something, the values do not.
+///
+/// None but for `least_squares`, without priors, all weights 1 (or 0): elsewhere the best point does not have the
+/// greatest likelihood. None for a perfect fit.
+std::optional<Information> information(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+                                       std::span<const double> free);
+
+}  // namespace tunica::comparison

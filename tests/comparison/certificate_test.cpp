@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/certificate.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "comparison/certify.hpp"
+#include "comparison/result_json.hpp"
+#include "execution/folder.hpp"
+#include "execution/laboratory.hpp"
+#include "tunica/error.hpp"
+
+using namespace tunica;
+using comparison::Certificate;
+using ::testing::HasSubstr;
+
+namespace {
+
+Certificate spotless() {
+  Certificate certificate;
+  calibration::Neighbourhood around;
+  around.objective = 66.1;
+  around.lowest = {66.2, 1e-5, "mu", {}};
+  certificate.fresh = {around, 0, true};
+  certificate.realisations = 100, certificate.agreeing = 97;
+  return certificate;
+}
+
+/// A run that ended where it is told to.
+struct Ended {
+  explicit Ended(std::vector<double> at) {
+    laboratory.add_run("walk");
+    plan.emplace(laboratory.plan());
+    execution::RealisationResult result;
+    result.best.parameters = std::move(at);
+    std::vector<double> per_test(1);
+    const auto workspace = plan->runs[0].assembly->make_workspace();
+    static_cast<void>(
+        plan->runs[0].assembly->evaluate(result.best.parameters, result.best.objective, per_test, {}, {}, *workspace));
+    result.trace = {{1, result.best.objective}};
+    summary = comparison::summarise(*plan, {{{result}}}, {});
+    written = comparison::result_json(summary, {});
+  }
+  trial::Laboratory laboratory;
+  std::optional<execution::Plan> plan;
+  comparison::Summary summary;
+  std::string written;
+};
+
+}  // namespace
+
+TEST(Certificate, SaysInOneSentenceWhatSpeaksForTheOptimum) {
+  EXPECT_EQ(comparison::verdict(spotless()),
+            "re-evaluated identically in a fresh process; no better neighbour; 97 of 100 realisations agree; no bound "
+            "active");
+}
+
+TEST(Certificate, SaysWhatSpeaksAgainstIt) {
+  auto certificate = spotless();
+  certificate.fresh->identical = false;
+  certificate.fresh->difference = 1e-14;
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("equal to rounding: the objective differs by 1e-14;"));
+  certificate.fresh->difference = 0.5;
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("where THE OBJECTIVE DIFFERS by 0.5;"));
+  auto& around = certificate.fresh->around;
+  around.better = true;
+  around.lowest->objective = 66.1 * (1 - 1e-5);
+  EXPECT_THAT(comparison::verdict(certificate),
+              HasSubstr("; a step of 1e-05 along mu lowers the objective by 0.001 %;"));
+  around.lowest->objective = 66.1 * 0.99;
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; NOT AN OPTIMUM: a step of"));
+  around.lowest.reset();
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; no neighbour could be compared;"));
+  around.constraints = 80, around.active_constraints = 3;
+  certificate.at_bounds = {"k2", "theta"};
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; k2, theta at their bounds; 3 of 80 constraints active"));
+  around.status = Status::infeasible("unstable", 0.1);
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; it BREAKS A CONSTRAINT;"));
+  around.status = Status::failed("no root");
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("it FAILED in a fresh process: no root;"));
+  certificate.fresh.reset();
+  certificate.missing = "it ended with code 4";
+  EXPECT_THAT(comparison::verdict(certificate),
+              HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
+}
+
+TEST(Certificate, CountsRealisationsThatAgreeAndHowFarTheyAreApart) {
+  Ended ended({2, 1, 3});
+  execution::RunResult result;
+  for (const auto& [a, objective] : {std::pair{2.0, 5.0}, std::pair{2.5, 5.004}, std::pair{9.0, 5.02}}) {
+    auto& realisation = result.realisations.emplace_back();
+    realisation.best.parameters = {a, 1, 3};
+    realisation.best.objective = objective;
+  }
+  result.realisations.emplace_back();  // without a result
+  Certificate certificate;
+  comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, certificate);
+  EXPECT_EQ(certificate.realisations, 4u);
+  EXPECT_EQ(certificate.agreeing, 2u);
+  EXPECT_EQ(certificate.spread[0].max, 2.5);
+  EXPECT_NEAR(certificate.spread[0].share, 0.05, 1e-12);
+  EXPECT_EQ(certificate.spread[1].share, 0);
+}
+
+TEST(Certify, FindsTheRecordedObjectiveAgainAndNoBetterNeighbourOfTheOptimum) {
+  Ended ended({2, 1, 3});
+  const auto certified = comparison::certify(*ended.plan, ended.written);
+  comparison::add_certificates(certified, "", ended.summary);
+  const auto& certificate = ended.summary.runs[0].certificate;
+  ASSERT_TRUE(certificate.fresh);
+  EXPECT_TRUE(certificate.fresh->identical);
+  EXPECT_FALSE(certificate.fresh->around.better);
+  EXPECT_EQ(certificate.fresh->around.evaluated, 24u) << "three parameters and three directions, two steps, two signs";
+  EXPECT_THAT(certificate.verdict, HasSubstr("re-evaluated identically in a fresh process; no better neighbour"));
+}
+
+TEST(Certify, FindsTheWayDownFromAPointThatIsNoOptimum) {
+  Ended ended({2.2, 1, 3});
+  comparison::add_certificates(comparison::certify(*ended.plan, ended.written), "", ended.summary);
+  const auto& around = ended.summary.runs[0].certificate.fresh->around;
+  EXPECT_TRUE(around.better);
+  EXPECT_LT(around.lowest->objective, around.objective);
+  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("NOT AN OPTIMUM"));
+}
+
+TEST(Certify, StatesADifferenceFromWhatWasRecorded) {
+  Ended ended({2.2, 1, 3});
+  auto changed = nlohmann::json::parse(ended.written);
+  const double recorded = changed["runs"][0]["best"]["objective"];
+  changed["runs"][0]["best"]["objective"] = recorded + 1;
+  comparison::add_certificates(comparison::certify(*ended.plan, changed.dump()), "", ended.summary);
+  EXPECT_FALSE(ended.summary.runs[0].certificate.fresh->identical);
+  EXPECT_DOUBLE_EQ(ended.summary.runs[0].certificate.fresh->difference, -1);
+}
+
+TEST(Certify, RefusesAResultOfSomethingElse) {
+  Ended ended({2, 1, 3});
+  const auto message = [&](const std::string& text) {
+    return trial::message_of<InputError>([&] { static_cast<void>(comparison::certify(*ended.plan, text)); });
+  };
+  EXPECT_THAT(message("{\"runs\": []}"), HasSubstr("there is no run 'm/walk' in the result"));
+  EXPECT_THAT(message("{\"runs\": 3"), HasSubstr("result.json cannot be understood"));
+  auto other = nlohmann::json::parse(ended.written);
+  other["runs"][0]["best"]["parameters"].erase("b");
+  EXPECT_THAT(message(other.dump()), HasSubstr("run 'm/walk' has no parameter 'b'"));
+}
+
+TEST(Certify, LeavesARunUncertifiedWhenTheAnswerIsMissing) {
+  Ended ended({2, 1, 3});
+  comparison::add_certificates("", "it was ended by signal 9", ended.summary);
+  EXPECT_FALSE(ended.summary.runs[0].certificate.fresh);
+  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("(it was ended by signal 9)"));
+  comparison::add_certificates("{\"runs\": []}", "", ended.summary);
+  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("there is no run 'm/walk'"));
+}
