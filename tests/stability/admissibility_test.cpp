@@ -115,7 +115,7 @@ TEST(Admissibility, SaysWhatIsLostAndWhere) {
   // Measured only where it is still stable: said, and no verdict of instability.
   const auto short_of_it = stability::judge(*gho, set_u, {1.1, 1.1, 1.1, 10});
   EXPECT_TRUE(short_of_it.transversely_stable());
-  EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond what was measured"));
+  EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond that domain (measured to 1.1)"));
 }
 
 }  // namespace

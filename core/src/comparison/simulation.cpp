@@ -61,16 +61,22 @@ int place(const std::vector<Observable>& observables, const std::string& name) {
 
 }  // namespace
 
+Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                   const SimulationRequest& request) {
+  Subject subject;
+  subject.assembly =
+      std::make_unique<calibration::Assembly>(experiment, all_tests_with(experiment, request.model), catalogue);
+  if (request.parameters)
+    subject.free = read_parameters(*request.parameters, request.model, *subject.assembly);
+  else
+    for (const auto& parameter : subject.assembly->parameters()) subject.free.push_back(parameter.initial);
+  return subject;
+}
+
 std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                                      const SimulationRequest& request) {
-  const auto run = all_tests_with(experiment, request.model);
-  const calibration::Assembly assembly(experiment, run, catalogue);
-  std::vector<double> free;
-  if (request.parameters)
-    free = read_parameters(*request.parameters, request.model, assembly);
-  else
-    for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
-
+  const auto [owner, free] = subject_of(experiment, catalogue, request);
+  const auto& assembly = *owner;
   std::vector<double> predictions(assembly.prediction_count());
   auto workspace = assembly.make_workspace();
   const Status status = assembly.predict(free, predictions, {}, *workspace);

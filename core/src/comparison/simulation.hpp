@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "calibration/assembly.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -19,6 +21,14 @@ struct SimulationRequest {
   double noise = 0;                                 ///< relative
   std::uint64_t seed = 1;
 };
+
+/// The model of the request with every test of the experiment, and the values its free parameters take.
+struct Subject {
+  std::unique_ptr<calibration::Assembly> assembly;
+  std::vector<double> free;
+};
+Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                   const SimulationRequest& request);
 
 /// One test, with the column names and units of its data file.
 struct SimulatedTable {

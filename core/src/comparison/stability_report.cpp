@@ -23,17 +23,6 @@ std::vector<double> values_of(const RunSummary& run) {
   return free;
 }
 
-stability::Domain domain_of(const calibration::Assembly& assembly) {
-  stability::Domain domain;
-  for (const auto& strip : assembly.strips())
-    for (const double stretch : strip.stretches) {
-      double& largest = strip.axis == 0 ? domain.circumferential : domain.axial;
-      largest = std::max(largest, stretch);
-    }
-  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
-  return domain;
-}
-
 std::string imposed(const experiment::RunEntry& run) {
   std::vector<std::string> words;
   for (const auto& constraint : run.constraints) {
@@ -62,6 +51,17 @@ std::map<std::string, double> free_objectives(const execution::Plan& plan, const
 json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 }  // namespace
+
+stability::Domain domain_of(const calibration::Assembly& assembly) {
+  stability::Domain domain;
+  for (const auto& strip : assembly.strips())
+    for (const double stretch : strip.stretches) {
+      double& largest = strip.axis == 0 ? domain.circumferential : domain.axial;
+      largest = std::max(largest, stretch);
+    }
+  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
+  return domain;
+}
 
 void add_stability(const execution::Plan& plan, Summary& summary) {
   const auto unconstrained = free_objectives(plan, summary);

@@ -27,5 +27,16 @@ nlohmann::ordered_json stability_json(const RunSummary& run);
 ///                 isocontours, with the strips of stability.csv on them
 void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
                             const Summary& summary);
+/// The same for parameter sets that no run has found.
+struct StabilitySubject {
+  std::string label;
+  const calibration::Assembly* assembly;
+  std::vector<double> free;
+  double limit;  ///< stretch
+};
+void write_stability_tables(const std::filesystem::path& directory, const std::vector<StabilitySubject>& subjects);
+
+/// The stretches that the tests of an assembly reach.
+stability::Domain domain_of(const calibration::Assembly& assembly);
 
 }  // namespace tunica::comparison

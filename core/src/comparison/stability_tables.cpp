@@ -48,8 +48,8 @@ void append_energy(std::string& table, const std::string& label, const Model& mo
 
 }  // namespace
 
-void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
-                            const Summary& summary) {
+void write_stability_tables(const std::filesystem::path& directory, const std::vector<StabilitySubject>& subjects) {
+  if (subjects.empty()) return;
   std::string strips =
       "# Free strips at the best point of every run. normal_slope = d ln(normal stretch)/d ln(stretch): positive = "
       "unstable.\nrun,direction,stretch [1],transverse_stretch [1],normal_stretch [1],cauchy_stress [kPa],anisotropy "
@@ -57,24 +57,29 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
   std::string energies =
       "# Energy of an incompressible sheet at the best point of every run, zero at rest: its isocontours over the two "
       "stretches.\nrun,circumferential_stretch [1],axial_stretch [1],energy [kPa]\n";
-  bool any = false;
+  for (const StabilitySubject& subject : subjects) {
+    const Model& model = subject.assembly->model();
+    const auto parameters = subject.assembly->model_parameters(subject.free);
+    const std::string label = execution::csv_cell(subject.label);
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+      append_strip(strips, label, model, parameters, axis, subject.limit);
+    append_energy(energies, label, model, parameters, subject.limit);
+  }
+  execution::write_atomically(directory / "stability.csv", strips);
+  execution::write_atomically(directory / "energy.csv", energies);
+}
+
+void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
+                            const Summary& summary) {
+  std::vector<StabilitySubject> subjects;
   for (std::size_t run = 0; run < summary.runs.size(); ++run) {
     const auto& entry = summary.runs[run];
     if (!entry.stability) continue;
-    any = true;
-    std::vector<double> free;
-    for (const auto& parameter : entry.parameters) free.push_back(parameter.value);
-    const auto& assembly = *plan.runs[run].assembly;
-    const auto parameters = assembly.model_parameters(free);
-    const std::string label = execution::csv_cell(entry.label);
-    const double limit = entry.stability->verdict.domain.largest;
-    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-      append_strip(strips, label, assembly.model(), parameters, axis, limit);
-    append_energy(energies, label, assembly.model(), parameters, limit);
+    StabilitySubject subject{entry.label, plan.runs[run].assembly.get(), {}, entry.stability->verdict.domain.largest};
+    for (const auto& parameter : entry.parameters) subject.free.push_back(parameter.value);
+    subjects.push_back(std::move(subject));
   }
-  if (!any) return;
-  execution::write_atomically(directory / "stability.csv", strips);
-  execution::write_atomically(directory / "energy.csv", energies);
+  write_stability_tables(directory, subjects);
 }
 
 }  // namespace tunica::comparison

@@ -32,6 +32,32 @@ void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& w
                                    fmt::join(names, ", ")));
 }
 
+void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnings) {
+  if (!run.stability) return;
+  const auto& verdict = run.stability->verdict;
+  for (const auto& strip : verdict.transverse)
+    if (!strip.stable)
+      warnings.push_back(fmt::format(
+          "{}: UNSTABLE: pulled along the {} axis, the transverse stretch λ3 grows from stretch {:.4g} "
+          "(measured to {:.4g}); impose the constraint transverse_stability, or take a model with dispersed "
+          "fibres",
+          run.label, strip.axis == 0 ? "circumferential" : "axial", *strip.first_unstable, strip.measured_to));
+  if (verdict.ellipticity.first_lost)
+    warnings.push_back(
+        fmt::format("{}: ELLIPTICITY IS LOST at stretch {:.4g} in {}, within the measured domain: finite "
+                    "elements will localise there",
+                    run.label, *verdict.ellipticity.first_lost, verdict.ellipticity.path));
+  if (verdict.drucker && verdict.drucker->first_lost)
+    warnings.push_back(
+        fmt::format("{}: DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}, within the measured domain", run.label,
+                    *verdict.drucker->first_lost, verdict.drucker->path));
+  if (!run.stability->inadmissible.empty())
+    warnings.push_back(
+        fmt::format("{}: the parameters are NOT ADMISSIBLE: {} must not be negative; impose the constraint "
+                    "admissible_parameters",
+                    run.label, fmt::join(run.stability->inadmissible, ", ")));
+}
+
 void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings) {
   if (run.failures == 0 || !run.has_result) return;
   const double share =
@@ -57,6 +83,7 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
   for (const auto& run : runs)
     if (run.has_result && run.status.kind() == Status::Kind::infeasible)
       warnings.push_back(fmt::format("{}: the best point BREAKS A CONSTRAINT: {}", run.label, run.status.reason()));
+  for (const auto& run : runs) warn_of_instability(run, warnings);
   for (const auto& run : runs) warn_of_bounds(run, warnings);
   for (const auto& run : runs) warn_of_loose_parameters(run, warnings);
   for (const auto& run : runs) warn_of_failures(run, warnings);

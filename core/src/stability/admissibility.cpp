@@ -10,22 +10,22 @@ namespace {
 
 const char* direction(std::size_t axis) { return axis == 0 ? "circumferential" : "axial"; }
 
-std::string words(const TransverseVerdict& verdict) {
+std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   const char* const name = direction(verdict.axis);
+  const std::string reach =
+      verdict.measured_to > 1 ? fmt::format("{} to {:.4g}", domain.stated ? "judged" : "measured", verdict.measured_to)
+                              : "no strip was measured";
   if (!verdict.first_unstable)
-    return fmt::format("{} strip: the transverse stretch λ3 falls up to stretch {:.4g}{}", name, verdict.checked_to,
-                       verdict.checked_to > verdict.measured_to && verdict.measured_to > 1
-                           ? fmt::format(" (measured to {:.4g})", verdict.measured_to)
-                           : "");
-  const std::string until =
-      verdict.stable_again ? fmt::format(" to {:.4g}", *verdict.stable_again) : std::string(" on");
+    return fmt::format("{} strip: the transverse stretch λ3 falls up to stretch {:.4g} ({})", name, verdict.checked_to,
+                       reach);
+  const std::string until = verdict.stable_again ? fmt::format(" to {:.4g}", *verdict.stable_again) : " on";
   if (!verdict.stable)
-    return fmt::format("{} strip: UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} (measured to {:.4g})",
-                       name, *verdict.first_unstable, until, verdict.measured_to);
+    return fmt::format("{} strip: UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
+                       *verdict.first_unstable, until, reach);
   return fmt::format(
-      "{} strip: {}λ3 grows from stretch {:.4g}{}, beyond what was measured", name,
-      verdict.measured_to > 1 ? fmt::format("stable over the measured {:.4g}, but ", verdict.measured_to) : "",
-      *verdict.first_unstable, until);
+      "{} strip: the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that "
+      "domain ({})",
+      name, *verdict.first_unstable, until, reach);
 }
 
 std::string components(const std::array<double, 3>& v) {
@@ -40,7 +40,7 @@ bool Admissibility::transversely_stable() const {
 
 std::vector<std::string> Admissibility::sentences() const {
   std::vector<std::string> all;
-  for (const TransverseVerdict& verdict : transverse) all.push_back(words(verdict));
+  for (const TransverseVerdict& verdict : transverse) all.push_back(words(verdict, domain));
   if (ellipticity.first_lost)
     all.push_back(
         fmt::format("ELLIPTICITY IS LOST at stretch {:.4g} in {}: bands of normal {} would shear along {} "

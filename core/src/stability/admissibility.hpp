@@ -16,6 +16,7 @@ struct Domain {
   double circumferential = 1, axial = 1;  ///< largest measured stretch of a strip along each; 1 = none
   double largest = 1.5;                   ///< of any test, for ellipticity and Drucker
   double beyond = 10;                     ///< transverse stability is followed so far
+  bool stated = false;                    ///< by a person, not by what was measured: only for the words
 };
 
 /// Whether a parameter set behaves as a material: what every report says of its best point.

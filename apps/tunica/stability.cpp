@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "comparison/simulation.hpp"
+#include "comparison/stability_map.hpp"
+#include "comparison/stability_report.hpp"
+#include "comparison/text.hpp"
+#include "execution/files.hpp"
+#include "execution/run_directory.hpp"
+#include "exit_codes.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct StabilityOptions {
+  std::string file, model, parameters, directory;
+  std::vector<std::string> map;
+  std::size_t points = 41;
+  double to = 0;
+};
+
+int stability(const GlobalOptions& global, const StabilityOptions& options) {
+  if (!options.map.empty() && options.directory.empty())
+    throw InputError("--map writes a file: name a new folder for it with -o DIR");
+  const Session session(global);
+  const auto experiment = session.read(options.file);
+  comparison::SimulationRequest request;
+  request.model = options.model;
+  if (!options.parameters.empty()) request.parameters = options.parameters;
+  const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
+  const auto& assembly = *subject.assembly;
+  auto domain = comparison::domain_of(assembly);
+  if (options.to > 1) {
+    domain.largest = domain.circumferential = domain.axial = options.to;
+    domain.stated = true;
+  }
+  const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);
+  fmt::print("{}\n", options.model);
+  for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging("  ", sentence));
+  if (options.directory.empty()) return done;
+  const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
+  comparison::write_stability_tables(directory.path(), {{options.model, &assembly, subject.free, domain.largest}});
+  fmt::print("{}\n{}\n", (directory.path() / "stability.csv").string(), (directory.path() / "energy.csv").string());
+  if (options.map.empty()) return done;
+  const auto file = directory.path() / "stability_map.csv";
+  execution::write_atomically(file, comparison::stability_map(assembly, subject.free, {options.map[0], options.map[1]},
+                                                              options.points, domain.largest));
+  fmt::print("{}\n", file.string());
+  return done;
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<StabilityOptions>();
+  auto* verb = app.add_subcommand("stability", "Is a parameter set a stable material? Over which stretches?");
+  verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_option("--model", options->model, "Name of a model in the experiment")->required()->type_name("M");
+  verb->add_option("--parameters", options->parameters,
+                   "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
+      ->type_name("FILE");
+  verb->add_option("--to", options->to, "Judge up to this stretch instead of the largest measured one")
+      ->check(CLI::Range(1.0, 100.0))
+      ->type_name("STRETCH");
+  verb->add_option("--map", options->map, "Two free parameters: where between their bounds is it stable?")
+      ->expected(2)
+      ->type_name("X Y");
+  verb->add_option("--points", options->points, "Points of the map along each parameter")
+      ->check(CLI::Range(2, 1001))
+      ->capture_default_str()
+      ->type_name("N");
+  verb->add_option("-o,--output", options->directory,
+                   "New folder: stability.csv (strips), energy.csv (isocontours), stability_map.csv")
+      ->type_name("DIR");
+  verb->footer(
+      "Examples:\n"
+      "  tunica stability experiment.json --model gho --parameters results/a/result.json\n"
+      "  tunica stability experiment.json --model gho --to 2 --map kappa k2 -o map");
+  verb->callback([&global, &action, options] { action = [&global, options] { return stability(global, *options); }; });
+}
+
+}  // namespace tunica::app
