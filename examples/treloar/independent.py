@@ -170,7 +170,8 @@ def best_ogden():
     return found
 
 
-def main():
+def fit_all():
+    """What independent.json holds."""
     result = {}
 
     def add(model, names, values, objective):
@@ -190,8 +191,8 @@ def main():
     add("ogden_1972", ["mu_1", "alpha_1", "mu_2", "alpha_2", "mu_3", "alpha_3"],
         [v for pair in zip(published, alphas) for v in pair], sum(v * v for v in rest))
     result["rows"] = len(ROWS)
-    print(json.dumps(result, indent=1))
+    return result
 
 
 if __name__ == "__main__":
-    main()
+    print(json.dumps(fit_all(), indent=1))
