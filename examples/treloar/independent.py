@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fits the five models to Treloar's three tests without tunica, and prints independent.json: closed forms of the nominal
+"""Fits the five models to Treloar's three tests without tunica, and prints independent.csv: closed forms of the nominal
 stress, plain Python, nothing but arithmetic.
 
 With lambda the stretch, the nominal stress of each test is that of lambda1 = lambda, lambda2 = lambda**b and
@@ -17,9 +17,8 @@ so that the first three are one linear least-squares problem (QR, exact), and fo
 (Golub, Pereyra 1973): golden section over Jm, Levenberg-Marquardt from a grid of exponents. Residuals are divided by the
 sigma that experiment.json states, sigma^2 = (0.02 MPa)^2 + (2 % of the stress)^2. Stresses in kPa.
 
-    python3 independent.py > independent.json      (a second)"""
+    python3 independent.py > independent.csv      (a second)"""
 import itertools
-import json
 import math
 import pathlib
 
@@ -171,11 +170,11 @@ def best_ogden():
 
 
 def fit_all():
-    """What independent.json holds."""
+    """Per model the parameters by name [kPa, 1], and "objective"."""
     result = {}
 
     def add(model, names, values, objective):
-        result[model] = {"parameters": dict(zip(names, values)), "objective": objective}
+        result[model] = {**dict(zip(names, values)), "objective": objective}
 
     for model, names in ((neo_hooke, ["mu"]), (mooney_rivlin, ["c10", "c01"]), (yeoh, ["c10", "c20", "c30"])):
         add(model.__name__, names, *moduli(model))
@@ -190,9 +189,12 @@ def fit_all():
     rest = [(sum(m * b for m, b in zip(published, basis)) - row[3]) / row[4] for basis, row in zip(ogden(alphas), ROWS)]
     add("ogden_1972", ["mu_1", "alpha_1", "mu_2", "alpha_2", "mu_3", "alpha_3"],
         [v for pair in zip(published, alphas) for v in pair], sum(v * v for v in rest))
-    result["rows"] = len(ROWS)
     return result
 
 
 if __name__ == "__main__":
-    print(json.dumps(fit_all(), indent=1))
+    print("# Written by independent.py, which says how; moduli in kPa. ogden_1972 is not fitted.")
+    print("model,quantity,value")
+    for model, quantities in fit_all().items():
+        for quantity, value in quantities.items():
+            print(f"{model},{quantity},{value:.12g}")
