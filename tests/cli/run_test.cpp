@@ -37,6 +37,27 @@ TEST(Run, WritesEverythingItPromises) {
   EXPECT_EQ(std::count(fit.begin(), fit.end(), '\n'), 1 + 2 * 20);
 }
 
+TEST(Run, WritesBothStretchesOfABiaxialFit) {
+  trial::Bench bench;
+  bench.folder.write("sheet.csv", "lt [1],lz [1],st [kPa],sz [kPa]\n1.05,1.1,2,3\n1.1,1.15,4,5\n1.2,1.2,9,9\n");
+  bench.experiment["tests"] = {{"sheet",
+                                {{"type", "biaxial"},
+                                 {"data",
+                                  {{"file", "sheet.csv"},
+                                   {"columns",
+                                    {{"stretch_circumferential", "lt"},
+                                     {"stretch_axial", "lz"},
+                                     {"stress_circumferential", "st"},
+                                     {"stress_axial", "sz"}}}}}}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto fit = bench.text("out/fit_sheet.csv");
+  const auto header = fit.substr(0, fit.find('\n'));
+  for (const char* column : {"stretch_circumferential [1],", "stretch_axial [1],", "stress_axial.predicted [kPa],"})
+    EXPECT_THAT(header, ::testing::HasSubstr(column));
+  EXPECT_THAT(fit, ::testing::AnyOf(::testing::HasSubstr(",1.05,1.1,"), ::testing::HasSubstr(",1.1,1.05,")));
+}
+
 TEST(Run, WritesAResultThatItsSchemaAccepts) {
   trial::Bench bench;
   bench.experiment["tests"]["axial"]["hold_out"] = true;

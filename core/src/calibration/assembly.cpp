@@ -27,6 +27,12 @@ std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t co
   return fitted;
 }
 
+std::string unit_of(const std::string& name, const std::vector<Observable>& observables) {
+  const auto found = std::find_if(observables.begin(), observables.end(),
+                                  [&name](const Observable& candidate) { return candidate.name == name; });
+  return found == observables.end() ? std::string() : found->unit;
+}
+
 /// What one test measured, channel by channel, its rows behind the predictions so far.
 std::vector<ChannelView> views(const experiment::TestEntry& entry, const data::Dataset& dataset,
                                const std::vector<Observable>& observables, std::size_t offset) {
@@ -49,11 +55,11 @@ std::vector<ChannelView> views(const experiment::TestEntry& entry, const data::D
     if (!entry.weights.empty()) view.weight = entry.weights[k];
     if (!dataset.abscissae.empty()) {
       const auto& [name, values] = dataset.abscissae.front();
-      view.abscissa_name = name, view.abscissa = values;
-      const auto observable =
-          std::find_if(observables.begin(), observables.end(),
-                       [&name = name](const Observable& candidate) { return candidate.name == name; });
-      if (observable != observables.end()) view.abscissa_unit = observable->unit;
+      view.abscissa_name = name, view.abscissa = values, view.abscissa_unit = unit_of(name, observables);
+      for (std::size_t other = 1; other < dataset.abscissae.size(); ++other) {
+        const auto& [label, column] = dataset.abscissae[other];
+        view.other_abscissae.emplace_back(fmt::format("{} [{}]", label, unit_of(label, observables)), column);
+      }
     } else {
       view.abscissa_name = "row", view.abscissa_unit = "1";
       for (std::size_t row = 0; row < dataset.count; ++row) view.abscissa.push_back(static_cast<double>(row));

@@ -35,6 +35,7 @@ struct ChannelView {
   std::vector<double> measured;       ///< count
   std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
   std::string abscissa_name, abscissa_unit;
+  std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;  ///< "name [unit]" → count values
   std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it

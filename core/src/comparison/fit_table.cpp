@@ -68,6 +68,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
 
   const auto& first = *fits.front().channels.front();
   std::string text = fmt::format("run,{} [{}]", first.abscissa_name, first.abscissa_unit);
+  for (const auto& other : first.other_abscissae) text += ',' + other.first;
   for (const auto* channel : fits.front().channels)
     text += fmt::format(",{0} [{1}],{0}.predicted [{1}]", channel->observable, channel->unit);
   text += ",held_out";
@@ -77,6 +78,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
     const auto& lead = *fit.channels.front();
     for (std::size_t row = 0; row < lead.count; ++row) {
       text += execution::csv_cell(fit.label) + ',' + number(lead.abscissa[row]);
+      for (const auto& other : lead.other_abscissae) text += ',' + number(other.second[row]);
       for (const auto* channel : fit.channels)
         text += ',' + number(channel->measured[row]) + ',' + number(fit.predictions[channel->offset + row]);
       text += lead.fitted[row] ? ",0" : ",1";
