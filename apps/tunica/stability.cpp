@@ -38,7 +38,11 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   const auto& assembly = *subject.assembly;
   auto domain = comparison::domain_of(assembly);
   if (options.to > 1) {
-    domain.largest = domain.circumferential = domain.axial = options.to;
+    domain.largest = options.to;
+    for (auto& strip : domain.strips) {
+      strip.clear();
+      for (int k = 1; k <= 100; ++k) strip.push_back(1 + (options.to - 1) * k / 100);
+    }
     domain.stated = true;
   }
   const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);

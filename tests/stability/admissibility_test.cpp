@@ -16,6 +16,15 @@ using ::testing::HasSubstr;
 const std::vector<double> set_s{18.668, 0.1367, 24.905, 0.2912, 46.44};
 const std::vector<double> set_u{10.015, 5.1799e-3, 20.315, 0.17086, 45.83};
 
+const stability::Domain rubber{.strips = {}, .largest = 3, .beyond = 5};
+
+stability::Domain strips_to(double last) {
+  stability::Domain domain{.strips = {}, .largest = last};
+  for (auto& strip : domain.strips)
+    for (int k = 1; k <= 40; ++k) strip.push_back(1 + (last - 1) * k / 40);
+  return domain;
+}
+
 double energy(const Model& model, const std::vector<double>& p, const std::array<double, 6>& C) {
   double W = 0;
   const Status status = model.evaluate({1, C, p, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
@@ -81,12 +90,12 @@ TEST(Ellipticity, IsLostWhereFibresArePressed) {
 
 TEST(Drucker, HoldsForNeoHookeAndIsLostWithANegativeSecondModulus) {
   const auto neo_hooke = testing::model("neo_hooke");
-  const auto good = stability::judge(*neo_hooke, std::vector<double>{100}, {1, 1, 3, 5});
+  const auto good = stability::judge(*neo_hooke, std::vector<double>{100}, rubber);
   ASSERT_TRUE(good.drucker);
   EXPECT_FALSE(good.drucker->first_lost);
   EXPECT_FALSE(good.ellipticity.first_lost);
   const auto rivlin = testing::model("mooney_rivlin");
-  const auto bad = stability::judge(*rivlin, std::vector<double>{60, -10}, {1, 1, 3, 5});
+  const auto bad = stability::judge(*rivlin, std::vector<double>{60, -10}, rubber);
   ASSERT_TRUE(bad.drucker && bad.drucker->first_lost);
   // In equibiaxial extension dσ/dλ of W = c10 (I1 − 3) + c01 (I2 − 3) is 0 where c10 (λ + 2 λ⁻⁵) + c01 (2 λ³ + λ⁻³) is,
   // that is where λ d(σ)/dλ, σ = 2 (λ² − λ⁻⁴)(c10 + c01 λ²), vanishes: it bounds the loss from above.
@@ -105,15 +114,15 @@ TEST(Drucker, IsOnlyAskedOfIsotropicModels) {
 
 TEST(Admissibility, SaysWhatIsLostAndWhere) {
   const auto gho = testing::model("gho");
-  const auto unstable = stability::judge(*gho, set_u, {1.8, 1.8, 1.8, 10});
+  const auto unstable = stability::judge(*gho, set_u, strips_to(1.8));
   EXPECT_FALSE(unstable.transversely_stable());
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("circumferential strip: UNSTABLE"));
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("from stretch 1.166"));
-  const auto stable = stability::judge(*gho, set_s, {1.8, 1.8, 1.8, 10});
+  const auto stable = stability::judge(*gho, set_s, strips_to(1.8));
   EXPECT_TRUE(stable.transversely_stable());
   EXPECT_THAT(stable.sentences().front(), HasSubstr("falls up to stretch"));
   // Measured only where it is still stable: said, and no verdict of instability.
-  const auto short_of_it = stability::judge(*gho, set_u, {1.1, 1.1, 1.1, 10});
+  const auto short_of_it = stability::judge(*gho, set_u, strips_to(1.1));
   EXPECT_TRUE(short_of_it.transversely_stable());
   EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond that domain (measured to 1.1)"));
 }

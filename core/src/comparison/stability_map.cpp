@@ -51,7 +51,7 @@ std::string stability_map(const calibration::Assembly& assembly, std::span<const
     const auto parameters = assembly.model_parameters(p);
     std::array<stability::TransverseVerdict, 2> verdict;
     for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-      verdict[axis] = stability::judge(assembly.model(), parameters, axis, limit, limit);
+      verdict[axis] = stability::judge(assembly.model(), parameters, axis, {}, limit);
     const auto first = [&](std::size_t axis) {
       return verdict[axis].first_unstable ? number(*verdict[axis].first_unstable) : std::string();
     };

@@ -55,10 +55,7 @@ json optional_number(const std::optional<double>& value) { return value ? json(*
 stability::Domain domain_of(const calibration::Assembly& assembly) {
   stability::Domain domain;
   for (const auto& strip : assembly.strips())
-    for (const double stretch : strip.stretches) {
-      double& largest = strip.axis == 0 ? domain.circumferential : domain.axial;
-      largest = std::max(largest, stretch);
-    }
+    domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
   if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
   return domain;
 }
@@ -77,7 +74,8 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
       if (value < -1e-9) found.inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
     }
     const auto free = unconstrained.find(entry.model + '\n' + entry.group);
-    if (!found.imposed.empty() && free != unconstrained.end() && free->second > 0)
+    // Over a perfect fit the ratio says nothing.
+    if (!found.imposed.empty() && free != unconstrained.end() && free->second > 1e-6 * entry.objective)
       found.ratio_to_free = entry.objective / free->second;
     entry.stability = std::move(found);
   }
@@ -98,7 +96,7 @@ std::string stability_table(const Summary& summary) {
     const auto& found = *run.stability;
     std::vector<std::string> where;
     for (const auto& verdict : found.verdict.transverse)
-      if (verdict.first_unstable && (!verdict.stable || *verdict.first_unstable < 2 * verdict.measured_to))
+      if (verdict.first_unstable && *verdict.first_unstable < 2 * found.verdict.domain.largest)
         where.push_back(fmt::format("{:.3f} {}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial"));
     text += fmt::format("  {}  {:<10} {:>#12.6g} {:>7}  {:<8} {}\n", pad(run.label, width),
                         found.imposed.empty() ? "-" : found.imposed, run.objective,

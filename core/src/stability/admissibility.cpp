@@ -22,6 +22,9 @@ std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   if (!verdict.stable)
     return fmt::format("{} strip: UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
                        *verdict.first_unstable, until, reach);
+  if (*verdict.first_unstable < verdict.measured_to)
+    return fmt::format("{} strip: stable at every measured stretch ({}); between them λ3 grows from stretch {:.5g}{}",
+                       name, reach, *verdict.first_unstable, until);
   return fmt::format(
       "{} strip: the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that "
       "domain ({})",
@@ -63,9 +66,9 @@ std::vector<std::string> Admissibility::sentences() const {
 Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain) {
   Admissibility found;
   found.domain = domain;
-  const double measured[] = {domain.circumferential, domain.axial};
   for (std::size_t axis = 0; axis < 2; ++axis)
-    found.transverse.push_back(judge(model, parameters, axis, measured[axis], std::max(domain.beyond, measured[axis])));
+    found.transverse.push_back(
+        judge(model, parameters, axis, domain.strips[axis], std::max(domain.beyond, domain.largest)));
   const auto paths = homogeneous_paths(model, parameters, domain.largest);
   found.ellipticity = judge_ellipticity(model, parameters, paths);
   if (is_isotropic(model, parameters)) found.drucker = judge_drucker(model, parameters, paths);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,10 @@ namespace tunica::stability {
 
 /// Over which stretches a parameter set is judged.
 struct Domain {
-  double circumferential = 1, axial = 1;  ///< largest measured stretch of a strip along each; 1 = none
-  double largest = 1.5;                   ///< of any test, for ellipticity and Drucker
-  double beyond = 10;                     ///< transverse stability is followed so far
-  bool stated = false;                    ///< by a person, not by what was measured: only for the words
+  std::array<std::vector<double>, 2> strips;  ///< measured stretches of strips along the circumference and the axis
+  double largest = 1.5;                       ///< of any test, for ellipticity and Drucker
+  double beyond = 10;                         ///< transverse stability is followed so far
+  bool stated = false;                        ///< by a person, not by what was measured: only for the words
 };
 
 /// Whether a parameter set behaves as a material: what every report says of its best point.

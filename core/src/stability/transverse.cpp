@@ -115,10 +115,11 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
   return {};
 }
 
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis, double measured_to,
-                        double limit) {
+TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
+                        const std::vector<double>& measured, double limit) {
   TransverseVerdict verdict;
-  verdict.axis = axis, verdict.measured_to = measured_to;
+  verdict.axis = axis;
+  if (!measured.empty()) verdict.measured_to = *std::max_element(measured.begin(), measured.end());
   verdict.worst_slope = -std::numeric_limits<double>::infinity();
   const auto slope_at = [&](double stretch) {
     double slope = std::numeric_limits<double>::quiet_NaN();
@@ -161,7 +162,12 @@ TransverseVerdict judge(const Model& model, std::span<const double> parameters, 
     begin = last * growth;
   }
   verdict.checked_to = last;
-  verdict.stable = !verdict.first_unstable || *verdict.first_unstable >= measured_to;
+  if (verdict.first_unstable && *verdict.first_unstable < verdict.measured_to) {
+    std::vector<double> slopes(measured.size());
+    const Status status = FreePath(model, axis, measured).slopes(parameters, slopes, {});
+    verdict.stable =
+        status.ok() && std::all_of(slopes.begin(), slopes.end(), [](double slope) { return slope <= edge; });
+  }
   return verdict;
 }
 

@@ -63,15 +63,15 @@ class FreePath {
 struct TransverseVerdict {
   std::size_t axis = 0;
   double measured_to = 1;                ///< largest measured stretch of a strip along it; 1 = none measured
-  bool stable = true;                    ///< up to measured_to
-  std::optional<double> first_unstable;  ///< stretch from which λ3 grows
+  bool stable = true;                    ///< at every measured stretch
+  std::optional<double> first_unstable;  ///< stretch from which λ3 grows, measured or not
   std::optional<double> stable_again;    ///< and where it stops growing, when it does below checked_to
   double checked_to = 1;                 ///< the response was followed so far; beyond, it overflows or nobody looked
   double worst_slope = 0;                ///< largest d ln λ3/d ln λ1 up to checked_to
 };
 
 /// Follows the path from rest to the stretch `limit`, or as far as there is an equilibrium.
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis, double measured_to,
-                        double limit);
+TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
+                        const std::vector<double>& measured, double limit);
 
 }  // namespace tunica::stability
