@@ -35,7 +35,8 @@ struct ChannelView {
   std::vector<double> measured;       ///< count
   std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
   std::string abscissa_name, abscissa_unit;
-  std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;  ///< "name [unit]" → count values
+  /// "name [unit]" → count values
+  std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
   std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
