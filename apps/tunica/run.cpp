@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -18,6 +20,7 @@
 #include "comparison/study_tables.hpp"
 #include "comparison/summary.hpp"
 #include "comparison/text.hpp"
+#include "comparison/uncertainty.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
@@ -35,6 +38,8 @@ struct RunOptions {
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
   bool resume = false, certificate = true;
+  std::vector<std::string> profiles;
+  std::optional<std::uint64_t> bootstrap;
 };
 
 /// The seed of the command line, in the experiment and in the input.json it is documented by.
@@ -42,6 +47,23 @@ void override_seed(experiment::Experiment& experiment, std::uint64_t seed) {
   experiment.seed = seed;
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
   input["seed"] = seed;
+  experiment.input_json = input.dump(2) + '\n';
+}
+
+/// The same for the analysis.
+void override_analysis(experiment::Experiment& experiment, const RunOptions& options) {
+  auto input = nlohmann::ordered_json::parse(experiment.input_json);
+  auto& analysis = experiment.analysis;
+  if (!options.profiles.empty()) {
+    analysis.all_profiles = options.profiles == std::vector<std::string>{"all"};
+    analysis.profiles = analysis.all_profiles ? std::vector<std::string>{} : options.profiles;
+    input["analysis"]["profiles"] =
+        analysis.all_profiles ? nlohmann::ordered_json("all") : nlohmann::ordered_json(analysis.profiles);
+  }
+  if (options.bootstrap) {
+    analysis.bootstrap_draws = *options.bootstrap;
+    input["analysis"]["bootstrap"]["draws"] = *options.bootstrap;
+  }
   experiment.input_json = input.dump(2) + '\n';
 }
 
@@ -59,6 +81,10 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
                            const std::filesystem::path& directory) {
   std::string command = fmt::format("tunica run {} -o {} --resume", quoted(options.file), quoted(directory.string()));
   if (options.seed) command += fmt::format(" --seed {}", *options.seed);
+  if (!options.profiles.empty())
+    command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.profiles, ",")));
+  if (options.bootstrap) command += fmt::format(" --bootstrap {}", *options.bootstrap);
+  if (!options.certificate) command += " --no-certificate";
   for (const auto& path : global.plugin_paths)
     command += " --plugin-path " + quoted(std::filesystem::path(path).string());
   if (global.allow_world_writable_plugins) command += " --allow-world-writable-plugins";
@@ -98,7 +124,9 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   const Session session(global);
   auto experiment = session.read(options.file);
   if (options.seed) override_seed(experiment, *options.seed);
+  if (!options.profiles.empty() || options.bootstrap) override_analysis(experiment, options);
   const auto plan = execution::make_plan(experiment, session.catalogue());
+  comparison::check_analysis(plan, session.catalogue());
   const std::optional<std::filesystem::path> requested =
       options.directory.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.directory);
   const auto directory = options.resume ? execution::RunDirectory::reopen(requested, experiment.name)
@@ -138,6 +166,18 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   comparison::write_study_tables(directory.path(), plan, outcome.runs, summary);
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   certify(global, options, directory.path(), summary);
+  {
+    const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+    tbb::task_arena arena(static_cast<int>(options.threads));
+    arena.execute([&] {
+      comparison::analyse(plan, session.catalogue(), directory.path(), execution::InterruptWatch::interrupted, summary);
+    });
+  }
+  if (execution::InterruptWatch::interrupted()) {
+    fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
+               resume_command(global, options, directory.path()));
+    return interrupted;
+  }
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
              comparison::ranking_table(summary));
@@ -166,6 +206,14 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(seed_number())
       ->type_name("S");
   verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
+  verb->add_option("--profiles", options->profiles,
+                   "Profile likelihood of these parameters, names separated by commas, or all")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  verb->add_option("--bootstrap", options->bootstrap, "Residual bootstrap with so many draws, from 40")
+      ->check(CLI::Range(40, 1000000))
+      ->type_name("N");
   verb->add_flag("!--no-certificate", options->certificate,
                  "Do not evaluate the best points and their neighbours again in a fresh process");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
@@ -173,7 +221,8 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       "Examples:\n"
       "  tunica run experiment.json\n"
       "  tunica run experiment.json -o results/a -j 4 --seed 7\n"
-      "  tunica run experiment.json -o results/a --resume\n\n"
+      "  tunica run experiment.json -o results/a --resume\n"
+      "  tunica run experiment.json --profiles all --bootstrap 200\n\n"
       "Writes result.json, evaluations.csv (live), fit_<test>.csv, ranking.csv, realisations.csv, convergence.csv,\n"
       "performance_profile.csv, data_profile.csv, input.json, run.log and checkpoint.json.");
   verb->callback([&global, &action, options] { action = [&global, options] { return run(global, *options); }; });

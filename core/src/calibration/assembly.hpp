@@ -88,9 +88,15 @@ class Assembly {
   Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
                   std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const;
 
+  /// From now on evaluate() in this workspace compares with these values, in the layout of the predictions, instead of
+  /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.
+  void measure(std::span<const double> values, Workspace& workspace) const;
+
   [[nodiscard]] std::size_t constraint_count() const;
   /// c(p) ≤ 0 (constraint_count) and, unless empty, its Jacobian by the free parameters, row-major.
   Status constraints(std::span<const double> free, std::span<double> values, std::span<double> jacobian) const;
+  /// Infeasible, with its violation, where a constraint exceeds Problem::constraint_tolerance: evaluate()'s verdict.
+  Status feasibility(std::span<const double> free, Workspace& workspace) const;
   /// What is broken when constraint i is positive, in words.
   [[nodiscard]] std::string constraint_words(std::size_t i, double value) const;
 

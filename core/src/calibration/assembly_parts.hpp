@@ -89,6 +89,7 @@ class Assembly::Workspace {
   std::vector<double> jacobian;                      ///< of one test by slots, large enough for each
   std::vector<double> ahead, behind, shifted;        ///< for differences
   std::vector<double> constraints;                   ///< values
+  std::vector<std::vector<double>> measured;         ///< by fitted channel, in place of the data; empty = the data
 };
 
 }  // namespace tunica::calibration

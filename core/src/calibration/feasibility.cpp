@@ -22,6 +22,10 @@ Status Assembly::Parts::feasibility(std::span<const double> at, Workspace& works
   return broken ? Status::infeasible(broken->words(where, worst), violation) : Status();
 }
 
+Status Assembly::feasibility(std::span<const double> free, Workspace& workspace) const {
+  return parts_->constraints.empty() ? Status() : parts_->feasibility(free, workspace);
+}
+
 std::size_t Assembly::constraint_count() const { return parts_->constraint_count; }
 
 Status Assembly::constraints(std::span<const double> free, std::span<double> values, std::span<double> jacobian) const {

@@ -17,7 +17,9 @@ struct ParameterInterval {
   std::string name, unit;
   double value = 0;
   double ci95 = std::numeric_limits<double>::quiet_NaN();  ///< half width; NaN when at a bound or not identified
-  bool at_bound = false;                                   ///< within 1e-6 of the range
+  /// The ends of the interval: x ± its half width in the unit box, within the bounds. Not symmetric on a log scale.
+  double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
+  bool at_bound = false;  ///< within 1e-6 of the range
   bool identified = false;
 };
 
@@ -56,11 +58,11 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 ///   s_k < weakest·s_1 (no prediction changes), or 1/s_k > 1 (its standard deviation exceeds the box).
 ///
 /// A parameter has the interval ci95 = t √Σ_k (v_k)²/s_k², with the 97.5 % point of Student's t at N − p degrees of
-/// freedom (of the normal distribution where all noise is stated). It is identified when no direction without effect
-/// moves it by a hundredth of the box per unit length, and its interval does not fill the box. Parameters at a bound
-/// leave the computation, channels of weight 0 too. Weak directions that share parameters form a valley; of the model's
-/// combinations those are named as fixed whose gradient is orthogonal to all of them (to 1e-3) and that have an
-/// argument in it.
+/// freedom (of the normal distribution where all noise is stated), in the coordinate of the search. It is identified
+/// when no direction without effect moves it by a hundredth of the box per unit length, and its interval does not fill
+/// the box. Parameters at a bound leave the computation, channels of weight 0 too. Weak directions that share
+/// parameters form a valley; of the model's combinations those are named as fixed whose gradient is orthogonal to all
+/// of them (to 1e-3) and that have an argument in it.
 ///
 /// Returns failed when the point cannot be evaluated or has no fitted rows.
 Status identify(const Assembly& assembly, std::span<const double> free, Identifiability& found);

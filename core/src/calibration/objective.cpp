@@ -43,12 +43,13 @@ void scale_residuals(FittedChannel& fitted, experiment::ObjectiveType objective,
   }
 }
 
-double channel_cost(const FittedChannel& fitted, std::span<const double> predictions, std::span<double> residuals) {
+double channel_cost(const FittedChannel& fitted, std::span<const double> measured, std::span<const double> predictions,
+                    std::span<double> residuals) {
   const std::size_t n = fitted.rows.size(), offset = fitted.block.offset;
   const bool correlated = !fitted.previous.empty();
   double sum = 0, before = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double error = predictions[fitted.rows[k]] - fitted.measured[k];
+    const double error = predictions[fitted.rows[k]] - measured[k];
     double residual = fitted.own[k] * error;
     if (correlated) residual -= fitted.previous[k] * before, before = error;
     if (!residuals.empty()) residuals[offset + k] = residual;

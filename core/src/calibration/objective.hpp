@@ -36,7 +36,9 @@ struct FittedChannel {
 void scale_residuals(FittedChannel& fitted, experiment::ObjectiveType objective, double weight, const NoiseModel* noise,
                      const std::string& where);
 
-/// weight · ρ(‖r‖²) of one channel; `residuals` (all of the problem's) is filled unless empty.
-double channel_cost(const FittedChannel& fitted, std::span<const double> predictions, std::span<double> residuals);
+/// weight · ρ(‖r‖²) of one channel against `measured`, one value a fitted row; `residuals` (all of the problem's) is
+/// filled unless empty.
+double channel_cost(const FittedChannel& fitted, std::span<const double> measured, std::span<const double> predictions,
+                    std::span<double> residuals);
 
 }  // namespace tunica::calibration

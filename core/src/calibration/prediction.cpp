@@ -156,7 +156,9 @@ Status Assembly::evaluate(std::span<const double> free, double& objective, std::
         return status;
     }
     for (; channel != parts_->fitted.end() && channel->test == t; ++channel) {
-      cost += channel_cost(*channel, workspace.predictions, residuals);
+      const auto number = static_cast<std::size_t>(channel - parts_->fitted.begin());
+      cost += channel_cost(*channel, workspace.measured.empty() ? channel->measured : workspace.measured[number],
+                           workspace.predictions, residuals);
       if (jacobian.empty()) continue;
       write_rows(*channel, test, workspace.jacobian.data(), &jacobian[channel->block.offset * n], n);
     }
@@ -178,6 +180,15 @@ Status Assembly::evaluate(std::span<const double> free, double& objective, std::
     return Status::failed("the objective overflows: predictions are finite, their squares are not");
   objective = total;
   return parts_->constraints.empty() ? Status() : parts_->feasibility(free, workspace);
+}
+
+void Assembly::measure(std::span<const double> values, Workspace& workspace) const {
+  workspace.measured.clear();
+  if (values.empty()) return;
+  for (const FittedChannel& channel : parts_->fitted) {
+    auto& measured = workspace.measured.emplace_back();
+    for (const std::size_t row : channel.rows) measured.push_back(values[row]);
+  }
 }
 
 void Assembly::jacobian_to_unit(std::span<const double> free, std::span<double> jacobian, Workspace& workspace) const {

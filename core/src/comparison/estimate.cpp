@@ -70,7 +70,7 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
     const auto& interval = found.parameters[j];
     estimate.identified = interval.identified;
     if (interval.identified && std::isfinite(interval.ci95))
-      estimate.ci95 = {estimate.value - interval.ci95, estimate.value + interval.ci95};
+      estimate.ci95 = {interval.lower, interval.upper};
   }
   summary.identifiability = found.sentences();
 }

@@ -80,6 +80,18 @@ std::string ranking_lines(const Summary& summary) {
          '\n';
 }
 
+/// "profile (21.9 … 23.1), bootstrap (22 … 22.9)"
+std::string other_intervals(const Estimate& estimate) {
+  const auto end = [](const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "open"; };
+  std::string text;
+  if (estimate.profile)
+    text = fmt::format("profile ({} … {})", end(estimate.profile->lower), end(estimate.profile->upper));
+  if (estimate.bootstrap)
+    text += fmt::format("{}bootstrap ({:.4g} … {:.4g})", text.empty() ? "" : ", ", estimate.bootstrap->first,
+                        estimate.bootstrap->second);
+  return text;
+}
+
 std::string quality_text(const Quality& quality) {
   const auto& measure = quality.agreement;
   std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, unit_text(quality.unit));
@@ -98,12 +110,16 @@ std::string run_lines(const RunSummary& run) {
   if (!run.certificate.verdict.empty()) text += hanging("  optimum: ", run.certificate.verdict) + '\n';
   std::size_t width = 8;
   for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
-  for (const auto& parameter : run.parameters)
+  for (const auto& parameter : run.parameters) {
     text += fmt::format("  {}  {}\n", pad(parameter.name, width), value_text(parameter));
+    if (const auto other = other_intervals(parameter); !other.empty())
+      text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
+  }
   for (const auto& quality : run.quality) {
     const std::string name = fmt::format("  {}, {}: ", quality.test, quality.channel);
     text += hanging(columns(name) < 40 ? name : name + "\n    ", quality_text(quality)) + '\n';
   }
+  for (const auto& sentence : run.uncertainty) text += hanging("  - ", sentence) + '\n';
   return text;
 }
 

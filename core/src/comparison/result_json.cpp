@@ -75,14 +75,18 @@ const char* word(Information::Noise noise) {
 
 json best(const RunSummary& run) {
   json parameters = json::object();
-  for (const auto& parameter : run.parameters)
-    parameters[parameter.name] = {
-        {"value", parameter.value},
-        {"unit", parameter.unit},
-        {"ci95", interval(parameter.ci95)},
-        {"at_bound", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(word(parameter.at_bound))},
-        {"min", parameter.min},
-        {"max", parameter.max}};
+  for (const auto& parameter : run.parameters) {
+    json& entry = parameters[parameter.name];
+    entry = {{"value", parameter.value},
+             {"unit", parameter.unit},
+             {"ci95", interval(parameter.ci95)},
+             {"at_bound", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(word(parameter.at_bound))},
+             {"min", parameter.min},
+             {"max", parameter.max}};
+    if (parameter.profile)
+      entry["profile_ci95"] = {or_null(parameter.profile->lower), or_null(parameter.profile->upper)};
+    if (run.bootstrap) entry["bootstrap_ci95"] = interval(parameter.bootstrap);
+  }
   json per_test = json::object();
   for (std::size_t test = 0; test < run.tests.size(); ++test) {
     json channels = json::array();
@@ -111,6 +115,8 @@ json best(const RunSummary& run) {
   result["bic"] = run.information ? json(run.information->bic) : json(nullptr);
   result["noise"] = run.information ? json(word(run.information->noise)) : json(nullptr);
   result["certificate"] = certificate(run.certificate);
+  if (!run.uncertainty.empty()) result["uncertainty"] = run.uncertainty;
+  if (run.bootstrap) result["bootstrap"] = {{"draws", run.bootstrap->made}, {"failed", run.bootstrap->failed}};
   return result;
 }
 

@@ -17,13 +17,20 @@
 
 namespace tunica::comparison {
 
+/// Where the profile likelihood crosses its threshold; none = open, as far as the bound.
+struct ProfileInterval {
+  std::optional<double> lower, upper;
+};
+
 /// One parameter at the best point of a run.
 struct Estimate {
   enum class Bound { none, lower, upper };
   std::string name, unit;
   double value = 0, min = 0, max = 0;
-  std::optional<Interval> ci95;  ///< from the noise of the data; none where they do not fix it
-  bool identified = false;       ///< the data fix it, apart from a bound
+  std::optional<Interval> ci95;            ///< from the noise of the data; none where they do not fix it
+  std::optional<ProfileInterval> profile;  ///< where it was asked for
+  std::optional<Interval> bootstrap;
+  bool identified = false;  ///< the data fix it, apart from a bound
   Bound at_bound = Bound::none;
   SampleStatistics over_realisations;
 };
@@ -55,6 +62,11 @@ struct RunSummary {
   std::vector<calibration::FixedParameter> fixed;
   std::vector<Quality> quality;
   std::vector<std::string> identifiability;  ///< sentences
+  std::vector<std::string> uncertainty;      ///< sentences on profiles and bootstrap
+  struct Draws {
+    std::size_t made = 0, failed = 0;
+  };
+  std::optional<Draws> bootstrap;
 
   std::uint64_t realisations = 0, best_realisation = 0, best_id = 0;  ///< both from 1, as in evaluations.csv
   SampleStatistics objectives;                                        ///< of the realisations that have a result

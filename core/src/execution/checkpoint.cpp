@@ -89,12 +89,20 @@ std::vector<std::string> changed_keys(const std::filesystem::path& directory, co
   return keys;
 }
 
+/// The experiment without its analysis, which changes no evaluation: it may be asked for when the run is resumed.
+std::string without_analysis(const std::string& input_json) {
+  json input = json::parse(input_json, nullptr, false);
+  if (input.is_discarded()) return input_json;
+  input.erase("analysis");
+  return input.dump();
+}
+
 }  // namespace
 
 Facts facts_of(const Plan& plan) {
   Facts facts;
   const auto& experiment = *plan.experiment;
-  facts["the experiment file"] = data::sha256(experiment.input_json);
+  facts["the experiment file"] = data::sha256(without_analysis(experiment.input_json));
   facts["the seed"] = fmt::format("{}", experiment.seed);
   for (const auto& run : plan.runs) {
     for (const auto& hash : run.assembly->data_hashes()) {

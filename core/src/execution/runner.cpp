@@ -83,6 +83,7 @@ void Run::open() {
   if (settings_.resume) {
     Checkpoint before = read_checkpoint(directory);
     refuse_changes(directory, before.facts, facts_, input);
+    write_atomically(directory / "input.json", input);  // it may ask for another analysis
     std::vector<bool> wanted(plan_.tasks.size(), true);
     for (const auto& [task, result] : before.finished)
       if (task < wanted.size()) wanted[task] = false;

@@ -34,7 +34,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
     format.fail(fmt::format("found format {} where 1 is expected", format.json().dump()),
                 "This version of tunica reads format 1 only.");
   root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
-                   "stop", "runs", "on_failure", "diagnosis"},
+                   "stop", "runs", "on_failure", "analysis", "diagnosis"},
                   "the experiment file");
   Experiment experiment;
   experiment.file = file;
@@ -61,6 +61,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   if (const auto node = root.find("on_failure")) read_on_failure(*node, experiment);
   read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
   check_shared(shared);
+  if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
   if (const auto node = root.find("diagnosis")) {
     check_diagnosis(*node, experiment);
     experiment.diagnosis_json = node->json().dump();

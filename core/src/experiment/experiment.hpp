@@ -109,6 +109,16 @@ struct RunEntry {
   Stop stop;
 };
 
+/// What is to be said about the uncertainty of every run's best point beyond the Laplace intervals.
+struct Analysis {
+  bool all_profiles = false;
+  std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
+  std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
+  std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
+
+  [[nodiscard]] bool wanted() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
+};
+
 struct Experiment {
   std::string name;
   std::filesystem::path file;
@@ -119,8 +129,9 @@ struct Experiment {
   std::vector<RunEntry> runs;
   OnFailure on_failure = OnFailure::penalise;
   double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
-  std::string diagnosis_json;   ///< the "diagnosis" block as text; empty = none
-  std::string input_json;       ///< the file with defaults filled in: input.json
+  Analysis analysis;
+  std::string diagnosis_json;  ///< the "diagnosis" block as text; empty = none
+  std::string input_json;      ///< the file with defaults filled in: input.json
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;

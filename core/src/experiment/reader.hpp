@@ -87,6 +87,8 @@ struct RunDefaults {
 /// Tests that a run defines for itself are added to the experiment.
 void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
                std::vector<Shared>& shared, Experiment& experiment);
+/// "analysis": profiles, bootstrap, optimizer; needs the optimizers.
+void read_analysis(const Node& node, Experiment& experiment);
 void check_diagnosis(const Node& node, const Experiment& experiment);
 
 // writer.cpp

@@ -99,4 +99,30 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
   return optimizers;
 }
 
+void read_analysis(const Node& node, Experiment& experiment) {
+  node.allow_only({"profiles", "bootstrap", "optimizer"}, "\"analysis\"");
+  Analysis& analysis = experiment.analysis;
+  if (const auto profiles = node.find("profiles")) {
+    if (profiles->is_text()) {
+      profiles->one_of({"all"}, "set of profiles");
+      analysis.all_profiles = true;
+    } else {
+      for (const Node& name : profiles->elements("\"all\" or a list of parameter names"))
+        analysis.profiles.push_back(name.text("the name of a parameter, as in results"));
+    }
+  }
+  if (const auto bootstrap = node.find("bootstrap")) {
+    bootstrap->expect_object("an object, {\"draws\": 200},");
+    bootstrap->allow_only({"draws"}, "\"bootstrap\"");
+    analysis.bootstrap_draws =
+        bootstrap->require("draws", "\"bootstrap\"").count("a whole number of draws from 40", 40);
+  }
+  if (const auto optimizer = node.find("optimizer")) {
+    analysis.optimizer = optimizer->one_of(entry_names(experiment.optimizers), "optimizer");
+    if (!experiment.optimizer(analysis.optimizer).stages.empty())
+      optimizer->fail(fmt::format("the optimizer '{}' has stages", analysis.optimizer),
+                      "Refits are local: name one of its stages that searches locally.");
+  }
+}
+
 }  // namespace tunica::experiment

@@ -143,6 +143,17 @@ Json run_schema() {
                        {"model", "optimizer"});
 }
 
+Json analysis_schema() {
+  Json profiles = {{"description", "Profile likelihood of these parameters, named as in results, or of all."}};
+  profiles["anyOf"] = Json::array({choice_schema("Every one.", {"all"}), list_schema("Names.", {{"type", "string"}})});
+  return object_schema(
+      "Uncertainty of every run's best point, beyond the intervals that are always given.",
+      {{"profiles", std::move(profiles)},
+       {"bootstrap",
+        object_schema("Residual bootstrap.", {{"draws", count_schema("Data sets to draw.", 40)}}, {"draws"})},
+       {"optimizer", text_schema("Name of an optimizer for the refits (default: ceres_lm from the best point).")}});
+}
+
 Json diagnosis_schema() {
   Json mechanisms = {{"description", "Which causes to consider (default all)."}};
   mechanisms["anyOf"] =
@@ -192,6 +203,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["runs"] = list_schema("What to calibrate; the runs are compared.", run_schema());
   properties["runs"]["minItems"] = 1;
   properties["on_failure"] = on_failure_schema();
+  properties["analysis"] = analysis_schema();
   properties["diagnosis"] = diagnosis_schema();
 
   Json schema = Json::object();

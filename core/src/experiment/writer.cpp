@@ -138,6 +138,17 @@ Json written(const RunEntry& run) {
   return json;
 }
 
+Json written(const Analysis& analysis) {
+  Json json = Json::object();
+  if (analysis.all_profiles)
+    json["profiles"] = "all";
+  else if (!analysis.profiles.empty())
+    json["profiles"] = analysis.profiles;
+  if (analysis.bootstrap_draws > 0) json["bootstrap"] = {{"draws", analysis.bootstrap_draws}};
+  if (!analysis.optimizer.empty()) json["optimizer"] = analysis.optimizer;
+  return json;
+}
+
 }  // namespace
 
 std::string write_input(const Experiment& experiment, const plugins::Catalogue& catalogue) {
@@ -152,6 +163,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const RunEntry& run : experiment.runs) json["runs"].push_back(written(run));
   json["on_failure"] = {{"policy", on_failure_names()[static_cast<std::size_t>(experiment.on_failure)]},
                         {"max_rate", experiment.max_failure_rate}};
+  if (experiment.analysis.wanted()) json["analysis"] = written(experiment.analysis);
   if (!experiment.diagnosis_json.empty()) json["diagnosis"] = Json::parse(experiment.diagnosis_json);
   return json.dump(2) + "\n";
 }

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/uncertainty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/bootstrap.hpp"
+#include "calibration/profile.hpp"
+#include "comparison/uncertainty_tables.hpp"
+#include "comparison/uncertainty_words.hpp"
+#include "data/nearest.hpp"
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+calibration::LocalOptimizer local_optimizer(const experiment::Experiment& experiment,
+                                            const plugins::Catalogue& catalogue) {
+  const std::string& named = experiment.analysis.optimizer;
+  const std::string type = named.empty() ? "ceres_lm" : experiment.optimizer(named).type;
+  const auto found = catalogue.optimizers().find(type);
+  if (found == catalogue.optimizers().end())
+    throw InputError(
+        fmt::format("analysis: refits need the optimizer type '{}', which no plugin provides; name another "
+                    "of \"optimizers\" in analysis.optimizer",
+                    type));
+  if (!named.empty()) return {&found->second, experiment.optimizer(named).options};
+  Options options;
+  for (const auto& option : found->second.factory.options)
+    if (option.fallback) options.set(option.name, *option.fallback);
+  options.set("starts", std::int64_t{1});
+  return {&found->second, std::move(options)};
+}
+
+std::vector<std::size_t> wanted(const experiment::Analysis& analysis, const calibration::Assembly& assembly) {
+  std::vector<std::size_t> indices;
+  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
+    const auto& names = analysis.profiles;
+    const bool named = std::find(names.begin(), names.end(), assembly.parameters()[j].name) != names.end();
+    if (analysis.all_profiles || named) indices.push_back(j);
+  }
+  return indices;
+}
+
+void keep(const std::vector<calibration::Profile>& made, RunSummary& summary) {
+  for (const auto& profile : made) {
+    auto& estimate = summary.parameters[profile.parameter];
+    const auto end = [](const calibration::Profile::End& side) {
+      return side.kind == calibration::Profile::End::Kind::crossed ? std::optional(side.value) : std::nullopt;
+    };
+    estimate.profile = ProfileInterval{end(profile.lower), end(profile.upper)};
+  }
+}
+
+}  // namespace
+
+void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catalogue) {
+  const auto& analysis = plan.experiment->analysis;
+  if (!analysis.wanted()) return;
+  std::vector<std::string> known;
+  for (const auto& run : plan.runs)
+    for (const auto& parameter : run.assembly->parameters())
+      if (std::find(known.begin(), known.end(), parameter.name) == known.end()) known.push_back(parameter.name);
+  for (const auto& name : analysis.profiles)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("analysis: no run searches for the parameter '{}' that a profile is asked of. {}",
+                                   name, data::suggestion(name, known)));
+  static_cast<void>(local_optimizer(*plan.experiment, catalogue));
+}
+
+void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
+             const std::function<bool()>& interrupted, Summary& summary) {
+  const auto& analysis = plan.experiment->analysis;
+  if (!analysis.wanted()) return;
+  const auto optimizer = local_optimizer(*plan.experiment, catalogue);
+  std::vector<RunProfiles> profiled;
+  std::vector<RunDraws> drawn;
+  for (std::size_t k = 0; k < plan.runs.size(); ++k) {
+    const auto& run = plan.runs[k];
+    auto& own = summary.runs[k];
+    if (!own.has_result || !own.status.ok()) continue;
+    const auto& assembly = *run.assembly;
+    std::vector<double> best;
+    for (const auto& parameter : own.parameters) best.push_back(parameter.value);
+    const std::uint64_t seed = derive_seed(run.seed, "analysis");
+    if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
+      const auto likelihood = calibration::likelihood_at(assembly, best, optimizer, seed);
+      if (!likelihood.centre.status.ok()) {
+        own.uncertainty.push_back(
+            fmt::format("no profiles: the best point cannot be refitted: {}", likelihood.centre.status.reason()));
+      } else {
+        auto made = calibration::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
+        keep(made, own);
+        add_profile_words(assembly, run.entry->objective, made, own);
+        profiled.push_back({&assembly, own.label, std::move(made)});
+      }
+    }
+    if (analysis.bootstrap_draws > 0) {
+      auto made = calibration::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
+      for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
+      add_bootstrap_words(assembly, made, own);
+      drawn.push_back({&assembly, own.label, std::move(made)});
+    }
+    if (interrupted && interrupted()) return;
+  }
+  write_profiles(directory, profiled);
+  write_bootstrap(directory, drawn);
+}
+
+}  // namespace tunica::comparison

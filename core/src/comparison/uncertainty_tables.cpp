@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/uncertainty_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "execution/evaluation_table.hpp"
+#include "execution/files.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+std::string column(const calibration::FreeParameter& parameter) {
+  return execution::csv_cell(fmt::format("{} [{}]", parameter.name, parameter.unit));
+}
+
+/// Columns of all these runs, each once.
+template <class Run>
+std::vector<std::string> columns_of(const std::vector<Run>& runs) {
+  std::vector<std::string> columns;
+  for (const auto& run : runs)
+    for (const auto& parameter : run.assembly->parameters())
+      if (std::find(columns.begin(), columns.end(), column(parameter)) == columns.end())
+        columns.push_back(column(parameter));
+  return columns;
+}
+
+/// The values of one run in these columns; empty cells where it has none.
+std::string cells(const calibration::Assembly& assembly, const std::vector<double>& free,
+                  const std::vector<std::string>& columns) {
+  std::string text;
+  for (const auto& wanted : columns) {
+    text += ',';
+    for (std::size_t j = 0; j < free.size(); ++j)
+      if (column(assembly.parameters()[j]) == wanted) text += fmt::format("{}", free[j]);
+  }
+  return text;
+}
+
+std::string file_name(const std::string& parameter) {
+  std::string name;
+  for (const char c : parameter)
+    name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.' ? c : '-';
+  return "profile_" + name + ".csv";
+}
+
+}  // namespace
+
+void write_profiles(const std::filesystem::path& directory, const std::vector<RunProfiles>& runs) {
+  const auto columns = columns_of(runs);
+  std::map<std::string, std::string> files;  // by parameter
+  for (const auto& run : runs)
+    for (const auto& profile : run.profiles) {
+      const auto& parameter = run.assembly->parameters()[profile.parameter];
+      auto& text = files[parameter.name];
+      if (text.empty())
+        text = fmt::format(
+            "# Profile likelihood of {}: delta = least -2 ln L with it held, minus that of the optimum; a 95 % "
+            "interval\n"
+            "# is where delta is below the threshold. The parameters as fitted along the profile follow.\n"
+            "run,value [{}],delta,threshold,{}\n",
+            parameter.name, parameter.unit, fmt::join(columns, ","));
+      for (const auto& point : profile.points)
+        text += fmt::format("{},{},{},{}{}\n", execution::csv_cell(run.label), point.value, point.delta,
+                            profile.threshold, cells(*run.assembly, point.free, columns));
+    }
+  for (const auto& [parameter, text] : files) execution::write_atomically(directory / file_name(parameter), text);
+}
+
+void write_bootstrap(const std::filesystem::path& directory, const std::vector<RunDraws>& runs) {
+  if (runs.empty()) return;
+  const auto columns = columns_of(runs);
+  std::string text = fmt::format("run,draw,status,converged,objective,{}\n", fmt::join(columns, ","));
+  for (const auto& run : runs)
+    for (std::size_t k = 0; k < run.bootstrap.draws.size(); ++k) {
+      const auto& draw = run.bootstrap.draws[k];
+      text += fmt::format("{},{},{},{},{}{}\n", execution::csv_cell(run.label), k + 1, name(draw.status.kind()),
+                          draw.converged ? 1 : 0, draw.free.empty() ? "" : fmt::format("{}", draw.objective),
+                          cells(*run.assembly, draw.free, columns));
+    }
+  execution::write_atomically(directory / "bootstrap.csv", text);
+}
+
+}  // namespace tunica::comparison

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibration/bootstrap.hpp"
+#include "calibration/profile.hpp"
+
+namespace tunica::comparison {
+
+struct RunProfiles {
+  const calibration::Assembly* assembly;
+  std::string label;
+  std::vector<calibration::Profile> profiles;
+};
+
+struct RunDraws {
+  const calibration::Assembly* assembly;
+  std::string label;
+  calibration::Bootstrap bootstrap;
+};
+
+/// profile_<parameter>.csv, one file a parameter for all runs that have it.
+void write_profiles(const std::filesystem::path& directory, const std::vector<RunProfiles>& runs);
+/// bootstrap.csv; not written without runs.
+void write_bootstrap(const std::filesystem::path& directory, const std::vector<RunDraws>& runs);
+
+}  // namespace tunica::comparison

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/uncertainty_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "comparison/ranking.hpp"
+
+namespace tunica::comparison {
+
+namespace {
+
+constexpr double disagreement = 0.25;  ///< of the linearised half width
+
+using calibration::Profile;
+using Kind = Profile::End::Kind;
+
+std::string end_text(const Profile::End& end) {
+  return end.kind == Kind::crossed ? fmt::format("{:.4g}", end.value) : "open";
+}
+
+void add_open_end(const std::string& name, const Profile::End& end, const char* bound, RunSummary& summary) {
+  if (end.kind == Kind::open)
+    summary.uncertainty.push_back(
+        fmt::format("the profile of {} is open towards the {} bound: the data do not limit it there", name, bound));
+  if (end.kind == Kind::failed)
+    summary.uncertainty.push_back(fmt::format(
+        "the profile of {} ends at {:.4g}, before the {} bound: beyond it no refit succeeded", name, end.value, bound));
+}
+
+/// A side at a bound has nowhere to go.
+bool at(const Estimate& estimate, Estimate::Bound bound) { return estimate.at_bound == bound; }
+
+}  // namespace
+
+void add_profile_words(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+                       const std::vector<Profile>& profiles, RunSummary& summary) {
+  if (objective != experiment::ObjectiveType::least_squares)
+    summary.uncertainty.push_back(
+        fmt::format("profiles are of the likelihood of normal noise; the run minimised {}, whose optimum may differ "
+                    "from theirs",
+                    name_of(objective)));
+  for (const Profile& profile : profiles) {
+    const auto& estimate = summary.parameters[profile.parameter];
+    const std::string& name = assembly.parameters()[profile.parameter].name;
+    if (!at(estimate, Estimate::Bound::lower)) add_open_end(name, profile.lower, "lower", summary);
+    if (!at(estimate, Estimate::Bound::upper)) add_open_end(name, profile.upper, "upper", summary);
+    if (profile.lowest < -1e-2 * profile.threshold)
+      summary.uncertainty.push_back(
+          fmt::format("the profile of {} came to a MORE LIKELY point (-2 ln L lower by {:.3g}): the best point is not "
+                      "the optimum of the likelihood; search longer or from more starts",
+                      name, -profile.lowest));
+    if (!estimate.ci95) continue;
+    const double half = (estimate.ci95->second - estimate.ci95->first) / 2;
+    // An end that stays open agrees with a linearised one that the bound has cut off.
+    const auto differs = [&](const Profile::End& end, double linear, double bound) {
+      const double value = end.kind == Kind::crossed ? end.value : bound;
+      return std::abs(value - linear) > disagreement * half;
+    };
+    if (differs(profile.lower, estimate.ci95->first, estimate.min) ||
+        differs(profile.upper, estimate.ci95->second, estimate.max))
+      summary.uncertainty.push_back(fmt::format(
+          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) DISAGREE: the likelihood is not "
+          "parabolic there; take the profile",
+          name, end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second));
+  }
+}
+
+void add_bootstrap_words(const calibration::Assembly& assembly, const calibration::Bootstrap& bootstrap,
+                         RunSummary& summary) {
+  summary.bootstrap = {bootstrap.draws.size(), bootstrap.failures};
+  if (bootstrap.draws.empty()) {
+    summary.uncertainty.emplace_back("no bootstrap: the best point cannot be linearised");
+    return;
+  }
+  if (bootstrap.failures > 0)
+    summary.uncertainty.push_back(fmt::format("{} of {} bootstrap draws could not be fitted and are left out",
+                                              bootstrap.failures, bootstrap.draws.size()));
+  std::size_t channel = 0;
+  for (const auto& view : assembly.channels()) {
+    const bool counted =
+        view.weight > 0 && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end();
+    if (!counted || channel >= bootstrap.blocks.size()) continue;
+    const std::size_t length = bootstrap.blocks[channel];
+    if (length > 1)
+      summary.uncertainty.push_back(
+          fmt::format("neighbouring residuals of {}, {} are correlated ({:.2f}): the bootstrap drew blocks of {} rows; "
+                      "intervals that take rows for independent are too narrow",
+                      view.test, view.observable, bootstrap.correlation[channel], length));
+    ++channel;
+  }
+}
+
+}  // namespace tunica::comparison
