@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+namespace {
+
+/// The paper's set without stabilisation, as a model all of whose parameters but two are fixed.
+nlohmann::json set_u() {
+  return {{"type", "gho"},
+          {"parameters",
+           {{"mu", {{"fixed", 10.015}}},
+            {"kappa", {{"min", 0}, {"max", 0.3333}, {"initial", 5.1799e-3}}},
+            {"k1", {{"fixed", 20.315}}},
+            {"k2", {{"min", 0.01}, {"max", 2}, {"initial", 0.17086}, {"scale", "log"}}},
+            {"theta", {{"fixed", 45.83}}}}}};
+}
+
+}  // namespace
+
+TEST(Stability, JudgesAParameterSetOverTheMeasuredStretchesOrAStatedOne) {
+  trial::Bench bench;  // its strips end at 1.4
+  bench.experiment["models"]["u"] = set_u();
+  const auto measured = bench.tunica({"stability", "experiment.json", "--model", "u"});
+  ASSERT_EQ(measured.code, 0) << measured.err;
+  EXPECT_THAT(measured.out, AllOf(HasSubstr("circumferential strip: UNSTABLE"), HasSubstr("1.166"),
+                                  HasSubstr("measured to 1.4"), HasSubstr("elliptic up to stretch 1.4")));
+  const auto stated = bench.tunica({"stability", "experiment.json", "--model", "u", "--to", "1.1"});
+  EXPECT_THAT(stated.out, AllOf(Not(HasSubstr("UNSTABLE")), HasSubstr("beyond that domain (judged to 1.1)")));
+}
+
+TEST(Stability, DrawsAMapOfTwoParameters) {
+  trial::Bench bench;
+  bench.experiment["models"]["u"] = set_u();
+  const auto ended = bench.tunica({"stability", "experiment.json", "--model", "u", "--map", "kappa", "k2", "--points",
+                                   "5", "--to", "1.6", "-o", "map"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out.substr(ended.out.find("map/")), "map/stability.csv\nmap/energy.csv\nmap/stability_map.csv\n");
+  const std::string map = bench.text("map/stability_map.csv");
+  EXPECT_THAT(map,
+              StartsWith("# Transverse stability of free strips from rest to stretch 1.6.\nkappa [1],k2 [1],stable,"));
+  EXPECT_EQ(std::count(map.begin(), map.end(), '\n'), 2 + 25);
+  EXPECT_THAT(map, HasSubstr("\n0,0.01,0,"));         // no dispersion: unstable
+  EXPECT_THAT(map, HasSubstr("\n0.3333,0.01,1,,,"));  // isotropic: stable
+}
+
+TEST(Stability, RefusesMapsItCannotDraw) {
+  trial::Bench bench;
+  bench.experiment["models"]["u"] = set_u();
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> command{"stability", "experiment.json", "--model", "u"};
+    command.insert(command.end(), more.begin(), more.end());
+    const auto ended = bench.tunica(command);
+    EXPECT_EQ(ended.code, 2) << ended.out;
+    return ended.err;
+  };
+  EXPECT_THAT(refused({"--map", "kappa", "k2"}), HasSubstr("-o DIR"));
+  EXPECT_THAT(refused({"--map", "kappa", "k3", "-o", "a"}), HasSubstr("Did you mean 'k2'?"));
+  EXPECT_THAT(refused({"--map", "kappa", "mu", "-o", "b"}), HasSubstr("'mu' is fixed at 10.015"));
+  EXPECT_THAT(refused({"--map", "kappa", "kappa", "-o", "c"}), HasSubstr("named twice"));
+}
+
+TEST(Stability, IsReportedOfEveryRunAskedForOrNot) {
+  trial::Bench bench;
+  bench.experiment["models"]["u"] = set_u();
+  bench.experiment["runs"] = {
+      {{"model", "neo"}, {"optimizer", "lm"}},
+      {{"model", "gho"}, {"optimizer", "lm"}, {"constraints", {{{"type", "transverse_stability"}, {"h", 0.7}}}}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("Transverse stability"));
+  const auto result = bench.result("out");
+  const auto& rubber = result["runs"][0]["best"];
+  EXPECT_EQ(rubber["stable"], true);
+  EXPECT_EQ(rubber["stability"]["imposed"], nullptr);
+  EXPECT_EQ(rubber["stability"]["drucker"]["holds"], true);
+  const auto& fibres = result["runs"][1]["best"];
+  EXPECT_EQ(fibres["status"], "ok");
+  EXPECT_EQ(fibres["stability"]["imposed"], "h = 0.7");
+  EXPECT_EQ(fibres["stability"]["drucker"], nullptr);
+  EXPECT_THAT(bench.text("out/stability.csv"), HasSubstr("neo/lm,axial,1.4,"));
+  EXPECT_THAT(bench.text("out/energy.csv"), HasSubstr("gho/lm,1.4,1.4,"));
+}
