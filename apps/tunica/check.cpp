@@ -92,6 +92,10 @@ bool print_initial_point(const execution::PlannedRun& run) {
       text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
   fmt::print("{}\n  one evaluation takes {:.3g} µs; derivatives are {}\n", hanging("  at the initial point: ", text),
              time_evaluation(assembly, free, per_test.size()), assembly.jacobian_is_exact() ? "exact" : "differenced");
+  if (assembly.constraint_count() > 0)
+    fmt::print("{}\n", hanging(fmt::format("  {}: ", counted(assembly.constraint_count(), "constraint", "constraints")),
+                               status.ok() ? "kept at the initial point"
+                                           : "broken at the initial point, which is no harm: " + status.reason()));
   calibration::Identifiability found;
   if (calibration::identify(assembly, free, found).ok()) {
     const auto sentences = found.sentences();

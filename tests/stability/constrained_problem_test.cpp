@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constraints on the way to an optimiser, on the real strips of examples/lamb_aorta_stable.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+#include <cmath>
+
+#include "calibration/recording.hpp"
+#include "mechanisms/shelf.hpp"
+
+namespace tunica {
+namespace {
+
+using calibration::Assembly;
+using calibration::CalibrationProblem;
+using ::testing::HasSubstr;
+
+const experiment::Experiment& lamb() {
+  static const experiment::Experiment read = experiment::read_experiment(
+      TUNICA_SOURCE_DIR "/examples/lamb_aorta_stable/experiment.json", testing::catalogue());
+  return read;
+}
+
+/// The run of a model with a constraint h; the strips and its bounds are those of the example.
+Assembly assemble(const std::string& model, double h) {
+  experiment::RunEntry run = lamb().runs.front();
+  run.model = model;
+  auto& constraint = run.constraints.emplace_back();
+  constraint.type = "transverse_stability", constraint.h = {{1, h}};
+  return {lamb(), run, testing::catalogue()};
+}
+
+std::vector<double> random_point(boost::random::mt19937_64& engine, std::size_t n) {
+  boost::random::uniform_real_distribution<double> unit(0.05, 0.95);
+  std::vector<double> x(n);
+  for (double& value : x) value = unit(engine);
+  return x;
+}
+
+TEST(ConstrainedProblem, HasOneConstraintAStretchOfEveryStrip) {
+  const Assembly assembly = assemble("gho", 0.7);
+  EXPECT_EQ(assembly.strips().size(), 2u);
+  EXPECT_EQ(assembly.constraint_count(), assembly.strips()[0].stretches.size() + assembly.strips()[1].stretches.size());
+}
+
+// Seed 4; differences of a function accurate to 1e-9 with a step of 1e-5 leave 1e-5 of its scale, away from kinks.
+TEST(ConstrainedProblem, JacobianInTheUnitBoxAgreesWithDifferences) {
+  const Assembly assembly = assemble("gho", 1);
+  CalibrationProblem problem(assembly, {});
+  const std::size_t n = problem.dimension(), m = problem.constraint_count();
+  boost::random::mt19937_64 engine(4);
+  std::vector<double> c(m), jacobian(m * n), above(m), below(m);
+  std::size_t compared = 0, disagree = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<double> x = random_point(engine, n);
+    if (!problem.constraints(x, c, jacobian).ok()) continue;
+    for (std::size_t j = 0; j < n; ++j) {
+      std::vector<double> moved = x;
+      moved[j] = x[j] + 1e-5;
+      ASSERT_TRUE(problem.constraints(moved, above, {}).ok());
+      moved[j] = x[j] - 1e-5;
+      ASSERT_TRUE(problem.constraints(moved, below, {}).ok());
+      for (std::size_t i = 0; i < m; ++i, ++compared)
+        disagree +=
+            std::abs(jacobian[i * n + j] - (above[i] - below[i]) / 2e-5) > 1e-4 * (1 + std::abs(jacobian[i * n + j]));
+    }
+  }
+  EXPECT_GT(compared, 6000u);
+  // A family switches within the five points of the formula at a stretch here and there.
+  EXPECT_LT(static_cast<double>(disagree), 0.01 * static_cast<double>(compared));
+}
+
+TEST(ConstrainedProblem, SaysOfAnInfeasiblePointHowFarItIs) {
+  const Assembly assembly = assemble("hgo", 1);
+  fakes::Recording recording;
+  CalibrationProblem::Settings settings;
+  settings.record = recording.recorder();
+  CalibrationProblem problem(assembly, std::move(settings));
+  boost::random::mt19937_64 engine(1);
+  std::vector<double> c(problem.constraint_count());
+  int infeasible = 0, feasible = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::vector<double> x = random_point(engine, problem.dimension());
+    double objective = std::nan("");
+    const Status status = problem.evaluate(x, objective);
+    ASSERT_NE(status.kind(), Status::Kind::failed) << status.reason();
+    EXPECT_TRUE(std::isfinite(objective));
+    ASSERT_TRUE(problem.constraints(x, c, {}).ok());
+    double violation = 0;
+    for (const double value : c)
+      if (value > Problem::constraint_tolerance) violation += value;
+    EXPECT_EQ(status.violation(), violation);
+    EXPECT_EQ(status.ok(), violation == 0);
+    (status.ok() ? feasible : infeasible)++;
+    if (!status.ok()) EXPECT_THAT(status.reason(), HasSubstr("strip at stretch"));
+    EXPECT_EQ(problem.best().feasible(), feasible > 0);
+  }
+  EXPECT_GT(infeasible, 20);
+  EXPECT_GT(feasible, 20);
+  EXPECT_EQ(problem.tally().infeasible, static_cast<std::uint64_t>(infeasible));
+  EXPECT_EQ(problem.tally().failures, 0u);
+  // The best is the best of the feasible ones.
+  double best = 1e300;
+  for (const auto& line : recording.lines)
+    if (line.kind == Status::Kind::ok) best = std::min(best, line.objective);
+  EXPECT_EQ(problem.best().objective, best);
+}
+
+TEST(ConstrainedProblem, KeepsTheLeastViolationWhileNothingIsFeasible) {
+  // h = 0 asks for Ψ = 1: no anisotropic material has it.
+  const Assembly assembly = assemble("hgo", 0);
+  CalibrationProblem problem(assembly, {});
+  boost::random::mt19937_64 engine(2);
+  double least = 1e300;
+  for (int trial = 0; trial < 50; ++trial) {
+    double objective;
+    const Status status = problem.evaluate(random_point(engine, problem.dimension()), objective);
+    ASSERT_EQ(status.kind(), Status::Kind::infeasible);
+    least = std::min(least, status.violation());
+  }
+  EXPECT_TRUE(problem.best().found());
+  EXPECT_FALSE(problem.best().feasible());
+  EXPECT_EQ(problem.best().violation, least);
+}
+
+TEST(ConstrainedProblem, IsTheSameForItsStarts) {
+  const Assembly assembly = assemble("gho", 0.7);
+  CalibrationProblem problem(assembly, {});
+  std::vector<double> expected(problem.constraint_count());
+  const std::vector<double> x(problem.dimension(), 0.4);
+  ASSERT_TRUE(problem.constraints(x, expected, {}).ok());
+  problem.for_each_start(3, [&](std::size_t, Problem& child) {
+    std::vector<double> found(child.constraint_count());
+    EXPECT_TRUE(child.constraints(x, found, {}).ok());
+    EXPECT_EQ(found, expected);
+  });
+}
+
+TEST(AdmissibleParameters, AreImposedByTheModelsOwnInequalities) {
+  experiment::Experiment experiment = lamb();
+  auto& model = experiment.models.emplace_back();
+  model.name = model.type = "holzapfel_2015";
+  model.options.set("fibre_switch", std::string("strain"));
+  experiment::RunEntry run = experiment.runs.front();
+  run.model = "holzapfel_2015";
+  run.constraints.emplace_back().type = "admissible_parameters";
+  const Assembly assembly(experiment, run, testing::catalogue());
+  ASSERT_EQ(assembly.constraint_count(), 2u);
+  CalibrationProblem problem(assembly, {});
+  std::vector<double> free{10, 0.3, 0.8, 10, 1, 40}, x(6), c(2), jacobian(12);
+  assembly.to_unit(free, x);
+  double objective;
+  const Status status = problem.evaluate(x, objective);
+  EXPECT_EQ(status.kind(), Status::Kind::infeasible);
+  EXPECT_THAT(status.reason(), HasSubstr("1 - 2A - B = -0.4"));
+  ASSERT_TRUE(problem.constraints(x, c, jacobian).ok());
+  EXPECT_NEAR(c[0], -1.1, 1e-12);
+  EXPECT_NEAR(c[1], 0.4, 1e-12);
+  EXPECT_NEAR(jacobian[6 + 1], 2. / 3, 1e-8);  // ∂(2A + B − 1)/∂x_A, A from 0 to 1/3
+  EXPECT_NEAR(jacobian[6 + 2], 1, 1e-8);
+}
+
+}  // namespace
+}  // namespace tunica
