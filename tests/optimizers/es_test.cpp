@@ -4,7 +4,8 @@
 #include <ctime>
 
 #include "optimizers/allocations.hpp"
-#include "optimizers/functions.hpp"
+#include "optimizers/constrained_functions.hpp"
+#include "optimizers/g_suite.hpp"
 #include "optimizers/lamb_aorta.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
@@ -13,13 +14,56 @@ namespace {
 
 TEST(Es, RefusesCommaSelectionWithoutSurplusOffspring) {
   try {
-    make_optimizer("es", {{"selection", "comma"}, {"offspring", std::int64_t{30}}});
+    make_optimizer("es", {{"selection", "comma"}, {"offspring", std::int64_t{7}}});
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "'offspring' is 30 and 'parents' 30: with 'selection' \"comma\" the parents are chosen among the "
+                 "'offspring' is 7 and 'parents' 7: with 'selection' \"comma\" the parents are chosen among the "
                  "offspring, so there must be more of these; about four times as many is usual");
   }
+}
+
+TEST(Es, RefusesCumulativeStepsWithoutAMeanToFollow) {
+  for (const Given& given : {Given{{"recombination", "none"}}, Given{{"adaptation", "axes"}}}) {
+    Given all = given;
+    all.emplace_back("step_control", "cumulative");
+    try {
+      make_optimizer("es", all);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_STREQ(
+          error.what(),
+          "'step_control' \"cumulative\" follows the mean of the parents: it needs 'adaptation' \"covariance\" "
+          "and 'recombination' \"global\"; choose these, or \"automatic\"");
+    }
+  }
+}
+
+TEST(Es, MeetsActiveConstraintsToOneInTenThousand) {
+  // Two to four constraints active at the optimum; 10 of 10 seeds each when this was written, so that with 95 %
+  // confidence a fresh seed fails with a probability below 0.26; these are fixed.
+  for (const GProblem& g : g_suite()) {
+    const std::string name = g.name;
+    if (name == "g07" || name == "g10") continue;  // see docs/optimizers.md
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+      FunctionProblem problem(g_function(g), {.budget = 60000, .seed = seed});
+      const auto outcome = make_optimizer("es")->minimise(problem);
+      EXPECT_LE(problem.best - g.offset, g.optimum + 1e-4 * std::abs(g.optimum)) << name << " " << outcome.reason;
+    }
+  }
+}
+
+TEST(Es, RanksInfeasiblePointsByTheirViolation) {
+  // Where the objective falls away from what is feasible, an order by objective never comes near it.
+  Function function = constrained(sphere(2), 1, -2, 3, [](const auto& y, std::span<double> c, std::span<double>) {
+    c[0] = std::hypot(y[0] - 2.9, y[1] - 2.9) - 1e-3;
+  });
+  FunctionProblem ranked(function, {.budget = 4000});
+  FunctionProblem penalised(function, {.budget = 4000});
+  make_optimizer("es")->minimise(ranked);
+  make_optimizer("es", {{"infeasible", "constant_penalty"}})->minimise(penalised);
+  EXPECT_FALSE(ranked.best_point.empty());
+  EXPECT_TRUE(penalised.best_point.empty());
 }
 
 TEST(Es, EvaluatesTheStartFirst) {

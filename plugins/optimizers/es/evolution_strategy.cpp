@@ -26,6 +26,16 @@ const char* words(End end) {
   return "";
 }
 
+/// As Fitness orders, but for the index.
+bool better(Fitness a, Fitness b) {
+  a.index = b.index = 0;
+  return a < b;
+}
+
+std::string infeasibility(const Fitness& best) {
+  return best.kind == Status::Kind::ok ? "" : "no feasible point was found; ";
+}
+
 std::size_t grown(std::size_t count, double factor) {
   return static_cast<std::size_t>(std::llround(static_cast<double>(count) * factor));
 }
@@ -50,8 +60,7 @@ Optimizer::Outcome EvolutionStrategy::minimise(Problem& problem) {
                                  search.evaluated(), search.first_failure())};
     }
     // Indices are a search's own: of equal searches the first one keeps the title.
-    if (search.best() && (!best || search.best()->kind < best->kind ||
-                          (search.best()->kind == best->kind && search.best()->objective < best->objective))) {
+    if (search.best() && (!best || better(*search.best(), *best))) {
       best = search.best();
       best_end = end;
     }
@@ -63,15 +72,15 @@ Optimizer::Outcome EvolutionStrategy::minimise(Problem& problem) {
                     : fmt::format("stopped before any of {} random points could be evaluated; the first reason: {}",
                                   search.evaluated(), search.first_failure())};
       }
-      return {best_end != End::stopped,
-              fmt::format("stopped in search {} of {}; the search that found the best point: {}", restart + 1,
-                          settings_.restarts + 1, words(best_end))};
+      return {best_end != End::stopped && best->kind == Status::Kind::ok,
+              fmt::format("stopped in search {} of {}; {}the search that found the best point: {}", restart + 1,
+                          settings_.restarts + 1, infeasibility(*best), words(best_end))};
     }
     settings.parents = grown(settings.parents, settings_.restart_growth);
     settings.offspring = grown(settings.offspring, settings_.restart_growth);
   }
-  return {true, fmt::format("all {} searches ended; the one that found the best point: {}", settings_.restarts + 1,
-                            words(best_end))};
+  return {best->kind == Status::Kind::ok, fmt::format("all {} searches ended; {}the one that found the best point: {}",
+                                                      settings_.restarts + 1, infeasibility(*best), words(best_end))};
 }
 
 }  // namespace tunica::es

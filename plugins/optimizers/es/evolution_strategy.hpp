@@ -20,7 +20,7 @@ class EvolutionStrategy : public Optimizer {
 
  private:
   Settings settings_;
-  Needs needs_{.batch = true, .random = true};
+  Needs needs_{.constraints = true, .batch = true, .random = true};
 };
 
 }  // namespace tunica::es

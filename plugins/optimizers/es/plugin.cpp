@@ -13,13 +13,13 @@ using Kind = Option::Kind;
 const std::vector<Option> options = {
     {.name = "parents",
      .kind = Kind::integer,
-     .fallback = std::int64_t{30},
+     .fallback = std::int64_t{7},
      .doc = "Number of parents, μ.",
      .min = 1,
      .max = 1e6},
     {.name = "offspring",
      .kind = Kind::integer,
-     .fallback = std::int64_t{120},
+     .fallback = std::int64_t{28},
      .doc = "Number of offspring a generation, λ.",
      .min = 1,
      .max = 1e7},
@@ -35,6 +35,13 @@ const std::vector<Option> options = {
      .doc = "What mutations adapt: one step size (isotropic), one an axis (axes), or one step size and the covariance "
             "of successful mutations; only covariance follows valleys oblique to the axes.",
      .choices = {"isotropic", "axes", "covariance"}},
+    {.name = "step_control",
+     .kind = Kind::choice,
+     .fallback = "automatic",
+     .doc = "How steps are found: inherited and mutated (self_adaptive), or by the length of the path that the mean of "
+            "the parents takes (cumulative, as in CMA-ES; needs covariance and global recombination); automatic is "
+            "cumulative where that is possible.",
+     .choices = {"automatic", "self_adaptive", "cumulative"}},
     {.name = "recombination",
      .kind = Kind::choice,
      .fallback = "global",
@@ -47,6 +54,13 @@ const std::vector<Option> options = {
      .doc = "A mutation that leaves the bounds is folded back (reflect), set on the bound (clamp), or drawn again "
             "(resample).",
      .choices = {"reflect", "clamp", "resample"}},
+    {.name = "infeasible",
+     .kind = Kind::choice,
+     .fallback = "rank_by_violation",
+     .doc =
+         "Points that break a constraint rank behind all others, by how far they break it (rank_by_violation), or by "
+         "their objective, as under a large constant penalty (constant_penalty).",
+     .choices = {"rank_by_violation", "constant_penalty"}},
     {.name = "initial_step",
      .kind = Kind::number,
      .fallback = 0.15,
@@ -62,8 +76,8 @@ const std::vector<Option> options = {
      .max = 1e6},
     {.name = "restart_growth",
      .kind = Kind::number,
-     .fallback = 1.0,
-     .doc = "Factor on parents and offspring at every restart; 2 suits many local minima.",
+     .fallback = 2.0,
+     .doc = "Factor on parents and offspring at every restart; 1 keeps them.",
      .min = 1,
      .max = 10},
     {.name = "stall_generations",
@@ -97,23 +111,35 @@ Choice chosen(const Options& given, const std::string& name) {
 }
 
 std::unique_ptr<Optimizer> create(const Options& given) {
-  const Settings settings{.parents = static_cast<std::size_t>(given.integer("parents")),
-                          .offspring = static_cast<std::size_t>(given.integer("offspring")),
-                          .selection = chosen<Selection>(given, "selection"),
-                          .adaptation = chosen<Adaptation>(given, "adaptation"),
-                          .recombination = chosen<Recombination>(given, "recombination"),
-                          .bounds = chosen<Bounds>(given, "bounds"),
-                          .initial_step = given.number("initial_step"),
-                          .restarts = static_cast<std::size_t>(given.integer("restarts")),
-                          .restart_growth = given.number("restart_growth"),
-                          .stall_generations = static_cast<std::size_t>(given.integer("stall_generations")),
-                          .tolerance = given.number("tolerance"),
-                          .step_tolerance = given.number("step_tolerance")};
+  Settings settings{.parents = static_cast<std::size_t>(given.integer("parents")),
+                    .offspring = static_cast<std::size_t>(given.integer("offspring")),
+                    .selection = chosen<Selection>(given, "selection"),
+                    .adaptation = chosen<Adaptation>(given, "adaptation"),
+                    .step_control = chosen<StepControl>(given, "step_control"),
+                    .recombination = chosen<Recombination>(given, "recombination"),
+                    .bounds = chosen<Bounds>(given, "bounds"),
+                    .infeasible = chosen<Infeasible>(given, "infeasible"),
+                    .initial_step = given.number("initial_step"),
+                    .restarts = static_cast<std::size_t>(given.integer("restarts")),
+                    .restart_growth = given.number("restart_growth"),
+                    .stall_generations = static_cast<std::size_t>(given.integer("stall_generations")),
+                    .tolerance = given.number("tolerance"),
+                    .step_tolerance = given.number("step_tolerance")};
   if (settings.selection == Selection::comma && settings.offspring <= settings.parents) {
     throw InputError(
         fmt::format("'offspring' is {} and 'parents' {}: with 'selection' \"comma\" the parents are chosen among the "
                     "offspring, so there must be more of these; about four times as many is usual",
                     settings.offspring, settings.parents));
+  }
+  const bool possible =
+      settings.adaptation == Adaptation::covariance && settings.recombination == Recombination::global;
+  if (settings.step_control == StepControl::cumulative && !possible) {
+    throw InputError(
+        "'step_control' \"cumulative\" follows the mean of the parents: it needs 'adaptation' \"covariance\" and "
+        "'recombination' \"global\"; choose these, or \"automatic\"");
+  }
+  if (settings.step_control == StepControl::automatic) {
+    settings.step_control = possible ? StepControl::cumulative : StepControl::self_adaptive;
   }
   return std::make_unique<EvolutionStrategy>(settings);
 }

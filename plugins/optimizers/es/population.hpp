@@ -10,15 +10,18 @@
 
 namespace tunica::es {
 
-/// What selection sees of an individual: feasible before infeasible before failed, then the objective, then the
-/// order of evaluation, so that ties fall the same way everywhere.
+/// What selection sees of an individual: feasible before infeasible before failed, infeasible ones by their violation
+/// (Deb 2000), then the objective, then the order of evaluation, so that ties fall the same way everywhere. Under a
+/// constant penalty all violations are 0 here.
 struct Fitness {
   Status::Kind kind = Status::Kind::failed;
+  double violation = 0;
   double objective = 0;  ///< 0 when failed
   std::uint64_t index = 0;
 
   friend bool operator<(const Fitness& a, const Fitness& b) {
     if (a.kind != b.kind) return a.kind < b.kind;
+    if (a.violation != b.violation) return a.violation < b.violation;
     if (a.objective != b.objective) return a.objective < b.objective;
     return a.index < b.index;
   }

@@ -31,11 +31,15 @@ End Search::run(bool from_start) {
     for (std::size_t i = 0; i < count; ++i) variation_.make(parents_, parent_count_, offspring_, i, random_);
     evaluate(count);
     if (problem_.should_stop()) return End::stopped;
+    if (variation_.cumulative()) {
+      if (const auto best = best_offspring(count); !best.empty()) variation_.follow(offspring_, best);
+    }
     select(count);
-    variation_.learn(parents_, parent_count_, first_mutant_);
+    if (!variation_.cumulative()) variation_.learn(parents_, parent_count_, first_mutant_);
     // Progress is measured from where it was last seen, so that a slow descent adds up.
     const double enough = settings_.tolerance * std::abs(reference.objective);
-    if (best_->kind < reference.kind || best_->objective < reference.objective - enough) {
+    if (best_->kind < reference.kind || best_->violation < reference.violation * (1 - settings_.tolerance) ||
+        best_->objective < reference.objective - enough) {
       reference = *best_;
       stalled = 0;
     } else if (++stalled >= settings_.stall_generations) {
@@ -72,6 +76,7 @@ std::size_t Search::batch_size() const {
 bool Search::alike() const {
   const Fitness &first = parents_.fitness(0), &last = parents_.fitness(parent_count_ - 1);
   return parent_count_ == settings_.parents && parent_count_ > 1 && first.kind == last.kind &&
+         last.violation - first.violation <= Settings::alike * first.violation &&
          last.objective - first.objective <= Settings::alike * std::abs(first.objective);
 }
 
@@ -81,9 +86,23 @@ void Search::evaluate(std::size_t count) {
     const Status& status = statuses_[i];
     const bool failed = status.kind() == Status::Kind::failed;
     if (failed && first_failure_.empty()) first_failure_ = status.reason();
-    offspring_.fitness(i) = {status.kind(), failed ? 0.0 : objectives_[i], index_++};
+    const double violation = settings_.infeasible == Infeasible::rank_by_violation ? status.violation() : 0;
+    offspring_.fitness(i) = {status.kind(), violation, failed ? 0.0 : objectives_[i], index_++};
     if (!failed && (!best_ || offspring_.fitness(i) < *best_)) best_ = offspring_.fitness(i);
   }
+}
+
+/// Ranks of the offspring alone, as many as there are parents at most; failed ones are left out.
+std::span<const std::size_t> Search::best_offspring(std::size_t count) {
+  std::size_t candidates = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (offspring_.fitness(i).kind != Status::Kind::failed) order_[candidates++] = i;
+  }
+  const std::size_t selected = std::min(settings_.parents, candidates);
+  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(selected),
+                    order_.begin() + static_cast<std::ptrdiff_t>(candidates),
+                    [&](std::size_t a, std::size_t b) { return offspring_.fitness(a) < offspring_.fitness(b); });
+  return {order_.data(), selected};
 }
 
 /// Failed individuals are left out, so that there may be fewer parents than asked for; where a whole generation of

@@ -29,6 +29,7 @@ class Search {
   [[nodiscard]] std::size_t batch_size() const;
   [[nodiscard]] bool alike() const;
   void evaluate(std::size_t count);
+  [[nodiscard]] std::span<const std::size_t> best_offspring(std::size_t count);
   void select(std::size_t count);
 
   Problem& problem_;

@@ -7,6 +7,8 @@ namespace tunica::es {
 
 enum class Selection { plus, comma };
 enum class Adaptation { isotropic, axes, covariance };
+enum class StepControl { automatic, self_adaptive, cumulative };
+enum class Infeasible { rank_by_violation, constant_penalty };
 enum class Recombination { global, intermediate, discrete, none };
 enum class Bounds { reflect, clamp, resample };
 
@@ -16,8 +18,10 @@ struct Settings {
   std::size_t parents, offspring;
   Selection selection;
   Adaptation adaptation;
+  StepControl step_control;  ///< `automatic` is resolved in plugin.cpp
   Recombination recombination;
   Bounds bounds;
+  Infeasible infeasible;
   double initial_step;
   std::size_t restarts;
   double restart_growth;          ///< factor on parents and offspring at every restart

@@ -38,12 +38,14 @@ Variation::Variation(const Settings& settings, std::size_t dimension)
       n_(dimension),
       learning_(1 / std::sqrt(2 * static_cast<double>(n_))),
       learning_axis_(1 / std::sqrt(2 * std::sqrt(static_cast<double>(n_)))),
+      step_(settings.initial_step),
       weights_(settings.parents),
       mean_(n_),
       mean_steps_(steps_each(settings.adaptation, n_)),
       normals_(n_) {
   const auto size = static_cast<Eigen::Index>(n_);
   covariance_ = factor_ = update_ = Eigen::MatrixXd::Identity(size, size);
+  step_path_ = covariance_path_ = shift_ = whitened_ = Eigen::VectorXd::Zero(size);
 }
 
 // Weights of the ranks: w_i ∝ ln(μ + ½) − ln i (Hansen & Ostermeier 2001; the best parent counts most), worth
@@ -61,6 +63,7 @@ void Variation::weigh(std::size_t count) {
     weights_[i] /= sum;
     squares += weights_[i] * weights_[i];
   }
+  effective_ = 1 / squares;
   covariance_rate_ = 1 / (1 + 0.5 * static_cast<double>(n_ * (n_ + 1)) * squares);
 }
 
@@ -119,9 +122,9 @@ void Variation::make(const Population& parents, std::size_t count, Population& o
                      Random& random) {
   recombine(parents, count, offspring, i, random);
   const auto x = offspring.position(i), mutation = offspring.mutation(i), steps = offspring.steps(i);
-  const double common = std::exp(learning_ * random.normal());
+  const double common = cumulative() ? 1 : std::exp(learning_ * random.normal());
   for (double& step : steps) {
-    step *= common;
+    step = cumulative() ? step_ : step * common;
     if (settings_.adaptation == Adaptation::axes) step *= std::exp(learning_axis_ * random.normal());
     step = std::min(step, 1.0);
   }
@@ -155,12 +158,52 @@ void Variation::learn(const Population& parents, std::size_t count, std::uint64_
   factorise(covariance_, factor_);
 }
 
+// The step and the covariance of CMA-ES (N. Hansen, The CMA evolution strategy: a tutorial, arXiv:1604.00772 (2016),
+// equations 31, 24, 35, 30, with positive weights), for the shift y = Σ w s of the mean in units of the step:
+//   p_σ ← (1 − c_σ) p_σ + √(c_σ(2 − c_σ)μ_w) M⁻¹y,    σ ← σ exp(c_σ/d_σ (‖p_σ‖/E‖N(0, I)‖ − 1)),
+//   p_c ← (1 − c_c) p_c + h √(c_c(2 − c_c)μ_w) y,     C ← (1 − c_1 − c_μ) C + c_1 p_c p_cᵀ + c_μ Σ w s sᵀ.
+// M is the Cholesky factor where Hansen has C^½: both make M⁻¹y a standard normal vector under random selection.
+// With plus selection, too, the offspring alone are learnt from: parents that live on would say that steps are too
+// long.
+void Variation::follow(const Population& offspring, std::span<const std::size_t> best) {
+  weigh(best.size());
+  const double n = static_cast<double>(n_), mu = effective_;
+  const double step_rate = (mu + 2) / (n + mu + 5);
+  const double damping = 1 + 2 * std::max(0.0, std::sqrt((mu - 1) / (n + 1)) - 1) + step_rate;
+  const double path_rate = (4 + mu / n) / (n + 4 + 2 * mu / n);
+  const double one = 2 / ((n + 1.3) * (n + 1.3) + mu);
+  const double many = std::min(1 - one, 2 * (mu - 2 + 1 / mu) / ((n + 2) * (n + 2) + mu));
+  const double expected = std::sqrt(n) * (1 - 1 / (4 * n) + 1 / (21 * n * n));
+
+  update_.setZero();
+  shift_.setZero();
+  for (std::size_t k = 0; k < best.size(); ++k) {
+    const Eigen::Map<const Eigen::VectorXd> s(offspring.mutation(best[k]).data(), static_cast<Eigen::Index>(n_));
+    shift_ += weights_[k] * s;
+    update_.noalias() += weights_[k] * s * s.transpose();
+  }
+  whitened_ = shift_;
+  factor_.triangularView<Eigen::Lower>().solveInPlace(whitened_);
+  step_path_ = (1 - step_rate) * step_path_ + std::sqrt(step_rate * (2 - step_rate) * mu) * whitened_;
+  const double length = step_path_.norm();
+  const double warm = std::sqrt(1 - std::pow(1 - step_rate, 2 * static_cast<double>(++generation_)));
+  const bool steady = length / warm < (1.4 + 2 / (n + 1)) * expected;
+  covariance_path_ *= 1 - path_rate;
+  if (steady) covariance_path_ += std::sqrt(path_rate * (2 - path_rate) * mu) * shift_;
+  const double lost = steady ? 0 : one * path_rate * (2 - path_rate);
+  covariance_ *= 1 - one - many + lost;
+  covariance_.noalias() += one * covariance_path_ * covariance_path_.transpose();
+  covariance_ += many * update_;
+  factorise(covariance_, factor_);
+  step_ = std::min(1.0, step_ * std::exp(step_rate / damping * (length / expected - 1)));
+}
+
 double Variation::spread() const {
   double largest = 0;
   for (std::size_t j = 0; j < n_; ++j) {
     const auto row = static_cast<Eigen::Index>(j);
     const double scale = settings_.adaptation == Adaptation::covariance ? std::sqrt(covariance_(row, row)) : 1;
-    largest = std::max(largest, scale * mean_steps_[mean_steps_.size() == 1 ? 0 : j]);
+    largest = std::max(largest, scale * (cumulative() ? step_ : mean_steps_[mean_steps_.size() == 1 ? 0 : j]));
   }
   return largest;
 }

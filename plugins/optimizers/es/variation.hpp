@@ -40,8 +40,12 @@ class Variation {
   void prepare(const Population& parents, std::size_t count);
   /// Offspring i of the prepared parents.
   void make(const Population& parents, std::size_t count, Population& offspring, std::size_t i, Random& random);
-  /// Updates C by the mutations that led to the selected parents; those older than `first_mutant` have none.
+  /// Self-adaptive steps: updates C by the mutations that led to the selected parents; those older than `first_mutant`
+  /// have none.
   void learn(const Population& parents, std::size_t count, std::uint64_t first_mutant);
+  /// Cumulative steps: updates C, the step and their paths by the best offspring of the generation, given by rank.
+  void follow(const Population& offspring, std::span<const std::size_t> best);
+  [[nodiscard]] bool cumulative() const { return settings_.step_control == StepControl::cumulative; }
   /// Largest standard deviation of a mutation along a coordinate, with the mean step of the prepared parents.
   [[nodiscard]] double spread() const;
 
@@ -52,8 +56,11 @@ class Variation {
 
   const Settings& settings_;
   std::size_t n_, weighed_ = 0;
-  double learning_, learning_axis_, covariance_rate_ = 0;
+  double learning_, learning_axis_, covariance_rate_ = 0, effective_ = 1;
+  double step_;  ///< cumulative: σ of all offspring
+  std::uint64_t generation_ = 0;
   Eigen::MatrixXd covariance_, factor_, update_;
+  Eigen::VectorXd step_path_, covariance_path_, shift_, whitened_;
   std::vector<double> weights_, mean_, mean_steps_, normals_;
 };
 
