@@ -126,3 +126,26 @@ TEST(PluginRefused, MissingPathIsInvalidInput) {
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("--plugin-path nowhere: no such file or folder"));
 }
+
+TEST(InvalidInput, ProfileOfAParameterThatNoRunHas) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--profiles", "kapa"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("no run searches for the parameter 'kapa' that a profile is asked of"),
+                               HasSubstr("Did you mean 'kappa'?")));
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+}
+
+TEST(InvalidInput, TooFewDrawsOnTheCommandLine) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--bootstrap", "5"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("--bootstrap"));
+}
+
+TEST(InvalidInput, CertificateOfWhatIsNoFinishedRun) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"certify", "."});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("there is no input.json; name the folder of a finished run"));
+}

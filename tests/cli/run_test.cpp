@@ -58,11 +58,89 @@ TEST(Run, WritesBothStretchesOfABiaxialFit) {
   EXPECT_THAT(fit, ::testing::AnyOf(::testing::HasSubstr(",1.05,1.1,"), ::testing::HasSubstr(",1.1,1.05,")));
 }
 
+TEST(Run, WritesTheComparisonAsTables) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const auto lines = [&](const char* file) {
+    const auto text = bench.text(std::string("out/") + file);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines("ranking.csv"), 1 + 2);
+  EXPECT_EQ(lines("realisations.csv"), 1 + 4);
+  EXPECT_GT(lines("convergence.csv"), 3 + 4 * 3);
+  EXPECT_GE(lines("performance_profile.csv"), 3 + 2);
+  EXPECT_GE(lines("data_profile.csv"), 3 + 2);
+  const auto statistics = bench.result("out")["runs"][1]["statistics"];
+  EXPECT_EQ(statistics["count"], 3);
+  EXPECT_LE(statistics["q1"], statistics["median"]);
+  EXPECT_GE(statistics["successes"], 1);
+  EXPECT_GE(statistics["expected_running_time"], statistics["evaluations_to_target"]["min"]);
+}
+
+TEST(Run, CertifiesItsOptimaInAFreshProcess) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  for (const auto& run : bench.result("out")["runs"]) {
+    const auto& certificate = run["best"]["certificate"];
+    ASSERT_TRUE(certificate["fresh_process"].is_object()) << certificate.dump();
+    EXPECT_LT(std::abs(certificate["fresh_process"]["difference"].get<double>()), 1e-9);
+    EXPECT_EQ(certificate["neighbours"]["failed"], 0);
+  }
+  EXPECT_THAT(ended.out, HasSubstr("optimum: re-evaluated "));
+  // The verb by itself says the same.
+  const auto again = bench.tunica({"certify", "out"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  const auto certified = nlohmann::json::parse(again.out);
+  EXPECT_EQ(certified["runs"].size(), 2u);
+  EXPECT_EQ(certified["runs"][0]["recorded"], bench.result("out")["runs"][0]["best"]["objective"]);
+}
+
+TEST(Run, LeavesTheCertificateOutOnDemand) {
+  const trial::Bench bench;
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--no-certificate"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto result = bench.result("out");
+  EXPECT_TRUE(result["runs"][0]["best"]["certificate"]["fresh_process"].is_null());
+  const std::string verdict = result["runs"][0]["best"]["certificate"]["verdict"];
+  EXPECT_THAT(verdict, HasSubstr("not evaluated again in a fresh process (--no-certificate was given)"));
+}
+
+TEST(Run, MakesProfilesAndBootstrapOnDemandAlsoOfAFinishedRun) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out/bootstrap.csv")));
+  const auto before = bench.text("out/evaluations.csv");
+  const auto ended =
+      bench.tunica({"run", "experiment.json", "-o", "out", "--resume", "--profiles", "mu,k1", "--bootstrap", "40"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(bench.text("out/evaluations.csv"), before);
+  EXPECT_EQ(nlohmann::json::parse(bench.text("out/input.json"))["analysis"]["profiles"].size(), 2u);
+  const auto best = bench.result("out")["runs"][0]["best"];
+  const auto& mu = best["parameters"]["mu"];
+  EXPECT_LT(mu["profile_ci95"][0], mu["value"]);
+  EXPECT_GT(mu["profile_ci95"][1], mu["value"]);
+  EXPECT_LT(mu["bootstrap_ci95"][0], mu["bootstrap_ci95"][1]);
+  EXPECT_EQ(best["bootstrap"]["draws"], 40);
+  EXPECT_EQ(best["bootstrap"]["failed"], 0);
+  EXPECT_THAT(ended.out, HasSubstr("profile ("));
+  const auto rows = bench.text("out/bootstrap.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2 * 40);
+  EXPECT_THAT(bench.text("out/profile_mu.csv"), HasSubstr("\nneo/lm,"));
+  EXPECT_THAT(bench.text("out/profile_k1.csv"), ::testing::Not(HasSubstr("\nneo/lm,")));
+  // The same for another number of threads.
+  ASSERT_EQ(
+      bench.tunica({"run", "experiment.json", "-o", "one", "-j", "1", "--profiles", "mu,k1", "--bootstrap", "40"}).code,
+      0);
+  EXPECT_EQ(bench.text("one/bootstrap.csv"), rows);
+  EXPECT_EQ(bench.text("one/profile_mu.csv"), bench.text("out/profile_mu.csv"));
+}
+
 TEST(Run, WritesAResultThatItsSchemaAccepts) {
   trial::Bench bench;
   bench.experiment["tests"]["axial"]["hold_out"] = true;
   bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0.1}};
-  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--profiles", "all", "--bootstrap", "40"}).code, 0);
   const std::string program =
       "import json, sys, jsonschema; "
       "jsonschema.Draft7Validator(json.load(open(sys.argv[1]))).validate(json.load(open(sys.argv[2])))";

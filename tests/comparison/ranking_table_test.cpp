@@ -44,3 +44,44 @@ TEST(RankingTable, BeginsWithTheWarningsAndShowsRunsWithoutAResult) {
   EXPECT_THAT(text, HasSubstr("NO RESULT"));
   EXPECT_THAT(text, HasSubstr("no result: row 3: no root"));
 }
+
+TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
+  Summary summary;
+  RunSummary good;
+  good.label = "a_model_with_a_long_name/and_its_optimizer";
+  good.group = "least_squares on circ";
+  good.has_result = true;
+  good.objective = 1.2345678e-21;
+  good.realisations = 20, good.successes = 19;
+  good.evaluations_to_target = sample_statistics(std::vector<double>{1234567, 1234567});
+  good.expected_running_time = 123456789;
+  good.seconds = 123456;
+  good.certificate.verdict = "no better neighbour";
+  RunSummary broken = good;
+  broken.label = "b/es";
+  broken.status = tunica::Status::infeasible("unstable at stretch 1.2", 0.3);
+  summary.runs = {good, broken};
+  summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
+  const auto text = ranking_table(summary);
+  EXPECT_THAT(text,
+              HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                         1.235e-21   19/20 "
+                        "1234567 1.23e+08      0 123456      0\n"));
+  EXPECT_THAT(text, HasSubstr("12.3\n     BREAKS A CONSTRAINT: unstable at stretch 1.2\n"));
+  EXPECT_THAT(text, HasSubstr("ΔAICc"));
+  EXPECT_THAT(text, HasSubstr("  optimum: no better neighbour\n"));
+}
+
+TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
+  Summary summary;
+  RunSummary run;
+  run.label = "gho/lm", run.group = "g", run.has_result = true;
+  run.parameters = {estimate(22.4, Interval{21.9, 22.9})};
+  run.parameters[0].profile = ProfileInterval{21.8, std::nullopt};
+  run.parameters[0].bootstrap = Interval{21.7, 23.1};
+  run.uncertainty = {"the profile of mu is open towards the upper bound"};
+  summary.runs = {run};
+  summary.ranking = {{0, 1, std::nullopt}};
+  const auto text = ranking_table(summary);
+  EXPECT_THAT(text, HasSubstr("\n            profile (21.8 … open), bootstrap (21.7 … 23.1)\n"));
+  EXPECT_THAT(text, HasSubstr("\n  - the profile of mu is open towards the upper bound\n"));
+}

@@ -28,6 +28,11 @@ std::string count_text(std::optional<double> count) {
   return *count < 1e7 ? fmt::format("{:.0f}", *count) : fmt::format("{:.3g}", *count);
 }
 
+/// In at most six columns, up to eleven days.
+std::string seconds_text(double seconds) {
+  return fmt::format("{:.{}f}", seconds, seconds < 10 ? 3 : seconds < 1000 ? 1 : 0);
+}
+
 /// Seven digits where they fit into ten columns.
 std::string objective_text(double objective) {
   std::string text = fmt::format("{:.7g}", objective);
@@ -49,10 +54,10 @@ std::string row(const Ranked& entry, const RunSummary& run, bool compares_models
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
   if (columns(run.label) > label_width) text += run.label + '\n' + std::string(3, ' ');
   text += fmt::format(
-      "{} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6.3g}", pad(columns(run.label) > label_width ? "" : run.label, label_width),
+      "{} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(run.label) > label_width ? "" : run.label, label_width),
       objective, fmt::format("{}/{}", run.successes, run.realisations),
       count_text(to_target ? std::optional(to_target->median) : std::nullopt), count_text(run.expected_running_time),
-      count_text(static_cast<double>(run.failures)), run.seconds);
+      count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
   if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
   text += '\n';
   if (const std::string reason = flaw(run); !reason.empty()) text += hanging("     ", reason) + '\n';

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/uncertainty_words.hpp"
+
+#include <gmock/gmock.h>
+
+#include "execution/laboratory.hpp"
+
+using namespace tunica;
+using calibration::Profile;
+using Kind = Profile::End::Kind;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+namespace {
+
+/// Parameter a between 0 and 10 with the linearised interval 1 … 3.
+struct Words {
+  Words() {
+    laboratory.add_run("walk");
+    plan.emplace(laboratory.plan());
+    comparison::Estimate estimate;
+    estimate.name = "a", estimate.value = 2, estimate.min = 0, estimate.max = 10;
+    estimate.ci95 = {1, 3};
+    summary.parameters.assign(3, estimate);
+    profile.threshold = 3.84;
+    profile.lower = {Kind::crossed, 1.1}, profile.upper = {Kind::crossed, 2.9};
+  }
+  std::vector<std::string> said(experiment::ObjectiveType objective = experiment::ObjectiveType::least_squares) {
+    summary.uncertainty.clear();
+    comparison::add_profile_words(*plan->runs[0].assembly, objective, {profile}, summary);
+    return summary.uncertainty;
+  }
+  trial::Laboratory laboratory;
+  std::optional<execution::Plan> plan;
+  comparison::RunSummary summary;
+  Profile profile;
+};
+
+}  // namespace
+
+TEST(ProfileWords, SayNothingWhereTheIntervalsAgree) {
+  Words words;
+  EXPECT_THAT(words.said(), IsEmpty());
+}
+
+TEST(ProfileWords, NameOpenEndsAndDisagreement) {
+  Words words;
+  words.profile.upper = {Kind::open, 10};
+  EXPECT_THAT(words.said(),
+              ElementsAre("the profile of a is open towards the upper bound: the data do not limit it there",
+                          HasSubstr("a: the profile (1.1 … open) and the linearised interval (1 … 3) DISAGREE")));
+  words.summary.parameters[0].ci95 = {1, 10};
+  words.profile.lower.value = 1;
+  EXPECT_THAT(words.said(), ElementsAre(HasSubstr("open towards the upper bound")))
+      << "both end at the bound, one because it was cut off there";
+}
+
+TEST(ProfileWords, DoNotCallABoundThatTheValueLiesAtAnOpenEnd) {
+  Words words;
+  words.profile.lower = {Kind::open, 0};
+  words.summary.parameters[0].at_bound = comparison::Estimate::Bound::lower;
+  words.summary.parameters[0].ci95.reset();
+  EXPECT_THAT(words.said(), IsEmpty());
+}
+
+TEST(ProfileWords, SayWhereRefitsFailedAndWhereTheCentreWasNoOptimum) {
+  Words words;
+  words.profile.lower = {Kind::failed, 1.1};
+  words.profile.lowest = -0.5;
+  words.summary.parameters[0].ci95.reset();
+  EXPECT_THAT(words.said(), ElementsAre(HasSubstr("ends at 1.1, before the lower bound: beyond it no refit succeeded"),
+                                        HasSubstr("came to a MORE LIKELY point (-2 ln L lower by 0.5)")));
+}
+
+TEST(ProfileWords, SayThatAnotherObjectiveHasAnotherOptimum) {
+  Words words;
+  EXPECT_THAT(words.said(experiment::ObjectiveType::sum_of_norms),
+              ElementsAre(HasSubstr("the run minimised sum_of_norms")));
+}
+
+TEST(BootstrapWords, CountFailuresAndNameCorrelatedResiduals) {
+  Words words;
+  calibration::Bootstrap bootstrap;
+  bootstrap.draws.resize(200);
+  bootstrap.failures = 3;
+  bootstrap.blocks = {7};
+  bootstrap.correlation = {0.644};
+  comparison::add_bootstrap_words(*words.plan->runs[0].assembly, bootstrap, words.summary);
+  EXPECT_EQ(words.summary.bootstrap->failed, 3u);
+  EXPECT_THAT(words.summary.uncertainty,
+              ElementsAre("3 of 200 bootstrap draws could not be fitted and are left out",
+                          HasSubstr("neighbouring residuals of curve, y are correlated (0.64): the bootstrap drew "
+                                    "blocks of 7 rows")));
+  words.summary.uncertainty.clear();
+  comparison::add_bootstrap_words(*words.plan->runs[0].assembly, {}, words.summary);
+  EXPECT_THAT(words.summary.uncertainty, ElementsAre("no bootstrap: the best point cannot be linearised"));
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "experiment/reading.hpp"
+
+namespace tunica::experiment {
+namespace {
+
+using testing::expect_within;
+
+struct AnalysisBlock : testing::Reading {
+  /// The example with this block in front of "diagnosis".
+  static std::string block(const std::string& text) {
+    return with(R"("diagnosis": {)", "\"analysis\": " + text + ", \"diagnosis\": {");
+  }
+};
+
+TEST_F(AnalysisBlock, IsAbsentUnlessAskedFor) {
+  const Experiment e = read(testing::design_example);
+  EXPECT_FALSE(e.analysis.wanted());
+  EXPECT_FALSE(nlohmann::json::parse(e.input_json).contains("analysis"));
+}
+
+TEST_F(AnalysisBlock, NamesProfilesBootstrapAndOptimizer) {
+  const Experiment e =
+      read(block(R"({"profiles": ["mu", "viscoelasticity.tau"], "bootstrap": {"draws": 200}, "optimizer": "lm"})"));
+  EXPECT_TRUE(e.analysis.wanted());
+  EXPECT_FALSE(e.analysis.all_profiles);
+  EXPECT_EQ(e.analysis.profiles, (std::vector<std::string>{"mu", "viscoelasticity.tau"}));
+  EXPECT_EQ(e.analysis.bootstrap_draws, 200u);
+  EXPECT_EQ(e.analysis.optimizer, "lm");
+  const auto input = nlohmann::json::parse(e.input_json);
+  EXPECT_EQ(input["analysis"]["bootstrap"]["draws"], 200);
+  EXPECT_EQ(input["analysis"]["profiles"].size(), 2u);
+  const Experiment again = read(e.input_json);
+  EXPECT_EQ(again.input_json, e.input_json);
+}
+
+TEST_F(AnalysisBlock, AsksForAllProfilesInOneWord) {
+  const Experiment e = read(block(R"({"profiles": "all"})"));
+  EXPECT_TRUE(e.analysis.all_profiles);
+  EXPECT_EQ(e.analysis.bootstrap_draws, 0u);
+  EXPECT_EQ(nlohmann::json::parse(e.input_json)["analysis"]["profiles"], "all");
+}
+
+TEST_F(AnalysisBlock, IsRefusedWithAReason) {
+  const auto refused = [&](const char* text) { return refusal(block(text)); };
+  expect_within(refused(R"({"profile": "all"})"), "unknown key 'profile' in \"analysis\" (/analysis/profile");
+  expect_within(refused(R"({"profiles": "every"})"), "unknown set of profiles 'every' (/analysis/profiles");
+  expect_within(refused(R"({"profiles": [3]})"), "where the name of a parameter, as in results");
+  expect_within(refused(R"({"bootstrap": 200})"), "an object, {\"draws\": 200},");
+  expect_within(refused(R"({"bootstrap": {"draws": 5}})"), "a whole number of draws from 40");
+  expect_within(refused(R"({"optimizer": "lmm"})"), "unknown optimizer 'lmm' (/analysis/optimizer");
+  expect_within(refused(R"({"optimizer": "hybrid"})"), "the optimizer 'hybrid' has stages (/analysis/optimizer");
+}
+
+}  // namespace
+}  // namespace tunica::experiment
