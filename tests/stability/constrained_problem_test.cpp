@@ -7,6 +7,7 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 
+#include "calibration/identifiability.hpp"
 #include "calibration/recording.hpp"
 #include "mechanisms/shelf.hpp"
 
@@ -136,6 +137,23 @@ TEST(ConstrainedProblem, IsTheSameForItsStarts) {
     EXPECT_TRUE(child.constraints(x, found, {}).ok());
     EXPECT_EQ(found, expected);
   });
+}
+
+// At the optimum that a constraint holds, its normal carries no uncertainty: intervals shrink, and the report says why.
+TEST(ConstrainedProblem, IntervalsAreThoseAlongTheActiveConstraint) {
+  const Assembly imposed = assemble("hgo", 1), unconstrained(lamb(), lamb().runs.front(), testing::catalogue());
+  // The constrained optimum of the example, k2 inside its bounds here; the constraint is active to 1e-6.
+  const std::vector<double> at{15.285, 14.003, 0.0010001, 47.303};
+  std::vector<double> c(imposed.constraint_count()), jacobian(4 * c.size());
+  ASSERT_TRUE(imposed.constraints(at, c, jacobian).ok());
+  ASSERT_GT(*std::max_element(c.begin(), c.end()), -1e-4);
+  calibration::Identifiability along, all;
+  ASSERT_TRUE(calibration::identify(imposed, at, along).ok());
+  ASSERT_TRUE(calibration::identify(unconstrained, at, all).ok());
+  EXPECT_EQ(along.singular_values.size() + 1, all.singular_values.size());
+  EXPECT_THAT(along.constrained, HasSubstr("intervals are those along its border"));
+  EXPECT_EQ(all.constrained, "");
+  EXPECT_LT(along.parameters[0].ci95, 0.5 * all.parameters[0].ci95);
 }
 
 TEST(AdmissibleParameters, AreImposedByTheModelsOwnInequalities) {

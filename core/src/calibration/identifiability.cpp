@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <Eigen/SVD>
 
 #include "calibration/valley_words.hpp"
@@ -32,20 +33,61 @@ Status whitened(const Assembly& assembly, std::span<const double> free, Matrix& 
   return {};
 }
 
-/// Parameters inside their bounds, from the singular values of their columns.
-Spectrum spectrum_of(const Matrix& rows, const std::vector<bool>& at_bound, double weakest, const Whitening& noise) {
+/// Gradients in the unit box of the constraints that hold with equality at the point, by at most `active_margin`.
+Status active_gradients(const Assembly& assembly, std::span<const double> free, Matrix& gradients,
+                        std::string& sentence) {
+  constexpr double active_margin = 1e-4;
+  const std::size_t n = free.size(), count = assembly.constraint_count();
+  gradients.resize(0, static_cast<Eigen::Index>(n));
+  if (count == 0) return {};
+  std::vector<double> values(count), jacobian(count * n);
+  if (Status status = assembly.constraints(free, values, jacobian); !status.ok()) return status;
+  std::size_t active = 0, tightest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (values[i] < -active_margin) continue;
+    if (active == 0 || values[i] > values[tightest]) tightest = i;
+    ++active;
+    gradients.conservativeResize(static_cast<Eigen::Index>(active), Eigen::NoChange);
+    for (std::size_t j = 0; j < n; ++j)
+      gradients(gradients.rows() - 1, static_cast<Eigen::Index>(j)) =
+          jacobian[i * n + j] * unit_slope(assembly.parameters()[j], free[j]);
+  }
+  if (active > 0)
+    sentence = fmt::format(
+        "A constraint holds the result, not the data: intervals are those along its border. Where it "
+        "touches: {}.",
+        assembly.constraint_words(tightest, values[tightest]));
+  return {};
+}
+
+/// A basis of the directions that keep all given gradients' values, rows whose gradients are nearly parallel counting
+/// once; the identity without any.
+Matrix tangent_space(const Matrix& gradients) {
+  const Eigen::Index n = gradients.cols();
+  if (gradients.rows() == 0 || n == 0) return Matrix::Identity(n, n);
+  constexpr double parallel = 0.02;
+  const Eigen::JacobiSVD<Matrix> svd(gradients.rowwise().normalized(), Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > parallel * svd.singularValues()[0]) ++rank;
+  return svd.matrixV().rightCols(n - rank);
+}
+
+/// Parameters inside their bounds, along active constraints, from the singular values of their columns.
+Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector<bool>& at_bound, double weakest,
+                     const Whitening& noise) {
   std::vector<Eigen::Index> position;
   for (Eigen::Index j = 0; j < rows.cols(); ++j) {
     if (!at_bound[static_cast<std::size_t>(j)]) position.push_back(j);
   }
-  const auto inside = static_cast<Eigen::Index>(position.size());
-  const Matrix inner = rows(Eigen::all, position);
+  const Matrix tangent = tangent_space(active(Eigen::all, position));
+  const Eigen::Index inside = tangent.cols();
+  const Matrix inner = rows(Eigen::all, position) * tangent;
   const Eigen::JacobiSVD<Matrix> svd(inner, Eigen::ComputeFullV);
   Spectrum found;
   found.values = Vector::Zero(inside);
   found.values.head(svd.singularValues().size()) = svd.singularValues();
   found.V = Matrix::Zero(rows.cols(), inside);
-  found.V(position, Eigen::all) = svd.matrixV();
+  found.V(position, Eigen::all) = tangent * svd.matrixV();
   found.variance = Vector::Ones(inside);
   for (Eigen::Index k = 0; k < inside; ++k) {
     const double s = found.values[k];
@@ -77,7 +119,9 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
   if (std::find(at_bound.begin(), at_bound.end(), false) == at_bound.end()) return {};
 
   const double weakest = assembly.jacobian_is_exact() ? weakest_exact : weakest_differenced;
-  const Spectrum spectrum = spectrum_of(rows, at_bound, weakest, noise);
+  Matrix active;
+  if (Status status = active_gradients(assembly, free, active, found.constrained); !status.ok()) return status;
+  const Spectrum spectrum = spectrum_of(rows, active, at_bound, weakest, noise);
   found.singular_values.assign(spectrum.values.begin(), spectrum.values.end());
   const Matrix flat = spectrum.projector(Seen::not_at_all);
   for (std::size_t j = 0; j < n; ++j) {
@@ -97,6 +141,7 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
 std::vector<std::string> Identifiability::sentences() const {
   std::vector<std::string> all;
   for (const Valley& valley : valleys) all.push_back(valley.sentence);
+  if (!constrained.empty()) all.push_back(constrained);
   if (const std::string bounds = bounds_in_words(parameters); !bounds.empty()) all.push_back(bounds);
   return all;
 }

@@ -43,6 +43,7 @@ struct Identifiability {
   std::vector<ParameterInterval> parameters;  ///< as Assembly::parameters()
   std::vector<double> singular_values;        ///< descending
   std::vector<Valley> valleys;
+  std::string constrained;  ///< sentence on active constraints; empty = none
 
   /// For `identifiability` of result.json: one a valley, one for all parameters at bounds.
   [[nodiscard]] std::vector<std::string> sentences() const;
@@ -60,9 +61,9 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 /// A parameter has the interval ci95 = t √Σ_k (v_k)²/s_k², with the 97.5 % point of Student's t at N − p degrees of
 /// freedom (of the normal distribution where all noise is stated), in the coordinate of the search. It is identified
 /// when no direction without effect moves it by a hundredth of the box per unit length, and its interval does not fill
-/// the box. Parameters at a bound leave the computation, channels of weight 0 too. Weak directions that share
-/// parameters form a valley; of the model's combinations those are named as fixed whose gradient is orthogonal to all
-/// of them (to 1e-3) and that have an argument in it.
+/// the box. Parameters at a bound leave the computation, directions across active constraints (c > −1e-4) and channels
+/// of weight 0 too. Weak directions that share parameters form a valley; of the model's combinations those are named as
+/// fixed whose gradient is orthogonal to all of them (to 1e-3) and that have an argument in it.
 ///
 /// Returns failed when the point cannot be evaluated or has no fitted rows.
 Status identify(const Assembly& assembly, std::span<const double> free, Identifiability& found);
