@@ -50,10 +50,7 @@ class OptimizerConformance : public ::testing::TestWithParam<Subject> {
 };
 
 TEST_P(OptimizerConformance, DeclaresItselfInFull) {
-  const PluginUnderTest plugin(GetParam().type);
-  ASSERT_EQ(plugin.optimizers.size(), 1u);
-  const OptimizerFactory& factory = plugin.optimizers[0];
-  EXPECT_EQ(factory.type, GetParam().type);
+  const OptimizerFactory factory = factory_of(GetParam().type);
   EXPECT_FALSE(factory.doc.empty());
   EXPECT_FALSE(factory.reference.empty());
   for (const Option& option : factory.options) {

@@ -61,4 +61,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Subject{.label = "slsqp", .type = "nlopt", .options = {{"algorithm", "slsqp"}}, .budget = 5000}),
     label);
 
+#ifdef TUNICA_HAVE_PAGMO
+INSTANTIATE_TEST_SUITE_P(
+    Pagmo, OptimizerConformance,
+    ::testing::Values(Subject{.label = "de1220", .type = "pagmo_de"},
+                      Subject{.label = "sade", .type = "pagmo_de", .options = {{"variant", "sade"}}},
+                      Subject{.label = "pso", .type = "pagmo_pso", .oblique = false},
+                      Subject{.label = "ga", .type = "pagmo_ga", .oblique = false, .boundary = 1e-2},
+                      Subject{.label = "cmaes", .type = "pagmo_cmaes"}),
+    label);
+#endif
+
 }  // namespace tunica::testing

@@ -35,10 +35,18 @@ class PluginUnderTest : public Registry {
 
 using Given = std::vector<std::pair<std::string, Option::Value>>;
 
+/// The factory of an optimiser: its plugin is called as the type is, or as the part before the underscore.
+inline OptimizerFactory factory_of(const std::string& type) {
+  const PluginUnderTest plugin(type.starts_with("pagmo_") ? "pagmo" : type);
+  for (const OptimizerFactory& factory : plugin.optimizers) {
+    if (factory.type == type) return factory;
+  }
+  throw std::runtime_error("no plugin registers " + type);
+}
+
 /// An optimiser as the host would make it: declared defaults, and what is given instead.
 inline std::unique_ptr<Optimizer> make_optimizer(const std::string& type, const Given& given = {}) {
-  const PluginUnderTest plugin(type);
-  const OptimizerFactory& factory = plugin.optimizers.at(0);
+  const OptimizerFactory factory = factory_of(type);
   Options options;
   for (const Option& option : factory.options) options.set(option.name, option.fallback.value());
   for (const auto& [name, value] : given) {

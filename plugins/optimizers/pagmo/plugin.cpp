@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tunica/plugin.hpp"
+
+#include <limits>
+#include <pagmo/algorithms/cmaes.hpp>
+#include <pagmo/algorithms/de1220.hpp>
+#include <pagmo/algorithms/pso_gen.hpp>
+#include <pagmo/algorithms/sade.hpp>
+#include <pagmo/algorithms/sga.hpp>
+#include <pagmo/batch_evaluators/member_bfe.hpp>
+#include <pagmo/bfe.hpp>
+#include <pagmo/problem.hpp>
+
+#include "pagmo_optimizer.hpp"
+
+namespace tunica::pagmo_plugin {
+namespace {
+
+using Kind = Option::Kind;
+
+// Generations are not what ends a search: see Search.
+constexpr unsigned generations = std::numeric_limits<unsigned>::max() / 4;
+
+/// What pagmo calls a user-defined batch evaluator.
+struct Generation {
+  Search* search = nullptr;
+  pagmo::vector_double operator()(const pagmo::problem& /*problem*/, const pagmo::vector_double& xs) const {
+    return search->fitnesses(xs);
+  }
+};
+
+std::vector<Option> with_common(std::vector<Option> own) {
+  const std::vector<Option> common = {
+      {.name = "population",
+       .kind = Kind::integer,
+       .fallback = std::int64_t{0},
+       .doc = "Number of individuals, rounded up to a multiple of four; 0 means ten a parameter, and 20 at least.",
+       .min = 0,
+       .max = 1e6},
+      {.name = "restarts",
+       .kind = Kind::integer,
+       .fallback = std::int64_t{10},
+       .doc = "Further searches from new random populations after one made no more progress.",
+       .min = 0,
+       .max = 1e6},
+      {.name = "restart_growth",
+       .kind = Kind::number,
+       .fallback = 2.0,
+       .doc = "Factor on the population at every restart; 1 keeps it.",
+       .min = 1,
+       .max = 10},
+      {.name = "stall_generations",
+       .kind = Kind::integer,
+       .fallback = std::int64_t{50},
+       .doc = "A search ends after so many populations' evaluations without progress.",
+       .min = 1,
+       .max = 1e6},
+      {.name = "tolerance",
+       .kind = Kind::number,
+       .fallback = 1e-9,
+       .doc = "Relative improvement of the objective that counts as progress.",
+       .min = 0,
+       .max = 1},
+  };
+  own.insert(own.end(), common.begin(), common.end());
+  return own;
+}
+
+std::unique_ptr<Optimizer> make(const Options& given,
+                                std::function<pagmo::algorithm(unsigned seed, Search& search)> algorithm) {
+  return std::make_unique<PagmoOptimizer>(
+      Settings{.algorithm = std::move(algorithm),
+               .population = static_cast<std::size_t>(given.integer("population")),
+               .restarts = static_cast<std::size_t>(given.integer("restarts")),
+               .restart_growth = given.number("restart_growth"),
+               .stall_generations = static_cast<std::size_t>(given.integer("stall_generations")),
+               .tolerance = given.number("tolerance")});
+}
+
+OptimizerFactory differential_evolution() {
+  return {.type = "pagmo_de",
+          .doc =
+              "Self-adaptive differential evolution of pagmo, for objectives with several minima; needs no "
+              "derivatives.",
+          .reference =
+              "S. Elsayed, R. Sarker, D. Essam, CEC 2011 (sade); J. Brest et al., IEEE Trans. Evol. Comput. 10 "
+              "(2006) 646-657; F. Biscani, D. Izzo, J. Open Source Softw. 5 (2020) 2338.",
+          .options = with_common({{.name = "variant",
+                                   .kind = Kind::choice,
+                                   .fallback = "de1220",
+                                   .doc = "sade adapts its rates, de1220 its mutation strategies as well.",
+                                   .choices = {"sade", "de1220"}}}),
+          .create = [](const Options& given) {
+            const bool sade = given.text("variant") == "sade";
+            return make(given, [sade](unsigned seed, Search&) {
+              return sade ? pagmo::algorithm(pagmo::sade(generations, 2, 1, 0, 0, false, seed))
+                          : pagmo::algorithm(pagmo::de1220(generations, pagmo::de1220_statics<void>::allowed_variants,
+                                                           1, 0, 0, false, seed));
+            });
+          }};
+}
+
+OptimizerFactory particle_swarm() {
+  return {.type = "pagmo_pso",
+          .doc = "Particle swarm of pagmo, whole generations at once; needs no derivatives.",
+          .reference =
+              "J. Kennedy, R. Eberhart, IEEE Int. Conf. Neural Networks (1995) 1942-1948; M. Clerc, J. Kennedy, "
+              "IEEE Trans. Evol. Comput. 6 (2002) 58-73; F. Biscani, D. Izzo (2020).",
+          .options = with_common({}),
+          .create = [](const Options& given) {
+            return make(given, [](unsigned seed, Search& search) {
+              pagmo::pso_gen swarm(generations, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, false, seed);
+              swarm.set_bfe(pagmo::bfe(Generation{&search}));
+              return pagmo::algorithm(std::move(swarm));
+            });
+          }};
+}
+
+OptimizerFactory genetic_algorithm() {
+  return {.type = "pagmo_ga",
+          .doc =
+              "Genetic algorithm of pagmo with simulated binary crossover and polynomial mutation; needs no "
+              "derivatives.",
+          .reference = "K. Deb, R. B. Agrawal, Complex Systems 9 (1995) 115-148; F. Biscani, D. Izzo (2020).",
+          .options = with_common({}),
+          .create = [](const Options& given) {
+            return make(given, [](unsigned seed, Search&) {
+              return pagmo::algorithm(
+                  pagmo::sga(generations, 0.9, 10, 0.1, 50, 2, "sbx", "polynomial", "tournament", seed));
+            });
+          }};
+}
+
+OptimizerFactory covariance_matrix_adaptation() {
+  return {.type = "pagmo_cmaes",
+          .doc = "CMA-ES of pagmo with its way of keeping bounds, for comparison with cma_es; needs no derivatives.",
+          .reference = "N. Hansen, The CMA evolution strategy: a comparing review (2006); F. Biscani, D. Izzo (2020).",
+          .options = with_common({}),
+          .create = [](const Options& given) {
+            return make(given, [](unsigned seed, Search&) {
+              return pagmo::algorithm(pagmo::cmaes(generations, -1, -1, -1, -1, 0.3, 0, 0, false, true, seed));
+            });
+          }};
+}
+
+}  // namespace
+}  // namespace tunica::pagmo_plugin
+
+TUNICA_PLUGIN("pagmo", "0.1.0") {
+  registry.add(tunica::pagmo_plugin::differential_evolution());
+  registry.add(tunica::pagmo_plugin::particle_swarm());
+  registry.add(tunica::pagmo_plugin::genetic_algorithm());
+  registry.add(tunica::pagmo_plugin::covariance_matrix_adaptation());
+}
