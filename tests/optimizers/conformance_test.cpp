@@ -30,6 +30,12 @@ INSTANTIATE_TEST_SUITE_P(
     label);
 
 INSTANTIATE_TEST_SUITE_P(
+    CmaEs, OptimizerConformance,
+    ::testing::Values(Subject{.label = "by_dimension", .type = "cma_es"},
+                      Subject{.label = "two_points", .type = "cma_es", .options = {{"population", std::int64_t{2}}}}),
+    label);
+
+INSTANTIATE_TEST_SUITE_P(
     CeresLm, OptimizerConformance,
     ::testing::Values(Subject{.label = "latin_hypercube", .type = "ceres_lm", .budget = 3000},
                       Subject{.label = "sobol", .type = "ceres_lm", .options = {{"sampling", "sobol"}}, .budget = 3000},

@@ -123,10 +123,11 @@ void Variation::make(const Population& parents, std::size_t count, Population& o
   recombine(parents, count, offspring, i, random);
   const auto x = offspring.position(i), mutation = offspring.mutation(i), steps = offspring.steps(i);
   const double common = cumulative() ? 1 : std::exp(learning_ * random.normal());
+  const double longest = longest_step();
   for (double& step : steps) {
     step = cumulative() ? step_ : step * common;
     if (settings_.adaptation == Adaptation::axes) step *= std::exp(learning_axis_ * random.normal());
-    step = std::min(step, 1.0);
+    if (!cumulative()) step = std::min(step, longest);
   }
   // The recombinant is kept in `mutation` until the step that was realised inside the box is known.
   std::ranges::copy(x, mutation.begin());
@@ -195,7 +196,13 @@ void Variation::follow(const Population& offspring, std::span<const std::size_t>
   covariance_.noalias() += one * covariance_path_ * covariance_path_.transpose();
   covariance_ += many * update_;
   factorise(covariance_, factor_);
-  step_ = std::min(1.0, step_ * std::exp(step_rate / damping * (length / expected - 1)));
+  step_ = std::min(longest_step(), step_ * std::exp(step_rate / damping * (length / expected - 1)));
+}
+
+// The widest mutation is bounded, not σ itself: in a narrow valley C shrinks as a whole, and σ makes up for it. With
+// σ ≤ 1 half of the searches of the known solution crept.
+double Variation::longest_step() const {
+  return settings_.adaptation == Adaptation::covariance ? 1 / std::sqrt(covariance_.diagonal().maxCoeff()) : 1;
 }
 
 double Variation::spread() const {

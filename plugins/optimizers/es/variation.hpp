@@ -51,6 +51,7 @@ class Variation {
 
  private:
   void weigh(std::size_t count);
+  [[nodiscard]] double longest_step() const;
   void recombine(const Population& parents, std::size_t count, Population& offspring, std::size_t i, Random& random);
   void mutate(std::span<double> x, std::span<const double> origin, std::span<const double> steps, Random& random);
 
