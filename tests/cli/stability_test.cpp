@@ -87,3 +87,21 @@ TEST(Stability, IsReportedOfEveryRunAskedForOrNot) {
   EXPECT_THAT(bench.text("out/stability.csv"), HasSubstr("neo/lm,axial,1.4,"));
   EXPECT_THAT(bench.text("out/energy.csv"), HasSubstr("gho/lm,1.4,1.4,"));
 }
+
+TEST(Stability, IsJudgedFurtherAndMappedWhereTheExperimentAsks) {
+  trial::Bench bench;
+  bench.experiment["analysis"]["stability"] = {{"to", 2}, {"map", {"kappa", "k2"}}, {"points", 4}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto result = bench.result("out");
+  EXPECT_EQ(result["runs"][0]["best"]["stability"]["ellipticity"]["checked_to"], 2);
+  const std::string map = bench.text("out/stability_map_gho-es.csv");
+  EXPECT_EQ(std::count(map.begin(), map.end(), '\n'), 2 + 16);
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out/stability_map_neo-lm.csv")));  // has neither
+
+  bench.experiment["analysis"]["stability"]["map"] = {"kappa", "k3"};
+  const auto refused = bench.tunica({"run", "experiment.json", "-o", "never"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err,
+              HasSubstr("no run searches for the parameter 'k3' of the stability map. Did you mean 'k1'?"));
+}

@@ -54,5 +54,18 @@ TEST_F(AnalysisBlock, IsRefusedWithAReason) {
   expect_within(refused(R"({"optimizer": "hybrid"})"), "the optimizer 'hybrid' has stages (/analysis/optimizer");
 }
 
+TEST_F(AnalysisBlock, AsksForStabilityFurtherOutAndForAMap) {
+  const Experiment e = read(block(R"({"stability": {"to": 2.5, "map": ["kappa", "k2"]}})"));
+  EXPECT_EQ(e.analysis.stability_to, 2.5);
+  EXPECT_EQ(e.analysis.stability_map, (std::vector<std::string>{"kappa", "k2"}));
+  EXPECT_EQ(e.analysis.map_points, 41u);
+  EXPECT_FALSE(e.analysis.wanted());
+  EXPECT_EQ(read(e.input_json).input_json, e.input_json);
+  expect_within(refusal(block(R"({"stability": {"to": 1}})")), "Expected a stretch above 1, up to 100.");
+  expect_within(refusal(block(R"({"stability": {"map": ["kappa"]}})")), "two names of parameters");
+  expect_within(refusal(block(R"({"stability": {"points": 1}})")),
+                "a whole number of points along each parameter from 2");
+}
+
 }  // namespace
 }  // namespace tunica::experiment

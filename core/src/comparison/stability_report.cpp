@@ -68,7 +68,9 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     const auto& assembly = *plan.runs[run].assembly;
     const auto parameters = assembly.model_parameters(values_of(entry));
     StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}, {}};
-    found.verdict = stability::judge(assembly.model(), parameters, domain_of(assembly));
+    auto domain = domain_of(assembly);
+    domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
+    found.verdict = stability::judge(assembly.model(), parameters, domain);
     for (const auto& inequality : assembly.model().describe().admissible) {
       const double value = inequality.value(parameters);
       if (value < -1e-9) found.inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));

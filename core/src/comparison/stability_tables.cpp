@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "comparison/stability_map.hpp"
 #include "comparison/stability_report.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
@@ -80,6 +82,21 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
     subjects.push_back(std::move(subject));
   }
   write_stability_tables(directory, subjects);
+  const auto& analysis = plan.experiment->analysis;
+  for (std::size_t k = 0; k < subjects.size() && !analysis.stability_map.empty(); ++k) {
+    const auto& free = subjects[k].assembly->parameters();
+    const bool searched =
+        std::all_of(analysis.stability_map.begin(), analysis.stability_map.end(), [&](const auto& name) {
+          return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });
+        });
+    if (!searched) continue;  // another model's parameters
+    std::string label = subjects[k].label;
+    std::replace(label.begin(), label.end(), '/', '-');
+    execution::write_atomically(
+        directory / ("stability_map_" + label + ".csv"),
+        stability_map(*subjects[k].assembly, subjects[k].free, {analysis.stability_map[0], analysis.stability_map[1]},
+                      analysis.map_points, subjects[k].limit));
+  }
 }
 
 }  // namespace tunica::comparison

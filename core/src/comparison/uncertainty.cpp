@@ -60,7 +60,6 @@ void keep(const std::vector<calibration::Profile>& made, RunSummary& summary) {
 
 void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catalogue) {
   const auto& analysis = plan.experiment->analysis;
-  if (!analysis.wanted()) return;
   std::vector<std::string> known;
   for (const auto& run : plan.runs)
     for (const auto& parameter : run.assembly->parameters())
@@ -69,7 +68,11 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("analysis: no run searches for the parameter '{}' that a profile is asked of. {}",
                                    name, data::suggestion(name, known)));
-  static_cast<void>(local_optimizer(*plan.experiment, catalogue));
+  for (const auto& name : analysis.stability_map)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("analysis: no run searches for the parameter '{}' of the stability map. {}", name,
+                                   data::suggestion(name, known)));
+  if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,

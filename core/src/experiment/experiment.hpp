@@ -115,6 +115,10 @@ struct Analysis {
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
   std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
   std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
+  std::optional<double>
+      stability_to;  ///< judge ellipticity and Drucker to this stretch instead of the largest measured
+  std::vector<std::string> stability_map;  ///< two parameters, or none
+  std::size_t map_points = 41;             ///< along each
 
   [[nodiscard]] bool wanted() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
 };

@@ -100,7 +100,7 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
 }
 
 void read_analysis(const Node& node, Experiment& experiment) {
-  node.allow_only({"profiles", "bootstrap", "optimizer"}, "\"analysis\"");
+  node.allow_only({"profiles", "bootstrap", "optimizer", "stability"}, "\"analysis\"");
   Analysis& analysis = experiment.analysis;
   if (const auto profiles = node.find("profiles")) {
     if (profiles->is_text()) {
@@ -122,6 +122,21 @@ void read_analysis(const Node& node, Experiment& experiment) {
     if (!experiment.optimizer(analysis.optimizer).stages.empty())
       optimizer->fail(fmt::format("the optimizer '{}' has stages", analysis.optimizer),
                       "Refits are local: name one of its stages that searches locally.");
+  }
+  if (const auto stability = node.find("stability")) {
+    stability->allow_only({"to", "map", "points"}, "\"stability\"");
+    if (const auto to = stability->find("to")) {
+      analysis.stability_to = to->number("a stretch");
+      if (!(*analysis.stability_to > 1 && *analysis.stability_to <= 100))
+        to->fail(fmt::format("the stretch is {}", *analysis.stability_to), "Expected a stretch above 1, up to 100.");
+    }
+    if (const auto map = stability->find("map")) {
+      for (const Node& name : map->elements("two names of parameters, as in results,"))
+        analysis.stability_map.push_back(name.text("the name of a parameter, as in results"));
+      if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
+    }
+    if (const auto points = stability->find("points"))
+      analysis.map_points = points->count("a whole number of points along each parameter from 2", 2);
   }
 }
 

@@ -146,12 +146,24 @@ Json run_schema() {
 Json analysis_schema() {
   Json profiles = {{"description", "Profile likelihood of these parameters, named as in results, or of all."}};
   profiles["anyOf"] = Json::array({choice_schema("Every one.", {"all"}), list_schema("Names.", {{"type", "string"}})});
+  Json map =
+      list_schema("Two free parameters: where between their bounds is the material stable?", {{"type", "string"}});
+  map["minItems"] = 2, map["maxItems"] = 2;
   return object_schema(
       "Uncertainty of every run's best point, beyond the intervals that are always given.",
       {{"profiles", std::move(profiles)},
        {"bootstrap",
         object_schema("Residual bootstrap.", {{"draws", count_schema("Data sets to draw.", 40)}}, {"draws"})},
-       {"optimizer", text_schema("Name of an optimizer for the refits (default: ceres_lm from the best point).")}});
+       {"optimizer", text_schema("Name of an optimizer for the refits (default: ceres_lm from the best point).")},
+       {"stability",
+        object_schema("Stability of the best points beyond what is always judged.",
+                      {{"to",
+                        {{"description", "Judge to this stretch instead of the largest measured one."},
+                         {"type", "number"},
+                         {"exclusiveMinimum", 1},
+                         {"maximum", 100}}},
+                       {"map", std::move(map)},
+                       {"points", count_schema("Points of the map along each parameter (default 41).", 2)}})}});
 }
 
 Json diagnosis_schema() {

@@ -146,6 +146,9 @@ Json written(const Analysis& analysis) {
     json["profiles"] = analysis.profiles;
   if (analysis.bootstrap_draws > 0) json["bootstrap"] = {{"draws", analysis.bootstrap_draws}};
   if (!analysis.optimizer.empty()) json["optimizer"] = analysis.optimizer;
+  if (analysis.stability_to) json["stability"]["to"] = *analysis.stability_to;
+  if (!analysis.stability_map.empty())
+    json["stability"]["map"] = analysis.stability_map, json["stability"]["points"] = analysis.map_points;
   return json;
 }
 
@@ -163,7 +166,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const RunEntry& run : experiment.runs) json["runs"].push_back(written(run));
   json["on_failure"] = {{"policy", on_failure_names()[static_cast<std::size_t>(experiment.on_failure)]},
                         {"max_rate", experiment.max_failure_rate}};
-  if (experiment.analysis.wanted()) json["analysis"] = written(experiment.analysis);
+  if (Json analysis = written(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (!experiment.diagnosis_json.empty()) json["diagnosis"] = Json::parse(experiment.diagnosis_json);
   return json.dump(2) + "\n";
 }
