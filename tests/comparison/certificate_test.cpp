@@ -95,12 +95,20 @@ TEST(Certificate, CountsRealisationsThatAgreeAndHowFarTheyAreApart) {
   }
   result.realisations.emplace_back();  // without a result
   Certificate certificate;
-  comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, certificate);
+  comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, std::nullopt, certificate);
   EXPECT_EQ(certificate.realisations, 4u);
   EXPECT_EQ(certificate.agreeing, 2u);
   EXPECT_EQ(certificate.spread[0].max, 2.5);
   EXPECT_NEAR(certificate.spread[0].share, 0.05, 1e-12);
   EXPECT_EQ(certificate.spread[1].share, 0);
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("2 of 4 realisations agree, a within 5 % of its range"));
+  // Searches that stopped at a target have no reason to agree any closer.
+  Certificate stopped;
+  comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, 5.5, stopped);
+  EXPECT_EQ(stopped.agreeing, 3u);
+  Certificate short_of_it;
+  comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, 4.0, short_of_it);
+  EXPECT_EQ(short_of_it.agreeing, 2u);
 }
 
 TEST(Certify, FindsTheRecordedObjectiveAgainAndNoBetterNeighbourOfTheOptimum) {

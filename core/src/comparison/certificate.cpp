@@ -38,12 +38,21 @@ std::string neighbour_words(const calibration::Neighbourhood& around) {
                      100 * share);
 }
 
+/// How far apart the parameters of agreeing realisations are, where there are several.
+std::string spread_words(const Certificate& certificate) {
+  const auto widest = std::max_element(certificate.spread.begin(), certificate.spread.end(),
+                                       [](const auto& a, const auto& b) { return a.share < b.share; });
+  if (certificate.agreeing < 2 || widest == certificate.spread.end()) return "";
+  return fmt::format(", {} within {:.2g} % of its range", widest->name, 100 * widest->share);
+}
+
 }  // namespace
 
 void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
-                   Certificate& certificate) {
+                   std::optional<double> target, Certificate& certificate) {
   const auto& parameters = assembly.parameters();
-  const double threshold = success_threshold({}, best);
+  double threshold = success_threshold({}, best);
+  if (target && best <= *target) threshold = std::max(threshold, *target);
   std::vector<double> low, high, unit(parameters.size()), unit_low, unit_high;
   certificate.realisations = result.realisations.size();
   for (const auto& realisation : result.realisations) {
@@ -66,7 +75,8 @@ std::string verdict(const Certificate& certificate) {
   if (known && certificate.fresh->around.status.ok()) parts.push_back(neighbour_words(certificate.fresh->around));
   if (known && !certificate.fresh->around.status.ok()) parts.emplace_back("it BREAKS A CONSTRAINT");
   if (certificate.realisations > 1)
-    parts.push_back(fmt::format("{} of {} realisations agree", certificate.agreeing, certificate.realisations));
+    parts.push_back(fmt::format("{} of {} realisations agree{}", certificate.agreeing, certificate.realisations,
+                                spread_words(certificate)));
   parts.push_back(certificate.at_bounds.empty()
                       ? std::string("no bound active")
                       : fmt::format("{} at {}", fmt::join(certificate.at_bounds, ", "),

@@ -33,10 +33,11 @@ struct Certificate {
   std::string verdict;  ///< one sentence
 };
 
-/// Fills in how many realisations end within 1e-3 (relative) of the best objective, and how far their parameters are
-/// apart. `best`: its objective, of a feasible point.
+/// Fills in how many realisations end within 1e-3 (relative) of the best objective or, where the best one reached the
+/// target of the run and so stopped, at or below it too; and how far their parameters are apart. `best`: its objective,
+/// of a feasible point.
 void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
-                   Certificate& certificate);
+                   std::optional<double> target, Certificate& certificate);
 
 /// The sentence of the report.
 std::string verdict(const Certificate& certificate);

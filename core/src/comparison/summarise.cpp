@@ -66,7 +66,8 @@ RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunR
   summary.objective = best->best.objective;
   estimate(*run.assembly, *best, result, summary, warnings);
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
-  if (best->best.feasible()) add_agreement(*run.assembly, result, summary.objective, summary.certificate);
+  if (best->best.feasible())
+    add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);
   for (const auto& parameter : summary.parameters)
     if (parameter.at_bound != Estimate::Bound::none) summary.certificate.at_bounds.push_back(parameter.name);
   return summary;
