@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/SVD>
 
+#include "calibration/straightness.hpp"
 #include "calibration/valley_words.hpp"
 #include "calibration/valleys.hpp"
 #include "calibration/whitening.hpp"
@@ -99,6 +100,27 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   return found;
 }
 
+/// Parameters whose interval fills the box although no direction by itself is weak: the direction that costs each of
+/// them most counts as weak, so that what is not fixed is said. Only these are left weak.
+Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
+  Spectrum result = spectrum;
+  std::fill(result.seen.begin(), result.seen.end(), Seen::well);
+  for (std::size_t j = 0; j < found.parameters.size(); ++j) {
+    const ParameterInterval& parameter = found.parameters[j];
+    const bool said = std::any_of(found.valleys.begin(), found.valleys.end(), [&](const Valley& valley) {
+      return std::find(valley.parameters.begin(), valley.parameters.end(), parameter.name) != valley.parameters.end();
+    });
+    if (parameter.identified || parameter.at_bound || said) continue;
+    Eigen::Index worst = 0;
+    spectrum.V.row(static_cast<Eigen::Index>(j))
+        .cwiseAbs2()
+        .cwiseProduct(spectrum.variance.transpose())
+        .maxCoeff(&worst);
+    result.seen[static_cast<std::size_t>(worst)] = Seen::weakly;
+  }
+  return result;
+}
+
 }  // namespace
 
 Status identify(const Assembly& assembly, std::span<const double> free, Identifiability& found) {
@@ -124,17 +146,20 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
   const Spectrum spectrum = spectrum_of(rows, active, at_bound, weakest, noise);
   found.singular_values.assign(spectrum.values.begin(), spectrum.values.end());
   const Matrix flat = spectrum.projector(Seen::not_at_all);
+  Straightness straightness(assembly, noise, free);
   for (std::size_t j = 0; j < n; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     const double half_width = spectrum.half_width(Vector::Unit(flat.rows(), at));
     if (at_bound[j] || flat(at, at) >= moved * moved || half_width > widest) continue;
     found.parameters[j].identified = true;
+    found.parameters[j].straight = active.rows() > 0 || straightness.holds(at, half_width, spectrum.quantile);
     found.parameters[j].ci95 = half_width * unit_slope(parameters[j], free[j]);
     std::vector<double> end = unit, mapped(n);
     end[j] = unit[j] - half_width, assembly.from_unit(end, mapped), found.parameters[j].lower = mapped[j];
     end[j] = unit[j] + half_width, assembly.from_unit(end, mapped), found.parameters[j].upper = mapped[j];
   }
   for (const Seen seen : {Seen::not_at_all, Seen::weakly}) add_valleys(assembly, free, spectrum, seen, found);
+  add_valleys(assembly, free, hardly_seen(spectrum, found), Seen::weakly, found);
   return {};
 }
 

@@ -19,6 +19,7 @@ struct ParameterInterval {
   double ci95 = std::numeric_limits<double>::quiet_NaN();  ///< half width; NaN when at a bound or not identified
   /// The ends of the interval: x ± its half width in the unit box, within the bounds. Not symmetric on a log scale.
   double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
+  bool straight = true;   ///< the linearised interval can be believed, see straightness.hpp; else a profile is better
   bool at_bound = false;  ///< within 1e-6 of the range
   bool identified = false;
 };

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "calibration/remedy.hpp"
 #include "calibration/valley_words.hpp"
 
 namespace tunica::calibration {
@@ -95,6 +96,18 @@ std::string add_combinations(const Assembly& assembly, std::span<const double> f
   return remedy;
 }
 
+/// The directions of a valley as changes of all free parameters.
+std::vector<std::vector<double>> steps_along(const Valley& valley, const Assembly& assembly) {
+  std::vector<std::vector<double>> steps;
+  for (const auto& direction : valley.directions) {
+    auto& step = steps.emplace_back(assembly.parameters().size(), 0.0);
+    for (const auto& [name, change] : direction)
+      for (std::size_t j = 0; j < step.size(); ++j)
+        if (assembly.parameters()[j].name == name) step[j] = change;
+  }
+  return steps;
+}
+
 }  // namespace
 
 double unit_slope(const FreeParameter& parameter, double value) {
@@ -131,6 +144,7 @@ void add_valleys(const Assembly& assembly, std::span<const double> free, const S
     add_directions(P, group, assembly, free, valley);
     const std::string remedy = add_combinations(assembly, free, spectrum, group, found, valley);
     valley.sentence = in_words(valley, found.parameters, remedy);
+    if (remedy.empty()) valley.sentence += remedy_in_words(assembly, free, steps_along(valley, assembly));
     found.valleys.push_back(std::move(valley));
   }
 }

@@ -69,10 +69,19 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
     auto& estimate = summary.parameters[j];
     const auto& interval = found.parameters[j];
     estimate.identified = interval.identified;
-    if (interval.identified && std::isfinite(interval.ci95))
-      estimate.ci95 = {interval.lower, interval.upper};
+    estimate.straight = interval.straight;
+    if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }
   summary.identifiability = found.sentences();
+  std::vector<std::string> bent;
+  for (const auto& estimate : summary.parameters)
+    if (estimate.ci95 && !estimate.straight) bent.push_back(estimate.name);
+  if (!bent.empty())
+    summary.uncertainty.push_back(
+        fmt::format("the linearised interval{} of {} may be far off: before {} ends the likelihood is no parabola any "
+                    "more, or a bound is in the way; --profiles {} gives {}",
+                    bent.size() == 1 ? "" : "s", fmt::join(bent, ", "), bent.size() == 1 ? "its" : "their",
+                    fmt::join(bent, ","), bent.size() == 1 ? "a better one" : "better ones"));
 }
 
 void add_quality(const calibration::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {

@@ -80,6 +80,7 @@ json best(const RunSummary& run) {
     entry = {{"value", parameter.value},
              {"unit", parameter.unit},
              {"ci95", interval(parameter.ci95)},
+             {"ci95_reliable", parameter.ci95 ? json(parameter.straight) : json(nullptr)},
              {"at_bound", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(word(parameter.at_bound))},
              {"min", parameter.min},
              {"max", parameter.max}};

@@ -30,6 +30,7 @@ struct Estimate {
   std::optional<Interval> ci95;            ///< from the noise of the data; none where they do not fix it
   std::optional<ProfileInterval> profile;  ///< where it was asked for
   std::optional<Interval> bootstrap;
+  bool straight = true;     ///< ci95 can be believed, see calibration/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   Bound at_bound = Bound::none;
   SampleStatistics over_realisations;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calibration/valleys.hpp"
+#include "calibration/whitening.hpp"
+
+namespace tunica::calibration {
+
+/// Whether a linearised interval can be believed: at both its ends (or at a bound that comes before), with the
+/// parameter held there and the others fitted again by Gauss–Newton steps, −2 ln L should have risen by t² (at a bound
+/// in proportion to the square of the distance). It holds when both rises are between a half and twice that: the ends
+/// then are within some 40 % of where a profile would put them. About ten linearisations a parameter. Constraints are
+/// not looked at.
+class Straightness {
+ public:
+  Straightness(const Assembly& assembly, const Whitening& noise, std::span<const double> free);
+  /// `half_width` in the unit box, `quantile` t.
+  [[nodiscard]] bool holds(Eigen::Index parameter, double half_width, double quantile);
+
+ private:
+  /// Least −2 ln L from x on, with one coordinate held; x is moved there. Infinity where nothing can be evaluated.
+  double fit(std::vector<double>& x, std::optional<Eigen::Index> held);
+  /// −2 ln L at x, residuals and their Jacobian by the unit box.
+  double linearise(const std::vector<double>& x);
+
+  const Assembly& assembly_;
+  const Whitening& noise_;
+  Assembly::WorkspacePointer workspace_;
+  std::vector<double> free_, predictions_, by_free_, residuals_, jacobian_;
+  std::vector<double> centre_;  ///< the optimum of the likelihood next to the point
+  double least_;
+};
+
+}  // namespace tunica::calibration
