@@ -64,7 +64,7 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
   const auto text = ranking_table(summary);
   EXPECT_THAT(text,
-              HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                         1.235e-21   19/20 "
+              HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                        1.2346e-21   19/20 "
                         "1234567 1.23e+08      0 123456      0\n"));
   EXPECT_THAT(text, HasSubstr("12.3\n     BREAKS A CONSTRAINT: unstable at stretch 1.2\n"));
   EXPECT_THAT(text, HasSubstr("ΔAICc"));

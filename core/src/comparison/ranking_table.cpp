@@ -33,10 +33,13 @@ std::string seconds_text(double seconds) {
   return fmt::format("{:.{}f}", seconds, seconds < 10 ? 3 : seconds < 1000 ? 1 : 0);
 }
 
-/// Seven digits where they fit into ten columns.
+/// As many of seven digits as fit into ten columns, zeros at the end among them: they tell equal from nearly equal.
 std::string objective_text(double objective) {
-  std::string text = fmt::format("{:.7g}", objective);
-  return text.size() <= 10 ? text : fmt::format("{:.4g}", objective);
+  int digits = 7;
+  std::string text;
+  do text = fmt::format("{:#.{}g}", objective, digits--);
+  while (text.size() > 10 && digits > 2);
+  return text;
 }
 
 /// What a reader must know of a run that has no rank, or one that does not count.
