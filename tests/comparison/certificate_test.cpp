@@ -85,6 +85,24 @@ TEST(Certificate, SaysWhatSpeaksAgainstIt) {
               HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
 }
 
+TEST(Certificate, AlarmsOfWhatIsNotTheOptimumThatItIsSaidToBe) {
+  auto certificate = spotless();
+  EXPECT_FALSE(comparison::alarming(certificate));
+  certificate.fresh->difference = 0.5;
+  EXPECT_TRUE(comparison::alarming(certificate));
+  certificate.fresh->difference = 1e-12;
+  auto& around = certificate.fresh->around;
+  around.better = true, around.lowest->objective = 66.1 * (1 - 1e-5);
+  EXPECT_FALSE(comparison::alarming(certificate));
+  around.lowest->objective = 66.1 * (1 - 1e-2);
+  EXPECT_TRUE(comparison::alarming(certificate));
+  certificate = spotless();
+  certificate.fresh->around.status = Status::failed("no root");
+  EXPECT_TRUE(comparison::alarming(certificate));
+  certificate.fresh.reset();
+  EXPECT_FALSE(comparison::alarming(certificate));
+}
+
 TEST(Certificate, CountsRealisationsThatAgreeAndHowFarTheyAreApart) {
   Ended ended({2, 1, 3});
   execution::RunResult result;
@@ -130,6 +148,7 @@ TEST(Certify, FindsTheWayDownFromAPointThatIsNoOptimum) {
   EXPECT_TRUE(around.better);
   EXPECT_LT(around.lowest->objective, around.objective);
   EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("NOT AN OPTIMUM"));
+  EXPECT_THAT(ended.summary.warnings, ::testing::Contains(HasSubstr("m/walk: re-evaluated")));
 }
 
 TEST(Certify, StatesADifferenceFromWhatWasRecorded) {

@@ -69,6 +69,14 @@ void add_agreement(const calibration::Assembly& assembly, const execution::RunRe
     certificate.spread.push_back({parameters[j].name, parameters[j].unit, low[j], high[j], unit_high[j] - unit_low[j]});
 }
 
+bool alarming(const Certificate& certificate) {
+  if (!certificate.fresh) return false;
+  const auto& around = certificate.fresh->around;
+  if (around.status.kind() == Status::Kind::failed) return true;
+  if (!calibration::same_objective(around.objective, around.objective - certificate.fresh->difference)) return true;
+  return around.better && around.objective - around.lowest->objective > not_an_optimum * std::abs(around.objective);
+}
+
 std::string verdict(const Certificate& certificate) {
   std::vector<std::string> parts{fresh_words(certificate)};
   const bool known = certificate.fresh && certificate.fresh->around.status.kind() != Status::Kind::failed;

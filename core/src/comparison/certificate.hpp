@@ -39,6 +39,10 @@ struct Certificate {
 void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
                    std::optional<double> target, Certificate& certificate);
 
+/// The point is not what the run says it is: it fails or has another objective in a fresh process, or a small step
+/// lowers the objective by more than success allows. For the warnings.
+bool alarming(const Certificate& certificate);
+
 /// The sentence of the report.
 std::string verdict(const Certificate& certificate);
 

@@ -111,6 +111,7 @@ void add_certificates(const std::string& certified, const std::string& missing, 
       }
     }
     certificate.verdict = verdict(certificate);
+    if (alarming(certificate)) summary.warnings.push_back(fmt::format("{}: {}", run.label, certificate.verdict));
   }
 }
 
