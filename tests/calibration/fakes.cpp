@@ -41,14 +41,26 @@ class LinearModel : public Model {
   Basis basis_;
 };
 
-std::unique_ptr<Model> parabola(const Options&) {
+std::unique_ptr<Model> parabola_with(std::vector<Combination> admissible) {
   ModelDescription description{"parabola", {}, 0, false, true, {}};
+  description.admissible = std::move(admissible);
   description.parameters = {{"a", "kPa", 1, 0, 10, Scale::linear, "constant", ""},
                             {"b", "kPa", 1, 0.1, 10, Scale::log, "slope", ""},
                             {"c", "kPa", 0, -5, 5, Scale::linear, "curvature", ""}};
   return std::make_unique<LinearModel>(std::move(description), [](std::size_t j, double x) {
     return j == 0 ? 1 : j == 1 ? x : x * x;
   });
+}
+
+std::unique_ptr<Model> parabola(const Options&) { return parabola_with({}); }
+
+std::unique_ptr<Model> bordered(const Options&) {
+  return parabola_with({{"a - b", "kPa", {0, 1}, [](std::span<const double> v) { return v[0] - v[1] + 1; }, ""}});
+}
+
+/// Its inequality has a value at the initial parameters, and nowhere near.
+std::unique_ptr<Model> jagged(const Options&) {
+  return parabola_with({{"a", "kPa", {0}, [](std::span<const double> v) { return v[0] == 1 ? 1 : std::nan(""); }, ""}});
 }
 
 std::unique_ptr<Model> valley(const Options&) {
@@ -219,6 +231,8 @@ void set_behaviour(Behaviour wanted) { behaviour = std::move(wanted); }
 
 void register_all(plugins::Catalogue::Stage& stage) {
   stage.add(ModelFactory{"parabola", "", "", {}, parabola});
+  stage.add(ModelFactory{"bordered", "", "", {}, bordered});
+  stage.add(ModelFactory{"jagged", "", "", {}, jagged});
   stage.add(ModelFactory{"valley", "", "", {}, valley});
   stage.add(ModelFactory{
       "broken", "", "", {}, [](const Options&) -> std::unique_ptr<Model> { throw InputError("no such luck"); }});

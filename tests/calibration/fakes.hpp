@@ -14,6 +14,7 @@
 /// Models, tests and mechanisms small enough to check by hand. A fake model answers S_tt(x) for C_tt = x:
 ///
 ///   parabola   S = a + b x + c x²; parameters a (linear, 0 … 10), b (log, 0.1 … 10), c (linear, −5 … 5)
+///   bordered   the same with the inequality a − b ≥ −1; jagged: with one that has no derivative
 ///   valley     S = (2p + q) x + r x², which no data can take apart into p and q; declares 2p + q
 ///
 /// The fake test "curve" predicts y = gain S(x) + tilt x and, if mapped, z = 10 y; tilt is a native imperfection.

@@ -59,7 +59,7 @@ class Compass final : public Optimizer {
   Needs needs_;
 };
 
-class Residual final : public Optimizer {
+class Residual : public Optimizer {
  public:
   [[nodiscard]] const Needs& needs() const override { return needs_; }
   Outcome minimise(Problem& problem) override {
@@ -69,8 +69,13 @@ class Residual final : public Optimizer {
     return {true, "looked once"};
   }
 
- private:
+ protected:
   Needs needs_{.residuals = true, .gradient = true};
+};
+
+class Descent final : public Residual {
+ public:
+  Descent() { needs_.constraints = true; }
 };
 
 template <class Made>
@@ -84,6 +89,7 @@ void register_optimizers(plugins::Catalogue::Stage& stage) {
   stage.add(factory<Walk>("walk"));
   stage.add(factory<Compass>("compass"));
   stage.add(factory<Residual>("residual"));
+  stage.add(factory<Descent>("descent"));
 }
 
 plugins::Catalogue full_catalogue() {

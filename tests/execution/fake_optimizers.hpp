@@ -11,6 +11,7 @@
 ///   walk      random points from the seed in batches of 8, until it is stopped; never converges
 ///   compass   from problem.start(), tries ± a step along each axis and halves it; converges
 ///   residual  needs residuals; linearises at the start, and returns
+///   descent   the same, and meets constraints
 namespace tunica::fakes {
 
 void register_optimizers(plugins::Catalogue::Stage& stage);

@@ -52,6 +52,24 @@ TEST(Plan, RefusesAnOptimiserThatNeedsResidualsWhereThereAreNone) {
   EXPECT_THAT(refusal(laboratory), HasSubstr("no row is left to fit"));
 }
 
+TEST(Plan, RefusesConstraintsForAnOptimiserThatDoesNotMeetThem) {
+  trial::Laboratory laboratory;
+  laboratory.bench.model().type = "bordered";
+  laboratory.add_run("walk").constraints.push_back({.type = "admissible_parameters", .json = "", .pointer = ""});
+  EXPECT_THAT(refusal(laboratory), HasSubstr("run m/walk: the optimiser 'walk' (walk) does not meet constraints"));
+}
+
+TEST(Plan, RefusesAnOptimiserThatNeedsDerivativesOfConstraintsWhereThereAreNone) {
+  trial::Laboratory laboratory;
+  laboratory.bench.model().type = "bordered";
+  auto& run = laboratory.add_run("descent");
+  run.constraints.push_back({.type = "admissible_parameters", .json = "", .pointer = ""});
+  EXPECT_NO_THROW(laboratory.plan());
+  laboratory.bench.model().type = "jagged";
+  EXPECT_THAT(refusal(laboratory),
+              HasSubstr("run m/descent: the optimiser 'descent' (descent) needs derivatives of the constraints"));
+}
+
 TEST(Plan, RefusesStagesWithinStages) {
   trial::Laboratory laboratory;
   auto& optimizers = laboratory.bench.experiment.optimizers;

@@ -71,7 +71,7 @@ class Optimizer {
   struct Needs {
     bool residuals = false;    ///< linearise() with residual blocks
     bool gradient = false;     ///< a Jacobian
-    bool constraints = false;  ///< handles constraint_count() > 0 itself; else the host penalises
+    bool constraints = false;  ///< meets constraint_count() > 0; else a run with constraints is refused
     bool batch = false;        ///< uses evaluate_batch
     bool random = false;       ///< results depend on the seed
   };

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -38,6 +40,30 @@ std::vector<PlannedStage> plan_stages(const experiment::Experiment& experiment, 
   return stages;
 }
 
+/// Constraints need an optimiser that meets them, and one that follows derivatives needs theirs, at the start at least.
+void check_constraints(const PlannedRun& run, const PlannedStage& stage, const Optimizer::Needs& needs) {
+  const std::size_t count = run.assembly->constraint_count();
+  if (count == 0) return;
+  if (!needs.constraints)
+    throw InputError(
+        fmt::format("run {}: the optimiser '{}' ({}) does not meet constraints, and there are some; choose one that "
+                    "does (docs/optimizers.md), or set \"constraints\": [] in the run",
+                    run.label, stage.entry->name, stage.entry->type));
+  if (!needs.gradient) return;
+  const std::vector<double> x = run.assembly->initial_unit();
+  std::vector<double> free(x.size()), values(count), jacobian(count * x.size());
+  run.assembly->from_unit(x, free);
+  // Where the values cannot be had either, the initial parameters are to blame, which other starts may not be.
+  if (run.assembly->constraints(free, values, {}).kind() == Status::Kind::failed) return;
+  const Status status = run.assembly->constraints(free, values, jacobian);
+  const bool finite = std::all_of(jacobian.begin(), jacobian.end(), [](double entry) { return std::isfinite(entry); });
+  if (status.kind() == Status::Kind::failed || !finite)
+    throw InputError(fmt::format(
+        "run {}: the optimiser '{}' ({}) needs derivatives of the constraints, which this model does not give{}{}; "
+        "choose one that needs none, such as es",
+        run.label, stage.entry->name, stage.entry->type, status.reason().empty() ? "" : ": ", status.reason()));
+}
+
 /// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
 void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
   if (run.assembly->parameters().empty())
@@ -55,6 +81,7 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
           fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
                       "row is held out. Set hold_out to false in a test, or take out the run",
                       run.label, stage.entry->name, stage.entry->type));
+    check_constraints(run, stage, needs);
     if (needs.gradient && !run.assembly->jacobian_is_exact())
       warnings.push_back(
           fmt::format("run {}: derivatives for '{}' are differences of whole predictions, because model "

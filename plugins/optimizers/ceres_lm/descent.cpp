@@ -176,6 +176,7 @@ Descent descend(Problem& problem, std::span<const double> x, int max_iterations,
   if (problem.constraint_count() == 0) return descend_in_box(problem, x, max_iterations, settings);
   AugmentedLagrangian lagrangian(problem);
   Descent descent{.x = {x.begin(), x.end()}};
+  max_iterations *= 5;  // a descent is several minimisations then
   for (int round = 0; max_iterations > 0; ++round) {
     const std::vector<double> from = round == 0 ? descent.x : lagrangian.point().x;
     const Descent last = descend_in_box(lagrangian, from, max_iterations, loosened(settings, round));
