@@ -2,7 +2,7 @@
 // The test doubles themselves: a wrong Jacobian here would be blamed on the optimisers.
 #include <gtest/gtest.h>
 
-#include "optimizers/functions.hpp"
+#include "optimizers/constrained_functions.hpp"
 #include "optimizers/lamb_aorta.hpp"
 
 namespace tunica::testing {
@@ -29,6 +29,21 @@ void expect_jacobian_is_the_derivative(const Function& function, std::vector<dou
 TEST(StandardFunctions, HaveExactJacobians) {
   for (const Function& function : {sphere(3), ellipsoid(3), rosenbrock(3), rastrigin(3)}) {
     expect_jacobian_is_the_derivative(function, {0.31, 0.77, 0.42});
+  }
+}
+
+TEST(ConstrainedFunctions, HaveExactJacobians) {
+  for (const Function& function :
+       {half_sphere(), rosenbrock_in_disc(), hock_schittkowski_65(), limited_curve(), nothing_feasible()}) {
+    const std::vector<double> x(function.dimension, 0.37);
+    expect_jacobian_is_the_derivative(function, x);
+    Function constraints = function;
+    constraints.residual_count = function.constraint_count;
+    constraints.residuals = [&function](std::span<const double> at, std::span<double> c, std::span<double> jacobian) {
+      function.constraints(at, c, jacobian);
+      return true;
+    };
+    expect_jacobian_is_the_derivative(constraints, x);
   }
 }
 
