@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "path.hpp"
+#include "sector.hpp"
+
+namespace tunica::thick_wall {
+
+/// One row, solved: equilibrium at y with a correction `step` that is so small that it need not be evaluated again but
+/// is applied to first order.
+struct Row {
+  double axial_stretch = 1, pressure = 0;
+  double y = 0, step = 0;
+  std::size_t free_row = 0;  ///< which of the unpressurised states is that of its axial stretch
+  double support_free = 0;   ///< outer radius there, where there is support
+  WallForces forces{};
+};
+
+/// All rows of an elastic material, and where they are needed the unpressurised states at their axial stretches.
+struct Solution {
+  std::vector<Row> free_rows, rows;
+};
+
+/// Finds every row on the path from rest; then Newton's method on all of them at once.
+Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
+                  Sections& sections, const Wall& wall, Solution& solution);
+
+/// Takes up the steps left and evaluates once more, with parameter derivatives; `sections` then holds these rows.
+Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall);
+
+double channel_value(Channel channel, const Wall& wall, const Row& row);
+/// Inner radius of the row.
+inline double inner_radius(const Row& row) { return std::exp(row.y + row.step); }
+
+/// Jacobian by model and own parameters, and derivatives by the abscissae: implicit differentiation of the equilibrium
+/// of every row, of its unpressurised state and of the closing of the sector. The rows have been evaluated with
+/// parameters last. Empty spans are not wanted.
+Status differentiate(const Tube& tube, const Wall& wall, const SectorDerivative& sector, Solution& solution,
+                     Sections& sections, std::size_t model_parameters, std::span<double> jacobian,
+                     std::span<double> abscissa_derivative);
+
+/// A material without history: all of the above.
+Status predict_elastic(const Tube& tube, const Rule& rule, const TestInput& input, const TestOutput& output);
+
+/// Pressure and axial stretch of every row, abscissae corrected by mechanisms and by the axial stretch error.
+Status prescribed(const Tube& tube, const TestInput& input, std::vector<double>& pressure,
+                  std::vector<double>& axial_stretch);
+/// Values and diagnostics of solved rows; a status where one is not finite.
+Status write_rows(const Tube& tube, const Wall& wall, std::span<const Row> rows, const TestOutput& output);
+
+}  // namespace tunica::thick_wall

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "history.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "tunica/safeguarded_newton.hpp"
+
+namespace tunica::thick_wall {
+namespace {
+
+/// y at which the tube carries the row's pressure, from `row.y`; leaves its forces in the row.
+bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall) {
+  const auto evaluate = [&](double y, const Memory& with) {
+    const Section section{row.axial_stretch, y};
+    const Status status = sections.evaluate({&section, 1}, false, with);
+    row.forces = sections.forces(0);
+    return status.ok();
+  };
+  const auto residual = [&](double y) {
+    if (!evaluate(y, {memory.time_step, memory.old_state, {}}))
+      return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+    double p = row.forces.p, p_y = row.forces.p_y;
+    if (row.support_free > 0) {
+      p += support(wall, y, row.axial_stretch, row.support_free);
+      p_y += support_slope(wall, y, row.axial_stretch);
+    }
+    return free_strip::Residual{p - row.pressure, p_y};
+  };
+  return free_strip::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
+}
+
+}  // namespace
+
+Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput& input, const TestOutput& output) {
+  thread_local Sections sections;
+  std::vector<double> pressure, axial_stretch;
+  Wall wall(tube, input.test_parameters);
+  const Material material(input.model, input.model_parameters);
+  if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
+  if (Status status = close_sector(tube, material, rule, sections, wall, nullptr); !status.ok()) return status;
+  sections.begin(material, wall, rule);
+
+  const std::size_t n = pressure.size(), points = sections.points_per_section();
+  const std::size_t history = points * input.model.describe().history_size;
+  std::vector<double> old_state(history), new_state(history), time_step(points);
+  std::vector<Row> rows(n);
+  Row free{.axial_stretch = 1, .y = std::log(wall.Ri)};
+  double y = free.y;
+  for (std::size_t i = 0; i < n; ++i) {
+    Row& row = rows[i];
+    const double before = i == 0 ? 1 : axial_stretch[i - 1];
+    row.axial_stretch = axial_stretch[i], row.pressure = pressure[i];
+    row.y = y - 0.5 * std::log(row.axial_stretch / before);  // the bulk of the wall goes with 1/√λz
+    if (wall.tether != 0) {
+      free.y -= 0.5 * std::log(row.axial_stretch / before);
+      free.axial_stretch = row.axial_stretch;
+      if (!solve(free, {}, sections, wall))
+        return Status::failed("thick_wall_pressurisation: no equilibrium without pressure at " +
+                              row_name(i, row.pressure, row.axial_stretch));
+      row.support_free = outer_radius(wall, free.y, free.axial_stretch);
+    }
+    double step = 0;
+    if (!tube.time.empty()) step = i == 0 ? std::max(0.0, tube.time[0]) : tube.time[i] - tube.time[i - 1];
+    std::fill(time_step.begin(), time_step.end(), step);
+    const Memory memory{
+        {time_step.data(), tube.time.empty() ? 0 : points}, {old_state.data(), i > 0 ? history : 0}, new_state};
+    if (!solve(row, memory, sections, wall))
+      return Status::failed("thick_wall_pressurisation: no equilibrium at " +
+                            row_name(i, row.pressure, row.axial_stretch) +
+                            ": the energy overflows, or the pressure stops rising (limit pressure)");
+    std::swap(old_state, new_state);
+    y = row.y;
+  }
+  return write_rows(tube, wall, rows, output);
+}
+
+}  // namespace tunica::thick_wall

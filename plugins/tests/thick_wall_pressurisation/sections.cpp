@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sections.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace tunica::thick_wall {
+namespace {
+
+constexpr double smallest_piece = 1e-7;  ///< in ln R; what a kink closer to an edge does is below its square
+
+/// Squared circumferential stretches at which a switch acts under c_z: tt c² + (zz c_z + offset) c + rr/c_z = 0.
+void roots(const Switch& at, double cz, std::vector<double>& c) {
+  const double q = at.zz * cz + at.offset, r = at.rr / cz;
+  const double discriminant = q * q - 4 * at.tt * r;
+  if (discriminant < 0) return;
+  const double t = -0.5 * (q + std::copysign(std::sqrt(discriminant), q));
+  for (const double root : {t / at.tt, r / t})
+    if (std::isfinite(root) && root > 0) c.push_back(root);
+}
+
+}  // namespace
+
+void Sections::begin(const Material& material, const Wall& wall, const Rule& rule) {
+  material_ = &material, wall_ = &wall, rule_ = &rule;
+  const Shape<double> at = shape(wall, 0, 1);
+  edges_[0] = at.inner_edge, edges_[1] = at.interface, edges_[2] = at.outer_edge;
+  w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
+  for (const bool outer : {false, true}) add_piece(edges_[outer], edges_[outer + 1], outer, true, true);
+  base_weight_ = w_, base_s_ = s_, base_inverse_ = inverse_;
+}
+
+void Sections::add_piece(double from, double to, bool outer, bool begins, bool ends) {
+  pieces_.push_back({w_.size(), to - from, outer, begins, ends});
+  for (std::size_t k = 0; k < rule_->node.size(); ++k) {
+    const double s = std::exp(2 * (from + rule_->node[k] * (to - from)));
+    w_.push_back(rule_->weight[k] * (to - from) * factor(outer)), s_.push_back(s), inverse_.push_back(1 / s);
+  }
+}
+
+/// Points of one section behind those of the sections before it.
+void Sections::lay_points(const Section& section) {
+  const Shape<double> at = shape(*wall_, section.y, section.axial_stretch);
+  // R of a kink from c = b + a/R²
+  thread_local std::vector<double> kinks;
+  kinks.clear(), cuts_.clear();
+  if (at.a != 0)
+    for (const Switch& change : material_->switches()) roots(change, at.cz, kinks);
+  for (const double c : kinks) {
+    const double s = at.a / (c - at.b);
+    if (s > 0 && std::isfinite(s)) cuts_.push_back(0.5 * std::log(s));
+  }
+  std::sort(cuts_.begin(), cuts_.end());
+  bool cut = false;
+  for (const double x : cuts_) cut |= x > edges_[0] + smallest_piece && x < edges_[2] - smallest_piece;
+  if (!cut) {
+    const std::size_t half = rule_->node.size();
+    for (const std::size_t outer : {0u, 1u})
+      pieces_.push_back({w_.size() + outer * half, edges_[outer + 1] - edges_[outer], outer == 1, true, true});
+    w_.insert(w_.end(), base_weight_.begin(), base_weight_.end());
+    s_.insert(s_.end(), base_s_.begin(), base_s_.end());
+    inverse_.insert(inverse_.end(), base_inverse_.begin(), base_inverse_.end());
+    return;
+  }
+  for (const bool outer : {false, true}) {
+    double from = edges_[outer];
+    bool begins = true;
+    for (const double x : cuts_) {
+      if (!(x > from + smallest_piece && x < edges_[outer + 1] - smallest_piece)) continue;
+      add_piece(from, x, outer, begins, false);
+      from = x, begins = false;
+    }
+    add_piece(from, edges_[outer + 1], outer, begins, true);
+  }
+}
+
+Status Sections::evaluate(std::span<const Section> sections, bool parameters, const Memory& memory,
+                          const RestStress* rest) {
+  sections_.assign(sections.begin(), sections.end());
+  w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
+  first_piece_.assign(1, 0), first_point_.assign(1, 0);
+  for (const Section& section : sections) {
+    lay_points(section);
+    first_piece_.push_back(pieces_.size()), first_point_.push_back(w_.size());
+  }
+  n_ = w_.size();
+  if (h_.size() < n_) {
+    c_.resize(3 * n_), gradient_.resize(3 * n_), hessian_.resize(6 * n_);
+    for (auto* v : {&h_, &h_c_, &h_z_, &q_, &q_c_, &q_z_}) v->resize(n_);
+  }
+  const std::size_t of_parameters = parameters ? 3 * n_ * material_->parameter_count() : 0;
+  if (gradient_dp_.size() < of_parameters) gradient_dp_.resize(of_parameters);
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const Shape<double> at = shape(*wall_, sections[i].y, sections[i].axial_stretch);
+    double* const ct = c_.data();
+    for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
+      ct[k] = at.b + at.a * inverse_[k];
+      ct[n_ + k] = at.cz;
+      ct[2 * n_ + k] = 1 / (ct[k] * at.cz);
+    }
+  }
+  Status status = material_->evaluate(n_, {c_.data(), 3 * n_}, {gradient_.data(), 3 * n_}, {hessian_.data(), 6 * n_},
+                                      {gradient_dp_.data(), of_parameters}, memory);
+  rest_ = rest;
+  if (status.ok()) form();
+  return status;
+}
+
+/// h = T/c and q = 2Z − T with their derivatives by c at fixed c_z and by c_z at fixed c, where c_r = 1/(c c_z).
+void Sections::form() {
+  const double at_rest = rest_ == nullptr ? 0 : rest_->value;
+  const double* __restrict c = c_.data();
+  const double* __restrict cz = c + n_;
+  const double* __restrict cr = c + 2 * n_;
+  const double* __restrict g = gradient_.data();
+  const double* __restrict H = hessian_.data();
+  double* __restrict h = h_.data();
+  double* __restrict h_c = h_c_.data();
+  double* __restrict h_z = h_z_.data();
+  double* __restrict q = q_.data();
+  double* __restrict q_c = q_c_.data();
+  double* __restrict q_z = q_z_.data();
+  const std::size_t n = n_;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double gt = g[k], gz = g[n + k], gr = g[2 * n + k];
+    const double Htt = H[k], Hzz = H[n + k], Hrr = H[2 * n + k];
+    const double Htz = H[3 * n + k], Hzr = H[4 * n + k], Htr = H[5 * n + k];
+    const double by_c = cr[k] / c[k], by_z = cr[k] / cz[k];  // −∂c_r/∂c, −∂c_r/∂c_z
+    const double normal = cr[k] * gr;
+    const double normal_c = by_c * (cr[k] * Hrr + gr) - cr[k] * Htr;  // −∂(c_r g_r)/∂c
+    const double normal_z = by_z * (cr[k] * Hrr + gr) - cr[k] * Hzr;
+    const double T = 2 * (c[k] * gt - normal) - at_rest;
+    const double T_c = 2 * (gt + c[k] * (Htt - by_c * Htr) + normal_c);
+    const double T_z = 2 * (c[k] * (Htz - by_z * Htr) + normal_z);
+    const double inverse = 1 / c[k];
+    h[k] = T * inverse;
+    h_c[k] = (T_c - h[k]) * inverse;
+    h_z[k] = T_z * inverse;
+    q[k] = 4 * (cz[k] * gz - normal) - T;
+    q_c[k] = 4 * (cz[k] * (Htz - by_c * Hzr) + normal_c) - T_c;
+    q_z[k] = 4 * (gz + cz[k] * (Hzz - by_z * Hzr) + normal_z) - T_z;
+  }
+}
+
+WallForces Sections::forces(std::size_t i) const {
+  const Section& at = sections_[i];
+  const Shape<double> form = shape(*wall_, at.y, at.axial_stretch);
+  double I = 0, I_a = 0, I_b = 0, I_z = 0, J = 0, J_a = 0;
+  for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
+    I += w_[k] * h_[k];
+    I_a += w_[k] * h_c_[k] * inverse_[k];
+    I_b += w_[k] * h_c_[k];
+    I_z += w_[k] * h_z_[k];
+    J += w_[k] * s_[k] * q_[k];
+    J_a += w_[k] * q_c_[k];
+  }
+  const double K2 = wall_->K * wall_->K, lz = at.axial_stretch, sector = std::exp(2 * wall_->iota);
+  const double a_y = 2 * K2 * form.ri2, a_axial = form.b * sector / lz, force = std::numbers::pi * form.b / K2;
+  return {form.b * I, form.b * I_a * a_y, form.b * (I_a * a_axial - I_b * form.b / lz + 2 * lz * I_z - I / lz),
+          force * J, force * J_a * a_y};
+}
+
+WallForcesJet Sections::forces_jet(std::size_t i) const {
+  const Section& at = sections_[i];
+  const Shape<Jet> form = shape_jet(*wall_, at.y, at.axial_stretch);
+  Jet I(0.), J(0.);
+  for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
+    const Piece& piece = pieces_[p];
+    double S = 0, S_a = 0, S_b = 0, S_z = 0, R = 0, R_a = 0, R_b = 0, R_z = 0;
+    double S_left = 0, S_right = 0, R_left = 0, R_right = 0;
+    for (std::size_t m = 0; m < rule_->node.size(); ++m) {
+      const std::size_t k = piece.first + m;
+      S += w_[k] * h_[k];
+      S_a += w_[k] * h_c_[k] * inverse_[k];
+      S_b += w_[k] * h_c_[k];
+      S_z += w_[k] * h_z_[k];
+      R += w_[k] * s_[k] * q_[k];
+      R_a += w_[k] * q_c_[k];
+      R_b += w_[k] * s_[k] * q_c_[k];
+      R_z += w_[k] * s_[k] * q_z_[k];
+      // A node moves with the edges of its piece: ∂c/∂x = −2 (c − b), ∂R²/∂x = 2 R².
+      const double slope = -2 * (c_[k] - form.b.a);
+      const double h_x = w_[k] * slope * h_c_[k], q_x = w_[k] * s_[k] * (slope * q_c_[k] + 2 * q_[k]);
+      S_left += (1 - rule_->node[m]) * h_x, S_right += rule_->node[m] * h_x;
+      R_left += (1 - rule_->node[m]) * q_x, R_right += rule_->node[m] * q_x;
+    }
+    Jet piece_I = S_a * form.a + S_b * form.b + S_z * form.cz, piece_J = R_a * form.a + R_b * form.b + R_z * form.cz;
+    // The integrand is continuous at a cut: moving one changes nothing.
+    if (piece.begins) {
+      const Jet& edge = piece.outer ? form.interface : form.inner_edge;
+      piece_I += (S_left - S / piece.length) * edge, piece_J += (R_left - R / piece.length) * edge;
+    }
+    if (piece.ends) {
+      const Jet& edge = piece.outer ? form.outer_edge : form.interface;
+      piece_I += (S_right + S / piece.length) * edge, piece_J += (R_right + R / piece.length) * edge;
+    }
+    piece_I.a = S, piece_J.a = R;
+    I += piece_I, J += piece_J;
+  }
+  const Jet K(wall_->K, closing);
+  return {form.b * I, std::numbers::pi * form.b / (K * K) * J};
+}
+
+Sections::Change Sections::by_parameter(std::size_t i, std::size_t j) const {
+  const double* const gt = gradient_dp_.data() + 3 * j * n_;
+  const double* const gz = gt + n_;
+  const double* const gr = gz + n_;
+  const double at_rest = rest_ == nullptr ? 0 : rest_->by_parameter[j];
+  double I = 0, J = 0;
+  for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
+    const double normal = c_[2 * n_ + k] * gr[k], T = 2 * (c_[k] * gt[k] - normal) - at_rest;
+    I += w_[k] * T / c_[k];
+    J += w_[k] * s_[k] * (4 * (c_[n_ + k] * gz[k] - normal) - T);
+  }
+  const double b = wall_->K / sections_[i].axial_stretch;
+  return {b * I, std::numbers::pi * b / (wall_->K * wall_->K) * J};
+}
+
+Sections::Change Sections::by_ratio(std::size_t i) const {
+  double I = 0, J = 0;
+  for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
+    const Piece& piece = pieces_[p];
+    const double change = (piece.outer ? wall_->outer_by_ratio : wall_->inner_by_ratio) / factor(piece.outer);
+    for (std::size_t k = piece.first; k < piece.first + rule_->node.size(); ++k) {
+      I += change * w_[k] * h_[k];
+      J += change * w_[k] * s_[k] * q_[k];
+    }
+  }
+  const double b = wall_->K / sections_[i].axial_stretch;
+  return {b * I, std::numbers::pi * b / (wall_->K * wall_->K) * J};
+}
+
+}  // namespace tunica::thick_wall

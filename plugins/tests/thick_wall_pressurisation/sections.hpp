@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gauss_legendre.hpp"
+#include "material.hpp"
+#include "wall.hpp"
+
+namespace tunica::thick_wall {
+
+/// The axial stretch and the unknown of one section, y = ln ri.
+struct Section {
+  double axial_stretch, y;
+};
+
+/// Pressure and axial force of the wall alone, with what Newton's method and the path need of their derivatives.
+struct WallForces {
+  double p, p_y, p_axial;
+  double F, F_y;
+};
+
+/// The same with the derivatives by all geometric variables.
+struct WallForcesJet {
+  Jet p, F;
+};
+
+/// σt − σr that the material has before anything deforms: 0 in a passive one. The closing of the sector leaves it out.
+struct RestStress {
+  double value = 0;
+  std::vector<double> by_parameter;
+};
+
+/// Quadrature over the wall, for a batch of sections in one call of the model. With x = ln R, T = σt − σr = 2 (c g_t −
+/// c_r g_r), Z = σz − σr = 2 (c_z g_z − c_r g_r):
+///
+///   p = b ∫ T/c dx,   F = π b/K² ∫ (2Z − T) R² dx.
+///
+/// Gauss–Legendre in the inner and in the outer layer, and in the pieces into which kinks of the material cut them;
+/// in ln R, because there a thick wall is as smooth as a thin one. One object a thread: its memory grows to the
+/// largest batch seen, then nothing is allocated.
+class Sections {
+ public:
+  /// To be called first, and again whenever the wall has changed; all three have to outlive what follows.
+  void begin(const Material& material, const Wall& wall, const Rule& rule);
+  /// Evaluates the batch. Not finite where the energy overflows or is undefined; the caller looks at the results.
+  Status evaluate(std::span<const Section> sections, bool parameters, const Memory& memory = {},
+                  const RestStress* rest = nullptr);
+  /// Points of one section, where nothing cuts the layers.
+  [[nodiscard]] std::size_t points_per_section() const { return base_weight_.size(); }
+
+  [[nodiscard]] WallForces forces(std::size_t i) const;
+  [[nodiscard]] WallForcesJet forces_jet(std::size_t i) const;
+  /// ∂p and ∂F at a fixed shape, by model parameter j or by the ratio of the layers.
+  struct Change {
+    double p = 0, F = 0;
+  };
+  [[nodiscard]] Change by_parameter(std::size_t i, std::size_t j) const;
+  [[nodiscard]] Change by_ratio(std::size_t i) const;
+
+ private:
+  /// A run of Gauss points between two nodes in x; an edge that is no edge of a layer is a cut.
+  struct Piece {
+    std::size_t first;
+    double length;
+    bool outer;         ///< of the two layers
+    bool begins, ends;  ///< at the edges of its layer
+  };
+  void lay_points(const Section& section);
+  void add_piece(double from, double to, bool outer, bool begins, bool ends);
+  void form();
+  [[nodiscard]] double factor(bool outer) const { return outer ? wall_->outer : wall_->inner; }
+
+  const Material* material_ = nullptr;
+  const Wall* wall_ = nullptr;
+  const Rule* rule_ = nullptr;
+
+  double edges_[3] = {};  ///< ln R of inner edge, interface, outer edge
+  std::vector<double> base_weight_, base_s_, base_inverse_;
+  std::vector<double> cuts_;
+
+  std::vector<Section> sections_;
+  std::vector<std::size_t> first_piece_, first_point_;  ///< of each section, one more at the end
+  std::vector<Piece> pieces_;
+  // Of each point: weight · length of the piece · factor of the layer, R², 1/R²; 3 squared stretches; the responses.
+  std::vector<double> w_, s_, inverse_, c_, gradient_, hessian_, gradient_dp_;
+  std::vector<double> h_, h_c_, h_z_, q_, q_c_, q_z_;  ///< T/c and 2Z − T, with their derivatives by c and c_z
+  std::size_t n_ = 0;
+  const RestStress* rest_ = nullptr;
+};
+
+}  // namespace tunica::thick_wall

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "history.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::thick_wall {
+namespace {
+
+/// A long tube under inner pressure at prescribed axial stretch, semi-analytic: see wall.hpp for the geometry,
+/// sections.hpp for pressure and axial force, path.hpp for how the pressure is inverted.
+class ThickWallPressurisation final : public Test {
+ public:
+  explicit ThickWallPressurisation(const TestSetup& setup)
+      : tube_(bind(setup)), rule_(static_cast<int>(tube_.gauss_points)) {
+    description_.parameters = own_parameters();
+    description_.nulls = own_nulls();
+    description_.diagnostics = {"inner_radius_stretch", "mean_circumferential_stress", "mean_axial_stress"};
+    description_.diagnostic_units = {"1", "kPa", "kPa"};
+    rows_.count = tube_.count();
+    for (std::size_t k = 0; k < tube_.columns.size(); ++k)
+      rows_.abscissae.push_back({tube_.names[k], tube_.columns[k]});
+    rows_.channels = setup.rows.channels;
+    rows_.time = tube_.time;
+  }
+
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    const ModelDescription& model = input.model.describe();
+    const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
+    if (model.history_size > 0 && derivatives)
+      return Status::failed("thick_wall_pressurisation: no exact Jacobian along the path of a model with history");
+    if (!model.parameter_derivatives && !output.jacobian.empty())
+      return Status::failed("thick_wall_pressurisation: the model has no parameter derivatives");
+    return model.history_size > 0 ? predict_with_history(tube_, rule_, input, output)
+                                  : predict_elastic(tube_, rule_, input, output);
+  }
+
+ private:
+  Tube tube_;
+  Rule rule_;
+  TestRows rows_;
+  TestDescription description_;
+};
+
+using Role = Observable::Role;
+using Kind = Observable::Kind;
+
+Option radius(const char* name, const char* doc) {
+  return {.name = name, .kind = Option::Kind::quantity, .fallback = 0.0, .doc = doc, .unit = "mm", .min = 0.0};
+}
+
+TestFactory factory() {
+  return {
+      "thick_wall_pressurisation",
+      "A long tube under inner pressure at prescribed axial stretch, its thick wall integrated semi-analytically.",
+      "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000), section 3",
+      {radius("inner_radius", "Inner radius of the unloaded tube; two of the three lengths are given."),
+       radius("outer_radius", "Outer radius of the unloaded tube."),
+       radius("thickness", "Wall thickness of the unloaded tube."),
+       {.name = "axial_stretch",
+        .kind = Option::Kind::number,
+        .fallback = 0.0,
+        .doc = "Axial stretch that is held; left out where a column is mapped to axial_stretch.",
+        .min = 0.0,
+        .max = 10.0},
+       {.name = "sector",
+        .kind = Option::Kind::choice,
+        .fallback = std::string("equilibrium"),
+        .doc = "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
+               "equilibrium at its measured outer radius, or that the sector is as thick as the wall.",
+        .choices = {"equilibrium", "same_thickness"}},
+       {.name = "layer_interface",
+        .kind = Option::Kind::number,
+        .fallback = 0.5,
+        .doc = "Where layer_ratio parts the wall: fraction of the thickness from inside.",
+        .min = 0.05,
+        .max = 0.95},
+       {.name = "gauss_points",
+        .kind = Option::Kind::integer,
+        .fallback = std::int64_t{6},
+        .doc = "Gauss points in each of the two layers, and in each piece into which fibre switches cut them.",
+        .min = 2,
+        .max = 64}},
+      {{"pressure", "kPa", Role::abscissa, true, "Inner pressure.", Kind::plain},
+       {"axial_stretch", "1", Role::abscissa, false, "Axial stretch, where it varies along the rows.", Kind::stretch},
+       {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
+       {"outer_diameter", "mm", Role::channel, false, "Outer diameter.", Kind::plain},
+       {"inner_diameter", "mm", Role::channel, false, "Inner diameter.", Kind::plain},
+       {"outer_diameter_stretch", "1", Role::channel, false, "Outer diameter over that of the unloaded tube.",
+        Kind::stretch},
+       {"inner_diameter_stretch", "1", Role::channel, false, "Inner diameter over that of the unloaded tube.",
+        Kind::stretch},
+       {"axial_force", "mN", Role::channel, false,
+        "Reduced axial force: what holds the tube beside the pressure on its closed ends.", Kind::plain}},
+      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<ThickWallPressurisation>(setup); },
+      own_parameters()};
+}
+
+}  // namespace
+}  // namespace tunica::thick_wall
+
+TUNICA_PLUGIN("thick_wall_pressurisation", TUNICA_PLUGIN_VERSION) { registry.add(tunica::thick_wall::factory()); }

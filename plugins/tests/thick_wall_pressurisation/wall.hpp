@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ceres/jet.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "tube.hpp"
+
+/// Geometry of the long tube (Chuong, Fung, J. Biomech. Eng. 108:189, 1986; docs/theory.md, the tube).
+///
+/// A stress-free sector with inner radius R_i, its outer one from R_o² − R_i² = K V, is closed (K = 2π/(2π − α)) to the
+/// unloaded tube of measured outer radius, V = Ro² − Ri², stretched by λz and pressurised to r:
+///
+///   r² = ri² + (R² − R_i²)/(K λz),   λt = K r/R,   λr = 1/(λt λz).
+///
+/// With b = K/λz and a = K² ri² − b R_i² the squared circumferential stretch is c = b + a/R². Without residual stress
+/// K = 1, and the sector is the unloaded tube.
+namespace tunica::thick_wall {
+
+/// Number of the geometric variables and their order: y = ln ri, λz, K, V and ι = ln R_i.
+enum Variable : int { ln_inner, axial, closing, area, ln_sector, variable_count };
+using Jet = ceres::Jet<double, variable_count>;
+
+/// The wall of one prediction: what does not change along the rows.
+struct Wall {
+  double Ri, Ro, V;                        ///< unloaded; Ri with the thickness error in it
+  double K = 1, iota = 0;                  ///< closing factor, ln R_i
+  double interface = 0.5;                  ///< fraction of the sector's thickness
+  double tether = 0;                       ///< kPa
+  double inner = 1, outer = 1;             ///< factors of W in the two layers
+  double inner_by_ratio, outer_by_ratio;   ///< their derivatives
+  double closing_by_angle, area_by_error;  ///< dK/dα [1/deg], dV/dg [mm²]
+
+  /// The sector is not closed yet: `iota` is that of a sector as thick as the wall. Ri ≤ 0 where the thickness error
+  /// leaves no lumen, K ≤ 0 where the opening angle leaves no sector.
+  Wall(const Tube& tube, std::span<const double> own);
+};
+
+/// Geometry of a section, for numbers or for jets over the variables.
+template <class T>
+struct Shape {
+  T ri2, ro2, a, b, cz;
+  T inner_edge, interface, outer_edge;  ///< ln R
+
+  Shape(const T& y, const T& lambda_z, const T& K, const T& V, const T& iota, double fraction) {
+    using std::exp, std::log, std::sqrt;
+    ri2 = exp(2.0 * y);
+    ro2 = ri2 + V / lambda_z;
+    b = K / lambda_z;
+    const T Ri2 = exp(2.0 * iota), Ro2 = Ri2 + K * V;
+    a = K * K * ri2 - b * Ri2;
+    cz = lambda_z * lambda_z;
+    inner_edge = iota;
+    outer_edge = 0.5 * log(Ro2);
+    interface = log((1 - fraction) * exp(iota) + fraction * sqrt(Ro2));
+  }
+};
+
+inline Shape<double> shape(const Wall& wall, double y, double lambda_z) {
+  return {y, lambda_z, wall.K, wall.V, wall.iota, wall.interface};
+}
+inline Shape<Jet> shape_jet(const Wall& wall, double y, double lambda_z) {
+  return {Jet(y, ln_inner),  Jet(lambda_z, axial),      Jet(wall.K, closing),
+          Jet(wall.V, area), Jet(wall.iota, ln_sector), wall.interface};
+}
+
+}  // namespace tunica::thick_wall
