@@ -68,7 +68,7 @@ std::string abscissa_derivative_matches_differences(const Simulation& s) {
   Values derivative(count * rows);
   const Status status = s.test.predict({s.model, s.model_parameters, s.test_parameters}, {{}, {}, derivative, {}});
   if (!status.ok()) return status.reason();
-  constexpr double h = 1e-6;
+  constexpr double h = 1e-5;
   for (std::size_t k = 0; k < count; ++k) {
     const auto bound = s.test.rows().abscissae[k].values;
     Values up(bound.begin(), bound.end()), down = up;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "tunica/safeguarded_newton.hpp"
 
@@ -13,6 +14,7 @@ namespace tunica::thick_wall {
 namespace {
 
 constexpr int newton_iterations = 8;
+constexpr double quadrature_error = 1e-12, tolerable_error = 1e-7;  ///< of y = ln ri
 
 /// A step that may be left to first order: it leaves a residual pressure of about (step p_y/p)²/2 relative to p, p
 /// growing exponentially in y. 1e-6 squared is well below 1e-10; where p vanishes p_y takes its place.
@@ -37,6 +39,15 @@ Status evaluate(std::vector<Row>& rows, bool parameters, Sections& sections, con
   return status;
 }
 
+/// The next rule to try after number k: errors fall geometrically with the number of points.
+std::size_t finer(std::span<const Rule> all, std::size_t k, double error) {
+  const double points = static_cast<double>(all[k].node.size());
+  const double wanted = error < 0.1 ? points * std::log(quadrature_error) / std::log(error) : 2 * points;
+  std::size_t next = k + 1;
+  while (next + 1 < all.size() && static_cast<double>(all[next].node.size()) < wanted) ++next;
+  return next;
+}
+
 /// One row alone, inside a bracket around its start.
 bool rescue(Row& row, Sections& sections, const Wall& wall) {
   return free_strip::safeguarded_newton(
@@ -52,15 +63,20 @@ bool rescue(Row& row, Sections& sections, const Wall& wall) {
       row.y);
 }
 
+void note_error(const std::vector<Row>& rows, const Sections& sections, double& error) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    error = std::max(error, sections.pressure_error(i) / rows[i].forces.p_y);
+}
+
 /// Newton's method on all rows until every step may be left to first order.
-Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall) {
+Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, double& error) {
   thread_local std::vector<double> start;
   start.clear();
   for (const Row& row : rows) start.push_back(row.y);
   const auto done = [](const Row& row) { return row.forces.p_y > 0 && small(row.step, row.pressure, row.forces.p_y); };
   for (int iteration = 0; iteration < newton_iterations; ++iteration) {
     if (Status status = evaluate(rows, false, sections, wall); !status.ok()) return status;
-    if (std::all_of(rows.begin(), rows.end(), done)) return {};
+    if (std::all_of(rows.begin(), rows.end(), done)) return note_error(rows, sections, error), Status();
     for (Row& row : rows)
       if (std::abs(row.step) < 1) row.y += std::clamp(row.step, -0.05, 0.05);
   }
@@ -71,7 +87,9 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall) {
       return Status::failed("thick_wall_pressurisation: Newton's method finds no equilibrium at " +
                             row_name(i, rows[i].pressure, rows[i].axial_stretch));
   }
-  return evaluate(rows, false, sections, wall);
+  Status status = evaluate(rows, false, sections, wall);
+  note_error(rows, sections, error);
+  return status;
 }
 
 }  // namespace
@@ -84,7 +102,7 @@ Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
                   Sections& sections, const Wall& wall, Solution& solution) {
   const bool supported = wall.tether != 0;
-  solution.rows.clear(), solution.free_rows.clear();
+  solution.rows.clear(), solution.free_rows.clear(), solution.error = 0;
   Path path(sections, wall);
   Equilibrium free, at;  // the unpressurised state, and the one of the row
   Status status = path.begin(free);
@@ -109,13 +127,13 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
     return Status::failed(fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}",
                                       row_name(0, pressure[0], axial_stretch[0]), status.reason()));
   if (want_free_rows || supported) {
-    if (status = polish(solution.free_rows, sections, wall); !status.ok()) return status;
+    if (status = polish(solution.free_rows, sections, wall, solution.error); !status.ok()) return status;
     for (Row& row : solution.rows) {
       const Row& without = solution.free_rows[row.free_row];
       if (supported) row.support_free = outer_radius(wall, without.y + without.step, without.axial_stretch);
     }
   }
-  return polish(solution.rows, sections, wall);
+  return polish(solution.rows, sections, wall, solution.error);
 }
 
 double channel_value(Channel channel, const Wall& wall, const Row& row) {
@@ -180,7 +198,7 @@ Status write_rows(const Tube& tube, const Wall& wall, std::span<const Row> rows,
   return {};
 }
 
-Status predict_elastic(const Tube& tube, const Rule& rule, const TestInput& input, const TestOutput& output) {
+Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& input, const TestOutput& output) {
   thread_local Sections sections;
   thread_local Solution solution;
   thread_local SectorDerivative sector;
@@ -190,11 +208,31 @@ Status predict_elastic(const Tube& tube, const Rule& rule, const TestInput& inpu
   Wall wall(tube, input.test_parameters);
   const Material material(input.model, input.model_parameters);
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
-  if (Status status = close_sector(tube, material, rule, sections, wall, parameters ? &sector : nullptr); !status.ok())
-    return status;
-  sections.begin(material, wall, rule);
-  if (Status status = solve_rows(pressure, axial_stretch, parameters, sections, wall, solution); !status.ok())
-    return status;
+  const auto solve = [&](const Rule& with) {
+    wall = Wall(tube, input.test_parameters);
+    Status status = close_sector(tube, material, with, sections, wall, parameters ? &sector : nullptr);
+    if (!status.ok()) return status;
+    sections.begin(material, wall, with);
+    return solve_rows(pressure, axial_stretch, parameters, sections, wall, solution);
+  };
+  if (rule != nullptr) {
+    if (Status status = solve(*rule); !status.ok()) return status;
+  } else {
+    // From the coarsest on; a failure counts where a fine rule confirms it.
+    const std::span<const Rule> all = rules();
+    constexpr std::size_t confirming = 7;
+    for (std::size_t k = 0; k < all.size();) {
+      Status status = solve(all[k]);
+      if (status.ok() && solution.error <= quadrature_error) break;
+      if (!status.ok() && k >= confirming) return status;
+      if (status.ok() && k + 1 == all.size() && solution.error > tolerable_error)
+        return Status::failed(
+            "thick_wall_pressurisation: the stress varies too sharply through the wall to integrate it, "
+            "within row 1 to " +
+            std::to_string(pressure.size()));
+      k = status.ok() ? finer(all, k, solution.error) : confirming;
+    }
+  }
   if (derivatives) {
     Status status = differentiate(tube, wall, sector, solution, sections, input.model_parameters.size(),
                                   output.jacobian, output.abscissa_derivative);

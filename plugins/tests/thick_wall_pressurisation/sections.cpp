@@ -21,6 +21,15 @@ void roots(const Switch& at, double cz, std::vector<double>& c) {
 
 }  // namespace
 
+std::span<const Rule> rules() {
+  static const std::vector<Rule> all = [] {
+    std::vector<Rule> made;
+    for (const int points : {6, 8, 10, 12, 16, 20, 26, 34, 44, 60, 80, 110, 150}) made.emplace_back(points);
+    return made;
+  }();
+  return all;
+}
+
 void Sections::begin(const Material& material, const Wall& wall, const Rule& rule) {
   material_ = &material, wall_ = &wall, rule_ = &rule;
   const Shape<double> at = shape(wall, 0, 1);
@@ -158,6 +167,13 @@ WallForces Sections::forces(std::size_t i) const {
   const double a_y = 2 * K2 * form.ri2, a_axial = form.b * sector / lz, force = std::numbers::pi * form.b / K2;
   return {form.b * I, form.b * I_a * a_y, form.b * (I_a * a_axial - I_b * form.b / lz + 2 * lz * I_z - I / lz),
           force * J, force * J_a * a_y};
+}
+
+double Sections::pressure_error(std::size_t i) const {
+  double sum = 0;
+  for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p)
+    sum += pieces_[p].length * factor(pieces_[p].outer) * rule_->error(h_.data() + pieces_[p].first);
+  return wall_->K / sections_[i].axial_stretch * sum;
 }
 
 WallForcesJet Sections::forces_jet(std::size_t i) const {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "gauss_legendre.hpp"
 #include "material.hpp"
+#include "rule.hpp"
 #include "wall.hpp"
 
 namespace tunica::thick_wall {
@@ -50,6 +50,8 @@ class Sections {
   [[nodiscard]] std::size_t points_per_section() const { return base_weight_.size(); }
 
   [[nodiscard]] WallForces forces(std::size_t i) const;
+  /// Estimate of the error that quadrature leaves in the pressure.
+  [[nodiscard]] double pressure_error(std::size_t i) const;
   [[nodiscard]] WallForcesJet forces_jet(std::size_t i) const;
   /// ∂p and ∂F at a fixed shape, by model parameter j or by the ratio of the layers.
   struct Change {

@@ -73,6 +73,10 @@ Tube bind(const TestSetup& setup) {
   tube.layer_interface = setup.options.number("layer_interface");
   tube.same_thickness = setup.options.text("sector") == "same_thickness";
   tube.gauss_points = static_cast<std::size_t>(setup.options.integer("gauss_points"));
+  if (tube.gauss_points == 1)
+    throw InputError(
+        "thick_wall_pressurisation: \"gauss_points\" is 1, which integrates nothing well; give 2 or more, "
+        "or 0 to have the number chosen");
   bool pressure = false;
   for (const TestRows::Column& column : setup.rows.abscissae) {
     if (column.observable == "pressure") pressure = true, tube.pressure_column = tube.columns.size();

@@ -21,7 +21,7 @@ struct Tube {
   double inner_radius = 0, outer_radius = 0;
   double layer_interface = 0.5;  ///< where the inner layer ends, as a fraction of the thickness
   bool same_thickness = false;   ///< the opened sector is as thick as the wall, instead of in equilibrium when closed
-  std::size_t gauss_points = 0;  ///< in each half of the wall
+  std::size_t gauss_points = 0;  ///< in each layer; 0 = chosen by the estimated error
   std::vector<Channel> channels;
   std::vector<std::vector<double>> columns;  ///< the mapped abscissae, in the order of the mapping
   std::vector<std::string> names;            ///< of the columns
