@@ -6,6 +6,7 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
+#include <utility>
 
 #include "calibration/identifiability.hpp"
 #include "calibration/recording.hpp"
@@ -95,7 +96,9 @@ TEST(ConstrainedProblem, SaysOfAnInfeasiblePointHowFarItIs) {
     EXPECT_EQ(status.violation(), violation);
     EXPECT_EQ(status.ok(), violation == 0);
     (status.ok() ? feasible : infeasible)++;
-    if (!status.ok()) EXPECT_THAT(status.reason(), HasSubstr("strip at stretch"));
+    if (!status.ok()) {
+      EXPECT_THAT(status.reason(), HasSubstr("strip at stretch"));
+    }
     EXPECT_EQ(problem.best().feasible(), feasible > 0);
   }
   EXPECT_GT(infeasible, 20);
@@ -161,6 +164,43 @@ TEST(ConstrainedProblem, IntervalsAreThoseAlongTheActiveConstraint) {
   EXPECT_THAT(along.constrained, HasSubstr("intervals are those along its border"));
   EXPECT_EQ(all.constrained, "");
   EXPECT_LT(along.parameters[0].ci95, 0.5 * all.parameters[0].ci95);
+}
+
+/// hgo with everything fixed at the constrained optimum of the example but mu.
+Assembly only_mu(bool constrained) {
+  experiment::Experiment experiment = lamb();
+  for (auto& model : experiment.models)
+    if (model.name == "hgo")
+      for (const auto& [name, value] : {std::pair{"k1", 14.0034}, {"k2", 0.001}, {"theta", 47.3033}})
+        model.parameters[name].fixed = value;
+  experiment::RunEntry run = experiment.runs.front();
+  run.model = "hgo";
+  if (constrained) run.constraints.emplace_back().type = "transverse_stability";
+  return {experiment, run, testing::catalogue()};
+}
+
+TEST(ConstrainedProblem, GivesNoIntervalsWhereConstraintsLeaveNoDirection) {
+  const Assembly assembly = only_mu(true);
+  calibration::Identifiability found;
+  ASSERT_TRUE(calibration::identify(assembly, std::vector{15.2854}, found).ok());
+  EXPECT_TRUE(found.singular_values.empty());
+  EXPECT_TRUE(found.parameters[0].held);
+  EXPECT_FALSE(found.parameters[0].identified);
+  EXPECT_TRUE(std::isnan(found.parameters[0].ci95));
+  EXPECT_THAT(found.sentences(), ::testing::ElementsAre(HasSubstr("Constraints and bounds hold every parameter")));
+}
+
+TEST(ConstrainedProblem, LinearisesAnInfeasiblePointAsIfThereWereNoConstraint) {
+  const Assembly imposed = only_mu(true), unconstrained = only_mu(false);
+  const std::vector<double> at{2};
+  std::vector<double> c(imposed.constraint_count());
+  ASSERT_TRUE(imposed.constraints(at, c, {}).ok());
+  ASSERT_GT(*std::max_element(c.begin(), c.end()), 0.1);
+  calibration::Identifiability broken, all;
+  ASSERT_TRUE(calibration::identify(imposed, at, broken).ok());
+  ASSERT_TRUE(calibration::identify(unconstrained, at, all).ok());
+  EXPECT_EQ(broken.constrained, "");
+  EXPECT_EQ(broken.parameters[0].ci95, all.parameters[0].ci95);
 }
 
 TEST(AdmissibleParameters, AreImposedByTheModelsOwnInequalities) {

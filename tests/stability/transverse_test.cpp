@@ -93,7 +93,9 @@ TEST(TransverseStability, HgoLosesItForEveryObliqueAngle) {
   for (const double from_loading : {1.0, 10.0, 30.0, 45.0, 60.0, 80.0, 89.0}) {
     const auto verdict = judge(*hgo, std::vector<double>{10, 10, 1, from_loading}, 1, {}, 100);
     ASSERT_TRUE(verdict.first_unstable) << from_loading << ", checked to " << verdict.checked_to;
-    if (from_loading == 89) EXPECT_NEAR(*verdict.first_unstable, 57, 1.5);
+    if (from_loading == 89) {
+      EXPECT_NEAR(*verdict.first_unstable, 57, 1.5);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/SVD>
 
 #include "calibration/straightness.hpp"
@@ -34,15 +35,16 @@ Status whitened(const Assembly& assembly, std::span<const double> free, Matrix& 
   return {};
 }
 
-/// Gradients in the unit box of the constraints that hold with equality at the point, by at most `active_margin`.
-Status active_gradients(const Assembly& assembly, std::span<const double> free, Matrix& gradients,
-                        std::string& sentence) {
+/// Gradients in the unit box of the constraints that hold with equality at the point, to `active_margin`; none where
+/// one is broken. `where`: the tightest of them in words.
+Status active_gradients(const Assembly& assembly, std::span<const double> free, Matrix& gradients, std::string& where) {
   constexpr double active_margin = 1e-4;
   const std::size_t n = free.size(), count = assembly.constraint_count();
   gradients.resize(0, static_cast<Eigen::Index>(n));
   if (count == 0) return {};
   std::vector<double> values(count), jacobian(count * n);
   if (Status status = assembly.constraints(free, values, jacobian); !status.ok()) return status;
+  if (*std::max_element(values.begin(), values.end()) > active_margin) return {};
   std::size_t active = 0, tightest = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (values[i] < -active_margin) continue;
@@ -53,11 +55,7 @@ Status active_gradients(const Assembly& assembly, std::span<const double> free, 
       gradients(gradients.rows() - 1, static_cast<Eigen::Index>(j)) =
           jacobian[i * n + j] * unit_slope(assembly.parameters()[j], free[j]);
   }
-  if (active > 0)
-    sentence = fmt::format(
-        "A constraint holds the result, not the data: intervals are those along its border. Where it "
-        "touches: {}.",
-        assembly.constraint_words(tightest, values[tightest]));
+  if (active > 0) where = assembly.constraint_words(tightest, values[tightest]);
   return {};
 }
 
@@ -73,7 +71,8 @@ Matrix tangent_space(const Matrix& gradients) {
   return svd.matrixV().rightCols(n - rank);
 }
 
-/// Parameters inside their bounds, along active constraints, from the singular values of their columns.
+/// Parameters inside their bounds, along active constraints, from the singular values of their columns. Empty where
+/// that leaves no direction.
 Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector<bool>& at_bound, double weakest,
                      const Whitening& noise) {
   std::vector<Eigen::Index> position;
@@ -82,6 +81,7 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   }
   const Matrix tangent = tangent_space(active(Eigen::all, position));
   const Eigen::Index inside = tangent.cols();
+  if (inside == 0) return {Matrix::Zero(rows.cols(), 0), Vector(), Vector(), {}, 0};
   const Matrix inner = rows(Eigen::all, position) * tangent;
   const Eigen::JacobiSVD<Matrix> svd(inner, Eigen::ComputeFullV);
   Spectrum found;
@@ -100,6 +100,23 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   return found;
 }
 
+/// What active constraints do to the intervals.
+std::string constrained_in_words(bool all_held, const std::vector<ParameterInterval>& parameters,
+                                 const std::string& where) {
+  if (where.empty()) return "";
+  if (all_held)
+    return fmt::format(
+        "Constraints and bounds hold every parameter, so that the data have no say and there are no intervals. Where "
+        "a constraint touches: {}.",
+        where);
+  std::vector<std::string> held;
+  for (const ParameterInterval& parameter : parameters)
+    if (parameter.held) held.push_back(parameter.name);
+  return fmt::format(
+      "A constraint holds the result, not the data: intervals are those along its border{}. Where it touches: {}.",
+      held.empty() ? "" : fmt::format(", which leaves {} no room", fmt::join(held, ", ")), where);
+}
+
 /// Parameters whose interval fills the box although no direction by itself is weak: the direction that costs each of
 /// them most counts as weak, so that what is not fixed is said. Only these are left weak.
 Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
@@ -110,7 +127,7 @@ Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
     const bool said = std::any_of(found.valleys.begin(), found.valleys.end(), [&](const Valley& valley) {
       return std::find(valley.parameters.begin(), valley.parameters.end(), parameter.name) != valley.parameters.end();
     });
-    if (parameter.identified || parameter.at_bound || said) continue;
+    if (parameter.identified || parameter.at_bound || parameter.held || said) continue;
     Eigen::Index worst = 0;
     spectrum.V.row(static_cast<Eigen::Index>(j))
         .cwiseAbs2()
@@ -142,15 +159,21 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
 
   const double weakest = assembly.jacobian_is_exact() ? weakest_exact : weakest_differenced;
   Matrix active;
-  if (Status status = active_gradients(assembly, free, active, found.constrained); !status.ok()) return status;
+  std::string where;
+  if (Status status = active_gradients(assembly, free, active, where); !status.ok()) return status;
   const Spectrum spectrum = spectrum_of(rows, active, at_bound, weakest, noise);
+  for (std::size_t j = 0; j < n; ++j)
+    found.parameters[j].held =
+        !at_bound[j] && spectrum.V.row(static_cast<Eigen::Index>(j)).squaredNorm() < moved * moved;
+  found.constrained = constrained_in_words(spectrum.V.cols() == 0, found.parameters, where);
+  if (spectrum.V.cols() == 0) return {};
   found.singular_values.assign(spectrum.values.begin(), spectrum.values.end());
   const Matrix flat = spectrum.projector(Seen::not_at_all);
   Straightness straightness(assembly, noise, free);
   for (std::size_t j = 0; j < n; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     const double half_width = spectrum.half_width(Vector::Unit(flat.rows(), at));
-    if (at_bound[j] || flat(at, at) >= moved * moved || half_width > widest) continue;
+    if (at_bound[j] || found.parameters[j].held || flat(at, at) >= moved * moved || half_width > widest) continue;
     found.parameters[j].identified = true;
     found.parameters[j].straight = active.rows() > 0 || straightness.holds(at, half_width, spectrum.quantile);
     found.parameters[j].ci95 = half_width * unit_slope(parameters[j], free[j]);

@@ -21,6 +21,7 @@ struct ParameterInterval {
   double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
   bool straight = true;   ///< the linearised interval can be believed, see straightness.hpp; else a profile is better
   bool at_bound = false;  ///< within 1e-6 of the range
+  bool held = false;      ///< active constraints leave it no room: what its value is worth is not for the data to say
   bool identified = false;
 };
 
@@ -65,6 +66,9 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 /// the box. Parameters at a bound leave the computation, directions across active constraints (c > −1e-4) and channels
 /// of weight 0 too. Weak directions that share parameters form a valley; of the model's combinations those are named as
 /// fixed whose gradient is orthogonal to all of them (to 1e-3) and that have an argument in it.
+///
+/// Where bounds and active constraints leave no direction there is nothing to compute: no interval, and a sentence. A
+/// point that breaks a constraint (c > 1e-4) lies on no border; it is linearised as if there were none.
 ///
 /// Returns failed when the point cannot be evaluated or has no fitted rows.
 Status identify(const Assembly& assembly, std::span<const double> free, Identifiability& found);

@@ -28,6 +28,10 @@ void evaluate_again(const calibration::Assembly& assembly, const execution::Real
         fmt::format("{}: the best point could not be evaluated again: {}", summary.label, summary.status.reason()));
     return;
   }
+  if (summary.status.kind() == Status::Kind::infeasible && assembly.has_costly_tests()) {
+    summary.objective = objective;  // the search may have left them out
+    return;
+  }
   if (std::abs(objective - best.best.objective) > 1e-9 * std::abs(best.best.objective) + 1e-12)
     warnings.push_back(
         fmt::format("{}: the best point gives the objective {} where the search recorded {}: model or test do "
@@ -69,6 +73,7 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
     auto& estimate = summary.parameters[j];
     const auto& interval = found.parameters[j];
     estimate.identified = interval.identified;
+    estimate.held = interval.held;
     estimate.straight = interval.straight;
     if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }

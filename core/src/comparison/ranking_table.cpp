@@ -145,7 +145,8 @@ std::string value_text(const Estimate& estimate) {
   } else if (estimate.at_bound != Estimate::Bound::none) {
     text += unit_text(estimate.unit);
   } else {
-    text += unit_text(estimate.unit) + (estimate.identified ? "" : "  (not fixed by the data)");
+    text += unit_text(estimate.unit);
+    if (!estimate.identified) text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
   }
   if (estimate.at_bound != Estimate::Bound::none)
     text += fmt::format("  <- AT ITS {} BOUND", estimate.at_bound == Estimate::Bound::upper ? "UPPER" : "LOWER");
