@@ -118,7 +118,8 @@ class WrappedModel : public Model {
 
 class Curve : public Test {
  public:
-  explicit Curve(const TestSetup& setup) {
+  explicit Curve(const TestSetup& setup, bool costly = false) {
+    description_.costly = costly;
     x_.assign(setup.rows.abscissae.front().values.begin(), setup.rows.abscissae.front().values.end());
     rows_.count = setup.rows.count;
     rows_.abscissae = {{"x", x_}};
@@ -236,14 +237,14 @@ void register_all(plugins::Catalogue::Stage& stage) {
   stage.add(ModelFactory{"valley", "", "", {}, valley});
   stage.add(ModelFactory{
       "broken", "", "", {}, [](const Options&) -> std::unique_ptr<Model> { throw InputError("no such luck"); }});
-  stage.add(TestFactory{"curve",
-                        "",
-                        "",
-                        {},
-                        {{"x", "1", Observable::Role::abscissa, true, "position"},
-                         {"y", "kPa", Observable::Role::channel, true, "height"},
-                         {"z", "kPa", Observable::Role::channel, false, "ten times the height"}},
-                        [](const TestSetup& setup) { return std::make_unique<Curve>(setup); }});
+  const std::vector<Observable> observables = {{"x", "1", Observable::Role::abscissa, true, "position"},
+                                               {"y", "kPa", Observable::Role::channel, true, "height"},
+                                               {"z", "kPa", Observable::Role::channel, false, "ten times the height"}};
+  stage.add(TestFactory{
+      "curve", "", "", {}, observables, [](const TestSetup& setup) { return std::make_unique<Curve>(setup); }});
+  stage.add(TestFactory{"costly_curve", "", "", {}, observables, [](const TestSetup& setup) {
+                          return std::make_unique<Curve>(setup, true);
+                        }});
   add_model_mechanism(stage, "cubic", Stage::energy, {"beta", "kPa", 0, -1, 1, Scale::linear, "cubic term", ""},
                       WrappedModel::Kind::cubic);
   add_model_mechanism(stage, "doubling", Stage::stress, {"factor", "1", 1, 0, 4, Scale::linear, "factor", ""},

@@ -17,7 +17,8 @@
 ///   bordered   the same with the inequality a − b ≥ −1; jagged: with one that has no derivative
 ///   valley     S = (2p + q) x + r x², which no data can take apart into p and q; declares 2p + q
 ///
-/// The fake test "curve" predicts y = gain S(x) + tilt x and, if mapped, z = 10 y; tilt is a native imperfection.
+/// The fake test "curve" predicts y = gain S(x) + tilt x and, if mapped, z = 10 y; tilt is a native imperfection;
+/// "costly_curve" says of itself that it is costly.
 /// Mechanisms: cubic (energy, S + beta x³), doubling (stress, S·factor), memory (history, without derivatives),
 /// offset (test, y + value), scale_error (data, y·(1 + value)), strip_only (test, applies to "strip" alone).
 namespace tunica::fakes {

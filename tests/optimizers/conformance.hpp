@@ -165,6 +165,14 @@ TEST_P(OptimizerConformance, ReachesAnOptimumOnTheBoundaryOfWhatIsFeasible) {
   }
 }
 
+TEST_P(OptimizerConformance, IsNotMisledByObjectivesOfInfeasiblePointsThatLackCostlyTests) {
+  if (make()->needs().infeasible) GTEST_SKIP() << "needs them in full and says so";
+  FunctionProblem problem(hock_schittkowski_65(), {.budget = GetParam().budget, .partial = true});
+  run(problem);
+  ASSERT_FALSE(problem.best_point.empty()) << "no feasible point was found";
+  EXPECT_LE(problem.best, hock_schittkowski_65().optimum * (1 + GetParam().boundary));
+}
+
 TEST_P(OptimizerConformance, SaysSoWhereNothingIsFeasible) {
   FunctionProblem problem(nothing_feasible(), {.budget = 20000});
   const auto outcome = run(problem);

@@ -39,7 +39,8 @@ class Problem {
   [[nodiscard]] virtual std::size_t residual_count() const = 0;
   [[nodiscard]] virtual std::size_t constraint_count() const = 0;  ///< inequality constraints c(x) ≤ 0
 
-  /// One evaluation. `objective` is set unless the status is failed.
+  /// One evaluation. `objective` is set unless the status is failed; where a constraint is broken it may lack costly
+  /// tests, and then compares with that of other such points only (Optimizer::Needs::infeasible).
   virtual Status evaluate(std::span<const double> x, double& objective) = 0;
   /// k evaluations side by side: xs is k·n, one point a row; objectives and statuses have k entries.
   virtual void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) = 0;
@@ -74,6 +75,9 @@ class Optimizer {
     bool constraints = false;  ///< meets constraint_count() > 0; else a run with constraints is refused
     bool batch = false;        ///< uses evaluate_batch
     bool random = false;       ///< results depend on the seed
+    /// Compares or combines objectives of feasible and infeasible points (augmented Lagrangian, stochastic ranking).
+    /// Without it evaluate() leaves out costly tests where a constraint is broken; linearise() never does.
+    bool infeasible = false;
   };
   struct Outcome {
     bool converged = false;

@@ -50,6 +50,9 @@ struct TestDescription {
   /// A strip with free lateral faces, pulled along this material axis (0 = circumferential, 1 = axial) to the values of
   /// its abscissa "stretch": there the host can ask for transverse stability.
   std::optional<std::size_t> free_strip_axis = {};
+  /// Not worth simulating where cheaper tests fail or a constraint is broken (finite elements): the host does it last,
+  /// and at a point that breaks a constraint only for an optimiser that needs it there, see Optimizer::Needs.
+  bool costly = false;
 };
 
 struct TestInput {

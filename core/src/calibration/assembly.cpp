@@ -165,6 +165,7 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
     test.rows = dataset.count, test.channels = dataset.channels.size(), test.offset = parts.prediction_count;
     test.own = std::move(binding.owners[t + 1]);
     test.differenced = !parts.model->describe().parameter_derivatives;
+    test.costly = test.test->describe().costly;
     chain(test, parts.model_parameters, parts.free.size());
     const auto& observables = catalogue.tests().at(entry.type).factory.observables;
     add_stretches(*test.test, observables, entry.name, parts.strips, parts.largest_stretch);
@@ -248,6 +249,11 @@ std::vector<double> Assembly::model_parameters(std::span<const double> free) con
 bool Assembly::jacobian_is_exact() const {
   return std::none_of(parts_->tests.begin(), parts_->tests.end(),
                       [](const BoundTest& test) { return test.differenced; });
+}
+
+bool Assembly::has_costly_tests() const {
+  return std::any_of(parts_->fitted.begin(), parts_->fitted.end(),
+                     [&](const FittedChannel& channel) { return parts_->tests[channel.test].costly; });
 }
 
 Assembly::WorkspacePointer Assembly::make_workspace() const { return WorkspacePointer(new Workspace(*parts_)); }

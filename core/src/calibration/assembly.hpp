@@ -70,6 +70,7 @@ class Assembly {
   /// Known invariances of the model, arguments as indices into parameters(); value() takes the free values.
   [[nodiscard]] const std::vector<Combination>& combinations() const;
   [[nodiscard]] bool jacobian_is_exact() const;  ///< false: some test's predictions are differenced
+  [[nodiscard]] bool has_costly_tests() const;   ///< some fitted test declares itself costly
 
   [[nodiscard]] WorkspacePointer make_workspace() const;
 
@@ -85,8 +86,13 @@ class Assembly {
   /// Objective, per-test cost (one per test of the run, holding out excluded) and, unless empty, residuals and their
   /// Jacobian by the free parameters, row-major. Never NaN under ok. Infeasible, with all of these set, where a
   /// constraint exceeds Problem::constraint_tolerance; the reason names the one that is broken most.
+  ///
+  /// Cheap tests come first, then the constraints, costly tests last (Canales et al. 2023, Figure 7). With
+  /// `skip_costly` and no residuals asked for, an infeasible point is not simulated in costly tests: their per_test is
+  /// NaN and the objective that of the others.
   Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
-                  std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const;
+                  std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
+                  bool skip_costly = false) const;
 
   /// From now on evaluate() in this workspace compares with these values, in the layout of the predictions, instead of
   /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.

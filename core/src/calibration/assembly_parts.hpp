@@ -23,6 +23,7 @@ struct BoundTest {
   std::size_t offset = 0;    ///< of its rows among all predictions, channel after channel
   Bound own;                 ///< the test's parameter vector
   bool differenced = false;  ///< the host takes differences of whole predictions
+  bool costly = false;       ///< simulated last
 
   // The chain rule from slots (model parameters, then the test's) to free parameters. A test's Jacobian holds one row
   // of values per slot; rows of slots that share a free parameter are summed into the first of them.
@@ -74,6 +75,14 @@ struct Assembly::Parts {
   /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
   Status difference(const BoundTest& test, std::span<const double> at, std::span<const double> values,
                     Workspace& workspace) const;
+  /// Where one evaluation writes; empty = not wanted.
+  struct Wanted {
+    std::span<double> per_test, residuals, jacobian;
+  };
+  /// Adds what the tests cost that are costly, or those that are not, one after the other.
+  Status add_costs(bool costly, std::span<const double> at, double& total, const Wanted& wanted,
+                   Workspace& workspace) const;
+  void add_priors(std::span<const double> at, double& total, const Wanted& wanted) const;
   /// Infeasible where a constraint is broken by more than the tolerance.
   Status feasibility(std::span<const double> at, Workspace& workspace) const;
   /// Where among a test's values something lies: "channel 'stress', row 12 (stretch 1.8)".

@@ -79,6 +79,7 @@ class CalibrationProblem : public Problem {
     std::function<bool()> interrupted = {};  ///< Ctrl-C; called from any thread
     std::uint64_t first_index = 0;           ///< of a later stage
     double elapsed_before = 0;               ///< s, counted against max_time
+    bool skip_costly = false;                ///< at infeasible points, see Assembly::evaluate
   };
   CalibrationProblem(const Assembly& assembly, Settings settings);
   ~CalibrationProblem() override;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -141,45 +142,70 @@ Status Assembly::predict(std::span<const double> free, std::span<double> predict
   return {};
 }
 
-Status Assembly::evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
-                          std::span<double> residuals, std::span<double> jacobian, Workspace& workspace) const {
-  const std::size_t n = parts_->free.size();
-  double total = 0;
-  auto channel = parts_->fitted.begin();  // sorted by test
-  for (std::size_t t = 0; t < parts_->tests.size(); ++t) {
-    const BoundTest& test = parts_->tests[t];
+Status Assembly::Parts::add_costs(bool costly, std::span<const double> at, double& total, const Wanted& wanted,
+                                  Workspace& workspace) const {
+  const std::size_t n = free.size();
+  auto channel = fitted.begin();  // sorted by test
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const BoundTest& test = tests[t];
+    const auto behind =
+        std::find_if(channel, fitted.end(), [t](const FittedChannel& candidate) { return candidate.test != t; });
+    if (test.costly != costly) {
+      channel = behind;
+      continue;
+    }
     double cost = 0;
-    const bool scored = channel != parts_->fitted.end() && channel->test == t;
-    if (scored) {
+    if (channel != behind) {
       const auto values = std::span(workspace.predictions).subspan(test.offset, test.size());
-      if (Status status = parts_->predict(test, free, values, !jacobian.empty(), workspace); !status.ok())
-        return status;
+      if (Status status = predict(test, at, values, !wanted.jacobian.empty(), workspace); !status.ok()) return status;
     }
-    for (; channel != parts_->fitted.end() && channel->test == t; ++channel) {
-      const auto number = static_cast<std::size_t>(channel - parts_->fitted.begin());
+    for (; channel != behind; ++channel) {
+      const auto number = static_cast<std::size_t>(channel - fitted.begin());
       cost += channel_cost(*channel, workspace.measured.empty() ? channel->measured : workspace.measured[number],
-                           workspace.predictions, residuals);
-      if (jacobian.empty()) continue;
-      write_rows(*channel, test, workspace.jacobian.data(), &jacobian[channel->block.offset * n], n);
+                           workspace.predictions, wanted.residuals);
+      if (wanted.jacobian.empty()) continue;
+      write_rows(*channel, test, workspace.jacobian.data(), &wanted.jacobian[channel->block.offset * n], n);
     }
-    if (!per_test.empty()) per_test[t] = cost;
+    if (!wanted.per_test.empty()) wanted.per_test[t] = cost;
     total += cost;
   }
-  std::size_t at = parts_->residual_count - parts_->priors.size();
-  for (const PriorRow& prior : parts_->priors) {
-    const double residual = (free[prior.index] - prior.mean) / prior.sd;
+  return {};
+}
+
+void Assembly::Parts::add_priors(std::span<const double> at, double& total, const Wanted& wanted) const {
+  const std::size_t n = free.size();
+  std::size_t row = residual_count - priors.size();
+  for (const PriorRow& prior : priors) {
+    const double residual = (at[prior.index] - prior.mean) / prior.sd;
     total += residual * residual;
-    if (!residuals.empty()) residuals[at] = residual;
-    if (!jacobian.empty()) {
-      std::fill_n(&jacobian[at * n], n, 0.0);
-      jacobian[at * n + prior.index] = 1 / prior.sd;
+    if (!wanted.residuals.empty()) wanted.residuals[row] = residual;
+    if (!wanted.jacobian.empty()) {
+      std::fill_n(&wanted.jacobian[row * n], n, 0.0);
+      wanted.jacobian[row * n + prior.index] = 1 / prior.sd;
     }
-    ++at;
+    ++row;
   }
+}
+
+Status Assembly::evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
+                          std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
+                          bool skip_costly) const {
+  const Parts::Wanted wanted{per_test, residuals, jacobian};
+  double total = 0;
+  if (Status status = parts_->add_costs(false, free, total, wanted, workspace); !status.ok()) return status;
+  Status verdict = parts_->constraints.empty() ? Status() : parts_->feasibility(free, workspace);
+  if (verdict.kind() == Status::Kind::failed) return verdict;
+  if (verdict.ok() || !skip_costly || !residuals.empty()) {
+    if (Status status = parts_->add_costs(true, free, total, wanted, workspace); !status.ok()) return status;
+  } else if (!per_test.empty()) {
+    for (std::size_t t = 0; t < parts_->tests.size(); ++t)
+      if (parts_->tests[t].costly) per_test[t] = std::numeric_limits<double>::quiet_NaN();
+  }
+  parts_->add_priors(free, total, wanted);
   if (!std::isfinite(total))
     return Status::failed("the objective overflows: predictions are finite, their squares are not");
   objective = total;
-  return parts_->constraints.empty() ? Status() : parts_->feasibility(free, workspace);
+  return verdict;
 }
 
 void Assembly::measure(std::span<const double> values, Workspace& workspace) const {

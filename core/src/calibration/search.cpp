@@ -137,9 +137,10 @@ Status Search::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   if (Status status = check_point(x); !status.ok()) return status;
   const auto evaluate = [&](std::span<const double> point) {
     common_.assembly.from_unit(point, free);
-    return common_.assembly.evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace);
+    return common_.assembly.evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace,
+                                     common_.settings.skip_costly);
   };
-  Status status = common_.assembly.evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace);
+  Status status = evaluate(x);
   if (status.kind() == Status::Kind::failed && common_.settings.on_failure == experiment::OnFailure::retry) {
     if (const auto good = good_.nearest(x); !good.empty()) {
       status = continue_to(good, x, std::move(status), evaluate);

@@ -71,8 +71,9 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
       settings.start.resize(result.best.parameters.size());
       run.assembly->to_unit(result.best.parameters, settings.start);
     }
-    calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
+    settings.skip_costly = !optimizer->needs().infeasible;
+    calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
     const auto outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
 
     add(result.tally, problem.tally());

@@ -19,7 +19,7 @@ class MultiStart : public Optimizer {
 
  private:
   Settings settings_;
-  Needs needs_{.residuals = true, .gradient = true, .constraints = true, .random = true};
+  Needs needs_{.residuals = true, .gradient = true, .constraints = true, .random = true, .infeasible = true};
 };
 
 }  // namespace tunica::ceres_lm

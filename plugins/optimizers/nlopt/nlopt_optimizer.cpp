@@ -43,7 +43,11 @@ bool random_numbers(const Settings& settings) {
 NloptOptimizer::NloptOptimizer(const Settings& settings) : settings_(settings) {
   const Algorithm algorithm = settings.algorithm;
   const bool gradient = uses_gradient(algorithm == Algorithm::mlsl ? settings.local : algorithm);
-  needs_ = {.residuals = gradient, .gradient = gradient, .constraints = true, .random = random_numbers(settings)};
+  needs_ = {.residuals = gradient,
+            .gradient = gradient,
+            .constraints = true,
+            .random = random_numbers(settings),
+            .infeasible = algorithm != Algorithm::crs2_lm};
 }
 
 Optimizer::Outcome NloptOptimizer::minimise(Problem& problem) {
