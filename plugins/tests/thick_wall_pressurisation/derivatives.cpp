@@ -164,7 +164,7 @@ Status differentiate(const Tube& tube, const Wall& wall, const SectorDerivative&
   }
   if (!all_finite(jacobian) || !all_finite(abscissa_derivative))
     return Status::failed("thick_wall_pressurisation: a derivative overflows, within " +
-                          row_name(n - 1, solution.rows[n - 1].pressure, solution.rows[n - 1].axial_stretch));
+                          TubeRows::row_name(n - 1, solution.rows[n - 1].pressure, solution.rows[n - 1].axial_stretch));
   return {};
 }
 

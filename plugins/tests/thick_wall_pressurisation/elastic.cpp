@@ -85,7 +85,7 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
     rows[i].y = start[i];
     if (!rescue(rows[i], sections, wall))
       return Status::failed("thick_wall_pressurisation: Newton's method finds no equilibrium at " +
-                            row_name(i, rows[i].pressure, rows[i].axial_stretch));
+                            TubeRows::row_name(i, rows[i].pressure, rows[i].axial_stretch));
   }
   Status status = evaluate(rows, false, sections, wall);
   note_error(rows, sections, error);
@@ -118,14 +118,14 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
     const double support_free = supported ? outer_radius(wall, free.y, lz) : 0;
     if (status.ok()) status = path.follow(at, lz, p, support_free);
     if (!status.ok())
-      return Status::failed(
-          fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}", row_name(i, p, lz), status.reason()));
+      return Status::failed(fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}",
+                                        TubeRows::row_name(i, p, lz), status.reason()));
     solution.rows.push_back({.axial_stretch = lz, .pressure = p, .y = at.y});
     solution.rows.back().free_row = solution.free_rows.size() - 1;
   }
   if (!status.ok())
     return Status::failed(fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}",
-                                      row_name(0, pressure[0], axial_stretch[0]), status.reason()));
+                                      TubeRows::row_name(0, pressure[0], axial_stretch[0]), status.reason()));
   if (want_free_rows || supported) {
     if (status = polish(solution.free_rows, sections, wall, solution.error); !status.ok()) return status;
     for (Row& row : solution.rows) {
@@ -158,20 +158,7 @@ double channel_value(Channel channel, const Wall& wall, const Row& row) {
 
 Status prescribed(const Tube& tube, const TestInput& input, std::vector<double>& pressure,
                   std::vector<double>& axial_stretch) {
-  const auto column = [&](std::size_t k) {
-    return input.abscissae.empty() ? std::span<const double>(tube.columns[k]) : input.abscissae[k];
-  };
-  const std::span<const double> p = column(tube.pressure_column);
-  pressure.assign(p.begin(), p.end());
-  axial_stretch.assign(p.size(), tube.axial_stretch);
-  if (tube.stretch_varies) std::copy_n(column(tube.stretch_column).begin(), p.size(), axial_stretch.begin());
-  const double error = input.test_parameters[axial_stretch_error];
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (error != 0) axial_stretch[i] += error;
-    if (!(axial_stretch[i] > 0 && std::isfinite(axial_stretch[i]) && std::isfinite(p[i])))
-      return Status::failed("thick_wall_pressurisation: no such tube at " + row_name(i, p[i], axial_stretch[i]));
-  }
-  return {};
+  return tube.prescribed(input, input.test_parameters[axial_stretch_error], pressure, axial_stretch);
 }
 
 Status write_rows(const Tube& tube, const Wall& wall, std::span<const Row> rows, const TestOutput& output) {
@@ -181,7 +168,7 @@ Status write_rows(const Tube& tube, const Wall& wall, std::span<const Row> rows,
     const double F = channel_value(Channel::axial_force, wall, row);
     if (!std::isfinite(F) || !std::isfinite(row.y + row.step))
       return Status::failed("thick_wall_pressurisation: the stress overflows at " +
-                            row_name(i, row.pressure, row.axial_stretch));
+                            TubeRows::row_name(i, row.pressure, row.axial_stretch));
     for (std::size_t k = 0; k < tube.channels.size() && !output.values.empty(); ++k)
       output.values[k * n + i] =
           tube.channels[k] == Channel::axial_force ? F : channel_value(tube.channels[k], wall, row);

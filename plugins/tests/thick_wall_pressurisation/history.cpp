@@ -57,7 +57,7 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
       free.axial_stretch = row.axial_stretch;
       if (!solve(free, {}, sections, wall))
         return Status::failed("thick_wall_pressurisation: no equilibrium without pressure at " +
-                              row_name(i, row.pressure, row.axial_stretch));
+                              TubeRows::row_name(i, row.pressure, row.axial_stretch));
       row.support_free = outer_radius(wall, free.y, free.axial_stretch);
     }
     double step = 0;
@@ -67,7 +67,7 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
         {time_step.data(), tube.time.empty() ? 0 : points}, {old_state.data(), i > 0 ? history : 0}, new_state};
     if (!solve(row, memory, sections, wall))
       return Status::failed("thick_wall_pressurisation: no equilibrium at " +
-                            row_name(i, row.pressure, row.axial_stretch) +
+                            TubeRows::row_name(i, row.pressure, row.axial_stretch) +
                             ": the energy overflows, or the pressure stops rising (limit pressure)");
     std::swap(old_state, new_state);
     y = row.y;

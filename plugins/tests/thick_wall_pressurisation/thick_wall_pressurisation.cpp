@@ -46,11 +46,30 @@ class ThickWallPressurisation final : public Test {
   TestDescription description_;
 };
 
-using Role = Observable::Role;
-using Kind = Observable::Kind;
-
-Option radius(const char* name, const char* doc) {
-  return {.name = name, .kind = Option::Kind::quantity, .fallback = 0.0, .doc = doc, .unit = "mm", .min = 0.0};
+std::vector<Option> options() {
+  std::vector<Option> all = tube_options();
+  const std::vector<Option> own = {
+      {.name = "sector",
+       .kind = Option::Kind::choice,
+       .fallback = std::string("equilibrium"),
+       .doc = "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
+              "equilibrium at its measured outer radius, or that the sector is as thick as the wall.",
+       .choices = {"equilibrium", "same_thickness"}},
+      {.name = "layer_interface",
+       .kind = Option::Kind::number,
+       .fallback = 0.5,
+       .doc = "Where layer_ratio parts the wall: fraction of the thickness from inside.",
+       .min = 0.05,
+       .max = 0.95},
+      {.name = "gauss_points",
+       .kind = Option::Kind::integer,
+       .fallback = std::int64_t{0},
+       .doc = "Gauss points in each of the two layers, and in each piece into which fibre switches cut them; 0 takes "
+              "as many as the estimated error asks for (12 for a model with history).",
+       .min = 0,
+       .max = 150}};
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
 }
 
 TestFactory factory() {
@@ -58,45 +77,8 @@ TestFactory factory() {
       "thick_wall_pressurisation",
       "A long tube under inner pressure at prescribed axial stretch, its thick wall integrated semi-analytically.",
       "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000), section 3",
-      {radius("inner_radius", "Inner radius of the unloaded tube; two of the three lengths are given."),
-       radius("outer_radius", "Outer radius of the unloaded tube."),
-       radius("thickness", "Wall thickness of the unloaded tube."),
-       {.name = "axial_stretch",
-        .kind = Option::Kind::number,
-        .fallback = 0.0,
-        .doc = "Axial stretch that is held; left out where a column is mapped to axial_stretch.",
-        .min = 0.0,
-        .max = 10.0},
-       {.name = "sector",
-        .kind = Option::Kind::choice,
-        .fallback = std::string("equilibrium"),
-        .doc = "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
-               "equilibrium at its measured outer radius, or that the sector is as thick as the wall.",
-        .choices = {"equilibrium", "same_thickness"}},
-       {.name = "layer_interface",
-        .kind = Option::Kind::number,
-        .fallback = 0.5,
-        .doc = "Where layer_ratio parts the wall: fraction of the thickness from inside.",
-        .min = 0.05,
-        .max = 0.95},
-       {.name = "gauss_points",
-        .kind = Option::Kind::integer,
-        .fallback = std::int64_t{0},
-        .doc = "Gauss points in each of the two layers, and in each piece into which fibre switches cut them; 0 takes "
-               "as many as the estimated error asks for (12 for a model with history).",
-        .min = 0,
-        .max = 150}},
-      {{"pressure", "kPa", Role::abscissa, true, "Inner pressure.", Kind::plain},
-       {"axial_stretch", "1", Role::abscissa, false, "Axial stretch, where it varies along the rows.", Kind::stretch},
-       {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
-       {"outer_diameter", "mm", Role::channel, false, "Outer diameter.", Kind::plain},
-       {"inner_diameter", "mm", Role::channel, false, "Inner diameter.", Kind::plain},
-       {"outer_diameter_stretch", "1", Role::channel, false, "Outer diameter over that of the unloaded tube.",
-        Kind::stretch},
-       {"inner_diameter_stretch", "1", Role::channel, false, "Inner diameter over that of the unloaded tube.",
-        Kind::stretch},
-       {"axial_force", "mN", Role::channel, false,
-        "Reduced axial force: what holds the tube beside the pressure on its closed ends.", Kind::plain}},
+      options(),
+      tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<ThickWallPressurisation>(setup); },
       own_parameters()};
 }

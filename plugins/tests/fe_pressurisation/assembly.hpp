@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "banded.hpp"
+#include "material.hpp"
+#include "mesh.hpp"
+
+namespace tunica::fe {
+
+/// Positions r, z of every node (2 · node, 2 · node + 1) in mm, and the pressure modes of every element in kPa.
+struct State {
+  std::vector<double> x, q;
+};
+
+/// The system of one Newton step at a state, before anything is prescribed, all divided by 2π.
+struct System {
+  std::vector<double> force;     ///< ∂Π/∂x; zero at the free nodes in equilibrium
+  std::vector<double> right;     ///< −force − γ G M⁻¹ c, condensed
+  std::vector<double> volume;    ///< ∂V/∂x, V the lumen
+  std::vector<double> coupling;  ///< G: element · modes · 2 nodes
+  std::vector<double> dilation;  ///< c = ∫ (J − 1) ψ dV, element · modes
+  Banded matrix;                 ///< ∂²Π/∂x² + γ G M⁻¹ Gᵀ
+  double gamma = 0;              ///< kPa
+  double largest_dilation = 0;   ///< max |c| over the element's volume
+  double stiffness = 0;          ///< the largest diagonal entry of ∂²w/∂F², kPa
+};
+
+/// The discrete potential of a tube, half its length by symmetry,
+///
+///   Π(x, q) = ∫ [W(C) − q (J − 1)] dV − P V(x),   dV = R dR dZ  (times 2π),
+///
+/// total Lagrangian, x the positions in the loaded state and q a hydrostatic pressure without any bulk modulus: J = 1
+/// holds exactly in the mean of every pressure mode. V = ∫ ½ r² dz is the lumen over 2π; since the ends keep their z,
+/// −P V is the potential of the following pressure, and the tangent is symmetric. Newton's method solves
+///
+///   | K   −G   | |dx|   |−∂Π/∂x|
+///   | −Gᵀ −M/γ | |dq| = |  c   |     so that  dq = −γ M⁻¹ (c + Gᵀ dx),  (K + γ G M⁻¹ Gᵀ) dx = −∂Π/∂x − γ G M⁻¹ c.
+///
+/// M/γ stands in the matrix alone: the state it converges to is incompressible for any γ. Elements are worked through
+/// by rows along R, one lane an element.
+class Assembly {
+ public:
+  virtual ~Assembly() = default;
+  /// Fills `system`. Without `tangent` matrix and coupling stay those of the last tangent, with which `right` is
+  /// condensed: G of another state times γ would swamp it. `gamma` has to stay, too. Fails where a point cannot be
+  /// evaluated.
+  virtual Status assemble(const Material& material, const State& state, double pressure, bool tangent,
+                          System& system) = 0;
+  /// ∂force/∂p_j at a fixed state for every material parameter: 2 nodes each.
+  virtual Status by_parameters(const Material& material, const State& state, std::span<double> forces) = 0;
+  /// dq for a solved dx; `with_dilation` includes −γ M⁻¹ c.
+  virtual void pressures(const System& system, std::span<const double> dx, bool with_dilation,
+                         std::span<double> dq) const = 0;
+  /// Volume of the lumen (mm³) and energy of the wall (kPa mm³ = µJ) of half the tube.
+  virtual Status energies(const Material& material, const State& state, double& lumen, double& stored) = 0;
+  [[nodiscard]] virtual std::size_t pressure_count() const = 0;
+
+  static std::unique_ptr<Assembly> make(const Mesh& mesh);
+};
+
+}  // namespace tunica::fe

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "banded.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tunica::fe {
+
+void Banded::multiply(std::span<const double> x, std::span<double> y) const {
+  std::fill(y.begin(), y.end(), 0.0);
+  for (std::size_t j = 0; j < size_; ++j) {
+    const double* const a = column(j);
+    const std::size_t m = std::min(width_, size_ - 1 - j);
+    double sum = a[0] * x[j];
+    for (std::size_t i = 1; i <= m; ++i) sum += a[i] * x[j + i];
+    y[j] += sum;
+    for (std::size_t i = 1; i <= m; ++i) y[j + i] += a[i] * x[j];
+  }
+}
+
+void Banded::fix(std::size_t i, double diagonal) {
+  std::fill_n(column(i), width_ + 1, 0.0);
+  for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) a_[j * stride_ + i - j] = 0;
+  *column(i) = diagonal;
+}
+
+std::size_t Banded::factorise() {
+  std::size_t negative = 0;
+  // Entries of column j beyond the band are zero up to the stride, so that a block of columns has equal lengths.
+  for (std::size_t j = 0; j < size_; j += block) {
+    double* __restrict__ const l0 = column(j);
+    double* __restrict__ const l1 = column(j + 1);
+    double* __restrict__ const l2 = column(j + 2);
+    double* __restrict__ const l3 = column(j + 3);
+    double d[block];
+    double* const panel[block] = {l0, l1, l2, l3};
+    for (std::size_t q = 0; q < block; ++q) {
+      double* const l = panel[q];
+      for (std::size_t p = 0; p < q; ++p) {
+        const double w = d[p] * panel[p][q - p];
+        const double* const other = panel[p] + (q - p);
+        for (std::size_t i = 0; i <= width_ - (q - p); ++i) l[i] -= w * other[i];
+      }
+      d[q] = j + q < size_ ? l[0] : 1;
+      negative += d[q] < 0;
+      const double inverse = 1 / d[q];
+      for (std::size_t i = 1; i <= width_; ++i) l[i] *= inverse;
+    }
+    const std::size_t last = std::min(j + block - 1 + width_, size_ - 1);
+    for (std::size_t c = j + block; c <= last; ++c) {
+      const std::size_t at = c - j;
+      const double w0 = d[0] * l0[at], w1 = d[1] * l1[at - 1], w2 = d[2] * l2[at - 2], w3 = d[3] * l3[at - 3];
+      double* __restrict__ const a = column(c);
+      const double* __restrict__ const p0 = l0 + at;
+      const double* __restrict__ const p1 = l1 + at - 1;
+      const double* __restrict__ const p2 = l2 + at - 2;
+      const double* __restrict__ const p3 = l3 + at - 3;
+      const std::size_t m = width_ + block - at;  // rows c … j + 3 + width
+      for (std::size_t i = 0; i < m; ++i) a[i] -= (w0 * p0[i] + w1 * p1[i]) + (w2 * p2[i] + w3 * p3[i]);
+    }
+  }
+  return negative;
+}
+
+void Banded::solve(std::span<double> x) const {
+  thread_local std::vector<double> padded;
+  padded.assign(size_ + width_ + block, 0.0);
+  std::copy(x.begin(), x.end(), padded.begin());
+  double* const y = padded.data();
+  for (std::size_t j = 0; j < size_; ++j) {
+    const double* const l = column(j);
+    const double v = y[j];
+    for (std::size_t i = 1; i <= width_; ++i) y[j + i] -= l[i] * v;
+  }
+  for (std::size_t j = 0; j < size_; ++j) y[j] /= *column(j);
+  for (std::size_t j = size_; j-- > 0;) {
+    const double* const l = column(j);
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    std::size_t i = 1;
+    for (; i + 3 <= width_; i += 4)
+      s0 += l[i] * y[j + i], s1 += l[i + 1] * y[j + i + 1], s2 += l[i + 2] * y[j + i + 2],
+          s3 += l[i + 3] * y[j + i + 3];
+    for (; i <= width_; ++i) s0 += l[i] * y[j + i];
+    y[j] -= (s0 + s1) + (s2 + s3);
+  }
+  std::copy_n(y, size_, x.begin());
+}
+
+}  // namespace tunica::fe

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "../tube_rows/tube_rows.hpp"
+#include "simulation.hpp"
+#include "tunica/plugin.hpp"
+
+namespace tunica::fe {
+namespace {
+
+enum Own : std::size_t { axial_stretch_error, thickness_error, own_count };
+
+/// "elements": [radial, axial over half the length], or null for the default of the element.
+void set_elements(const std::string& text, Tube& tube) {
+  const nlohmann::json given = nlohmann::json::parse(text, nullptr, false);
+  if (given.is_null()) {
+    if (tube.order == 2) tube.radial = 12, tube.axial = 25;
+    return;
+  }
+  const bool pair = given.is_array() && given.size() == 2 && given[0].is_number_unsigned() &&
+                    given[1].is_number_unsigned() && given[0] >= 1 && given[0] <= 200 && given[1] >= 2 &&
+                    given[1] <= 2000;
+  if (!pair)
+    throw InputError("fe_pressurisation: \"elements\" is " + text +
+                     "; give two numbers, [radial, axial over half the length], for example [25, 100]; at most "
+                     "[200, 2000]");
+  tube.radial = given[0], tube.axial = given[1];
+}
+
+/// A tube of finite length under inner pressure: see assembly.hpp for the discrete potential, solver.hpp for Newton's
+/// method, path.hpp for the loading, sensitivity.hpp for exact derivatives.
+class FePressurisation final : public Test {
+ public:
+  explicit FePressurisation(const TestSetup& setup) : tube_(setup, "fe_pressurisation") {
+    const Options& given = setup.options;
+    plan_.order = given.text("element") == "quadrilateral_4" ? 1 : 2;
+    set_elements(given.text("elements"), plan_);
+    plan_.inner = tube_.inner_radius, plan_.outer = tube_.outer_radius;
+    plan_.length = given.number("length"), plan_.grading = given.number("grading");
+    if (!(plan_.length > 0))
+      throw InputError(
+          "fe_pressurisation: \"length\" is 0; give the unloaded length between the ends, for example \"14 mm\"");
+    const std::string& ends = given.text("ends");
+    plan_.ends = ends == "clamped" ? Ends::clamped : ends == "sliding" ? Ends::sliding : Ends::clamped_after_stretch;
+    plan_.tolerance = given.number("tolerance"), plan_.time_limit = given.number("time_limit");
+    plan_.steps = static_cast<std::size_t>(given.integer("max_steps"));
+    if (!tube_.time.empty()) tube_.time.clear();  // elastic: time does not matter
+    description_.parameters = {axial_stretch_error_parameter(), thickness_error_parameter()};
+    description_.nulls = {0, 0};
+    description_.diagnostics = {"inner_radius_stretch"}, description_.diagnostic_units = {"1"};
+    description_.costly = true;
+    rows_.count = tube_.count();
+    for (std::size_t k = 0; k < tube_.columns.size(); ++k)
+      rows_.abscissae.push_back({tube_.names[k], tube_.columns[k]});
+    rows_.channels = setup.rows.channels;
+  }
+
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    const ModelDescription& model = input.model.describe();
+    if (model.history_size > 0)
+      return Status::failed(
+          "fe_pressurisation: a model with history cannot be simulated here yet; "
+          "thick_wall_pressurisation can, for sliding ends");
+    const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
+    if (derivatives && !model.parameter_derivatives)
+      return Status::failed("fe_pressurisation: the model has no parameter derivatives");
+    Tube plan = plan_;
+    plan.inner = plan.outer - (plan.outer - plan.inner) * (1 + input.test_parameters[thickness_error]);
+    if (!(plan.inner > 0 && plan.inner < plan.outer))
+      return Status::failed("fe_pressurisation: the thickness error leaves no wall or no lumen");
+    thread_local std::vector<double> pressure, stretch;
+    if (Status status = tube_.prescribed(input, input.test_parameters[axial_stretch_error], pressure, stretch);
+        !status.ok())
+      return status;
+    thread_local std::vector<Load> loads;
+    loads.resize(pressure.size());
+    for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = {stretch[i], pressure[i]};
+
+    thread_local std::unique_ptr<Simulation> simulation;  // its memory serves the next call
+    if (!simulation || simulation->tube() != plan) simulation = std::make_unique<Simulation>(plan);
+    thread_local std::vector<Sample> samples;
+    const Material material(input.model, input.model_parameters);
+    std::size_t failed_at = 0;
+    const Status status = simulation->run(material, loads, derivatives, samples, failed_at);
+    if (!status.ok())
+      return Status::failed(fmt::format("fe_pressurisation: not beyond {}: {}",
+                                        TubeRows::row_name(failed_at, pressure[failed_at], stretch[failed_at]),
+                                        status.reason()));
+    return write(plan, samples, input.model_parameters.size(), output);
+  }
+
+ private:
+  using Channel = TubeRows::Channel;
+
+  /// A channel, or its derivative, of what is observed.
+  static double channel(Channel channel, const Tube& plan, const Observed& at) {
+    switch (channel) {
+      case Channel::outer_diameter:
+        return 2 * at[0];
+      case Channel::inner_diameter:
+        return 2 * at[1];
+      case Channel::outer_diameter_stretch:
+        return at[0] / plan.outer;
+      case Channel::inner_diameter_stretch:
+        return at[1] / plan.inner;
+      case Channel::axial_force:
+        break;
+    }
+    return at[2];
+  }
+
+  Status write(const Tube& plan, const std::vector<Sample>& samples, std::size_t parameters,
+               const TestOutput& output) const {
+    const std::size_t n = samples.size(), size = n * tube_.channels.size();
+    for (std::size_t k = 0; k < tube_.channels.size(); ++k) {
+      const Channel what = tube_.channels[k];
+      for (std::size_t i = 0; i < n; ++i) {
+        const Sample& sample = samples[i];
+        if (!output.values.empty()) output.values[k * n + i] = channel(what, plan, sample.value);
+        if (!output.jacobian.empty()) {
+          for (std::size_t j = 0; j < parameters + own_count; ++j)
+            output.jacobian[j * size + k * n + i] = channel(what, plan, sample.by[j]);
+          // What is sampled is by the relative change of the true thickness.
+          output.jacobian[(parameters + thickness_error) * size + k * n + i] *=
+              (plan_.outer - plan_.inner) / (plan.outer - plan.inner);
+          // The unloaded inner radius changes with the thickness, too.
+          if (what == Channel::inner_diameter_stretch)
+            output.jacobian[(parameters + thickness_error) * size + k * n + i] +=
+                sample.value[1] / (plan.inner * plan.inner) * (plan_.outer - plan_.inner);
+        }
+        for (std::size_t a = 0; a < (output.abscissa_derivative.empty() ? 0 : tube_.columns.size()); ++a) {
+          const std::size_t direction = parameters + (a == tube_.pressure_column ? own_count : axial_stretch_error);
+          output.abscissa_derivative[a * size + k * n + i] = channel(what, plan, sample.by[direction]);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < (output.diagnostics.empty() ? 0 : n); ++i)
+      output.diagnostics[i] = samples[i].value[1] / plan.inner;
+    return {};
+  }
+
+  TubeRows tube_;
+  Tube plan_;
+  TestRows rows_;
+  TestDescription description_;
+};
+
+std::vector<Option> options() {
+  std::vector<Option> all = tube_options();
+  const std::vector<Option> own = {
+      {.name = "length",
+       .kind = Option::Kind::quantity,
+       .fallback = {},
+       .doc = "Unloaded length between the ends.",
+       .unit = "mm",
+       .min = 0.0},
+      {.name = "ends",
+       .kind = Option::Kind::choice,
+       .fallback = std::string("clamped"),
+       .doc =
+           "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
+           "not at all (sliding: then the tube is a long one).",
+       .choices = {"clamped", "clamped_after_stretch", "sliding"}},
+      {.name = "element",
+       .kind = Option::Kind::choice,
+       .fallback = std::string("quadrilateral_4"),
+       .doc = "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure.",
+       .choices = {"quadrilateral_4", "quadrilateral_9"}},
+      {.name = "elements",
+       .kind = Option::Kind::json,
+       .fallback = std::string("null"),
+       .doc = "Numbers of elements, [radial, axial over half the length]; null means [25, 100], or [12, 25] of nine "
+              "nodes."},
+      {.name = "grading",
+       .kind = Option::Kind::number,
+       .fallback = 1.5,
+       .doc = "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "
+              "length.",
+       .min = 1.0,
+       .max = 4.0},
+      {.name = "tolerance",
+       .kind = Option::Kind::number,
+       .fallback = 1e-6,
+       .doc = "Of the curve between the pressures that are solved, over the outer radius and the largest force.",
+       .min = 1e-10,
+       .max = 1e-2},
+      {.name = "max_steps",
+       .kind = Option::Kind::integer,
+       .fallback = std::int64_t{1000},
+       .doc = "Load steps at most, in one simulation.",
+       .min = 1,
+       .max = 1e6},
+      {.name = "time_limit",
+       .kind = Option::Kind::quantity,
+       .fallback = 60.0,
+       .doc = "A simulation that takes longer fails.",
+       .unit = "s",
+       .min = 0.001}};
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+TestFactory factory() {
+  return {
+      "fe_pressurisation",
+      "A tube of finite length under inner pressure, stretched and held at its ends, by axisymmetric mixed finite "
+      "elements.",
+      "D. Boffi, F. Brezzi, M. Fortin, Mixed Finite Element Methods and Applications (2013), section 8.6; J. Bonet, "
+      "R. D. Wood, Nonlinear Continuum Mechanics for Finite Element Analysis (2008)",
+      options(),
+      tube_observables(),
+      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FePressurisation>(setup); },
+      {axial_stretch_error_parameter(), thickness_error_parameter()}};
+}
+
+}  // namespace
+}  // namespace tunica::fe
+
+TUNICA_PLUGIN("fe_pressurisation", TUNICA_PLUGIN_VERSION) { registry.add(tunica::fe::factory()); }

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace tunica::fe {
+namespace {
+
+constexpr std::size_t first_points = 11;  ///< then 21 and 41, each within the next
+
+Mesh mesh_of(const Tube& tube) {
+  return {tube.order, tube.radial, tube.axial, tube.inner, tube.outer, tube.length / 2, tube.grading, tube.ends};
+}
+
+}  // namespace
+
+Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
+
+Status Simulation::take(Path& path, const Load& load, bool derivatives, Sample& sample) {
+  if (Status status = path.go(load, derivatives); !status.ok()) return status;
+  ++solutions_;
+  if (derivatives) return sensitivity_.sample(path, sample);
+  sample.value = path.observed();
+  return {};
+}
+
+Status Simulation::run(const Material& material, std::span<const Load> loads, bool derivatives,
+                       std::vector<Sample>& samples, std::size_t& failed_at) {
+  samples.resize(loads.size());
+  solutions_ = 0, failed_at = 0;
+  // Lines by axial stretch, those beyond 1 in ascending, those below in descending order.
+  std::map<double, std::vector<std::size_t>> lines;
+  for (std::size_t i = 0; i < loads.size(); ++i) lines[loads[i].stretch].push_back(i);
+  std::vector<double> order;
+  for (const auto& [stretch, rows] : lines)
+    if (stretch >= 1) order.push_back(stretch);
+  for (auto at = lines.rbegin(); at != lines.rend(); ++at)
+    if (at->first < 1) order.push_back(at->first);
+
+  failed_at = lines[order.front()].front();
+  if (Status status = solver_.begin(material); !status.ok()) return status;
+  using std::chrono::duration, std::chrono::steady_clock;
+  solver_.set_deadline(steady_clock::now() +
+                       std::chrono::duration_cast<steady_clock::duration>(duration<double>(tube_.time_limit)));
+  sensitivity_.begin(material);
+  Path path(solver_, {tube_.steps});
+  if (Status status = path.begin(); !status.ok()) return status;
+  const Path::Mark rest = path.mark();
+  Path::Mark trunk = rest;
+  const bool hold_later = tube_.ends == Ends::clamped_after_stretch;
+  for (const double stretch : order) {
+    failed_at = lines[stretch].front();
+    if (trunk.load.stretch > 1 && stretch < 1) trunk = rest;
+    solver_.hold_ends(tube_.ends == Ends::clamped);
+    if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later)
+      if (Status status = path.return_to(trunk); !status.ok()) return status;
+    if (Status status = path.go({stretch, 0}, derivatives && hold_later); !status.ok()) return status;
+    trunk = path.mark();
+    if (hold_later) {
+      if (derivatives)
+        if (Status status = sensitivity_.hold(path); !status.ok()) return status;
+      solver_.hold_at(path.state()), solver_.hold_ends(true);
+      if (Status status = path.return_to(trunk); !status.ok()) return status;
+    }
+    if (Status status = line(path, trunk, loads, lines[stretch], derivatives, samples, failed_at); !status.ok())
+      return status;
+    if (hold_later) sensitivity_.begin(material);
+  }
+  return {};
+}
+
+Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
+                        std::span<const std::size_t> rows, bool derivatives, std::vector<Sample>& samples,
+                        std::size_t& failed_at) {
+  std::set<double> pressures;
+  for (const std::size_t i : rows) pressures.insert(loads[i].pressure);
+  for (std::size_t points = first_points; points < pressures.size() && points <= 41; points = 2 * points - 1) {
+    bool accurate = false;
+    const Status status = interpolated(path, trunk, loads, rows, derivatives, points, samples, failed_at, accurate);
+    if (!status.ok() || accurate) return status;
+    if (Status back = path.return_to(trunk); !back.ok()) return back;
+  }
+  // Row by row, away from zero in both directions.
+  std::vector<std::size_t> order(rows.begin(), rows.end());
+  const auto pressure = [&](std::size_t i) { return loads[i].pressure; };
+  std::ranges::stable_sort(order, [&](std::size_t i, std::size_t j) {
+    const bool below = pressure(i) < 0, other = pressure(j) < 0;
+    return below != other ? !below : std::abs(pressure(i)) < std::abs(pressure(j));
+  });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    failed_at = order[k];
+    if (k > 0 && pressure(order[k]) == pressure(order[k - 1])) {
+      samples[order[k]] = samples[order[k - 1]];
+      continue;
+    }
+    if (pressure(order[k]) < 0 && (k == 0 || pressure(order[k - 1]) >= 0))
+      if (Status status = path.return_to(trunk); !status.ok()) return status;
+    if (Status status = take(path, loads[order[k]], derivatives, samples[order[k]]); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
+                                std::span<const std::size_t> rows, bool derivatives, std::size_t points,
+                                std::vector<Sample>& samples, std::size_t& failed_at, bool& accurate) {
+  const auto [low, high] = std::ranges::minmax_element(
+      rows, [&](std::size_t i, std::size_t j) { return loads[i].pressure < loads[j].pressure; });
+  const Chebyshev curve(loads[*low].pressure, loads[*high].pressure, points);
+  const std::span<const double> at = curve.points();
+  std::vector<Sample> nodes(points);
+  const auto solve = [&](std::size_t k) {
+    const Status status = take(path, {trunk.load.stretch, at[k]}, derivatives, nodes[k]);
+    if (status.ok()) return status;
+    for (const std::size_t i : rows)  // the first row that was not reached
+      if (std::abs(loads[i].pressure) > std::abs(path.load().pressure)) {
+        failed_at = i;
+        break;
+      }
+    return status;
+  };
+  const std::size_t zero =
+      static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), 0.0) - at.begin());  // first one not below 0
+  for (std::size_t k = zero; k < points; ++k)
+    if (Status status = solve(k); !status.ok()) return status;
+  if (zero > 0)
+    if (Status status = path.return_to(trunk); !status.ok()) return status;
+  for (std::size_t k = zero; k-- > 0;)
+    if (Status status = solve(k); !status.ok()) return status;
+
+  std::vector<double> values(points);
+  accurate = true;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double largest = 0;
+    for (std::size_t k = 0; k < points; ++k)
+      values[k] = nodes[k].value[c], largest = std::max(largest, std::abs(values[k]));
+    accurate &= curve.tail(values) <= tube_.tolerance * (c < 2 ? tube_.outer : largest);
+  }
+  if (!accurate) return {};
+  for (const std::size_t i : rows) {
+    curve.weights(loads[i].pressure, values);
+    Sample& sample = samples[i];
+    sample.value = {};
+    sample.by.assign(nodes.front().by.size(), {});
+    for (std::size_t k = 0; k < points; ++k)
+      for (std::size_t c = 0; c < 3; ++c) {
+        sample.value[c] += values[k] * nodes[k].value[c];
+        for (std::size_t j = 0; j < sample.by.size(); ++j) sample.by[j][c] += values[k] * nodes[k].by[j][c];
+      }
+  }
+  return {};
+}
+
+}  // namespace tunica::fe

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "curve.hpp"
+#include "sensitivity.hpp"
+
+namespace tunica::fe {
+
+/// A tube as it is simulated: geometry and mesh in mm, how accurate and how long.
+struct Tube {
+  std::size_t order = 1, radial = 25, axial = 100;
+  double inner = 0, outer = 0, length = 0, grading = 1.5;
+  Ends ends = Ends::clamped;
+  double tolerance = 1e-6;   ///< of interpolated curves, of the outer radius and of the largest force
+  std::size_t steps = 1000;  ///< load steps at most
+  double time_limit = 60;    ///< s
+
+  friend bool operator==(const Tube&, const Tube&) = default;
+};
+
+/// Observed at each load, with derivatives on demand. Loads of the same axial stretch lie on a line of pressures, which
+/// is solved at Chebyshev points where that takes fewer solutions than rows, their number doubled until the curve is as
+/// accurate as the tolerance says; else at the rows.
+class Simulation {
+ public:
+  explicit Simulation(const Tube& tube);
+
+  [[nodiscard]] const Tube& tube() const { return tube_; }
+  [[nodiscard]] Solver& solver() { return solver_; }
+
+  /// `samples` has one entry a load. `failed_at` is the first load not reached, in the order of the line.
+  Status run(const Material& material, std::span<const Load> loads, bool derivatives, std::vector<Sample>& samples,
+             std::size_t& failed_at);
+  [[nodiscard]] std::size_t solutions() const { return solutions_; }
+
+ private:
+  Status line(Path& path, const Path::Mark& trunk, std::span<const Load> loads, std::span<const std::size_t> rows,
+              bool derivatives, std::vector<Sample>& samples, std::size_t& failed_at);
+  Status interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
+                      std::span<const std::size_t> rows, bool derivatives, std::size_t points,
+                      std::vector<Sample>& samples, std::size_t& failed_at, bool& accurate);
+  Status take(Path& path, const Load& load, bool derivatives, Sample& sample);
+
+  Tube tube_;
+  Solver solver_;
+  Sensitivity sensitivity_;
+  std::size_t solutions_ = 0;
+};
+
+}  // namespace tunica::fe

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tunica::fe {
+namespace {
+
+constexpr std::size_t most_iterations = 14;
+constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
+constexpr double slow = 0.1;               ///< a step of a frozen factor this times the last one is too long
+constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
+constexpr double incompressibility = 1e5;  ///< γ over the largest modulus: see System; 1e5 to 1e9 behave alike
+
+double largest(std::span<const double> x) {
+  double value = 0;
+  for (const double entry : x) value = std::abs(entry) <= value ? value : std::abs(entry);  // NaN stays
+  return value;
+}
+
+}  // namespace
+
+Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) {
+  rest_.x.resize(2 * mesh_.nodes());
+  for (std::size_t k = 0; k < mesh_.planes(); ++k)
+    for (std::size_t i = 0; i < mesh_.across(); ++i)
+      rest_.x[2 * mesh_.node(i, k)] = mesh_.radius(i), rest_.x[2 * mesh_.node(i, k) + 1] = mesh_.layer[k];
+  rest_.q.assign(assembly_->pressure_count(), 0);
+  end_moved_.assign(rest_.x.size(), 0);
+  for (std::size_t i = 0; i < mesh_.across(); ++i)
+    end_moved_[2 * mesh_.node(i, mesh_.planes() - 1) + 1] = mesh_.half_length();
+  dx_.resize(rest_.x.size()), dq_.resize(rest_.q.size()), product_.resize(rest_.x.size());
+}
+
+Status Solver::begin(const Material& material) {
+  material_ = &material;
+  held_ = mesh_.ends == Ends::clamped;
+  hold_at(rest_);
+  // At rest S = 2 ∂W/∂C − q C⁻¹ has to vanish: q is 2 ∂W/∂C_rr there, all three being equal up to a pressure.
+  const std::vector<double> unit{1, 1, 1, 0};
+  std::vector<double> first(Material::firsts);
+  if (Status status = material.evaluate(1, unit, first, {}, {}); !status.ok()) return status;
+  const std::size_t modes = rest_.q.size() / (mesh_.radial * mesh_.axial);
+  for (std::size_t i = 0; i < rest_.q.size(); ++i) rest_.q[i] = i % modes == 0 ? 2 * first[2] : 0;
+  system_.gamma = 1;
+  if (Status status = assembly_->assemble(material, rest_, 0, true, system_); !status.ok()) return status;
+  system_.gamma = incompressibility * system_.stiffness;
+  effort_ = {};
+  return {};
+}
+
+void Solver::hold_at(const State& state) {
+  held_radius_.clear();
+  for (std::size_t i = 0; i < mesh_.across(); ++i)
+    held_radius_.push_back(state.x[2 * mesh_.node(i, mesh_.planes() - 1)]);
+}
+
+void Solver::impose(const Load& load, State& state) const {
+  const std::size_t end = mesh_.planes() - 1;
+  for (std::size_t i = 0; i < mesh_.across(); ++i) {
+    state.x[2 * mesh_.node(i, 0) + 1] = 0;
+    state.x[2 * mesh_.node(i, end) + 1] = load.stretch * mesh_.half_length();
+    if (held_) state.x[2 * mesh_.node(i, end)] = held_radius_[i];
+  }
+}
+
+void Solver::prescribe(std::span<double> dx) const {
+  const std::size_t end = mesh_.planes() - 1;
+  for (std::size_t i = 0; i < mesh_.across(); ++i) {
+    dx[2 * mesh_.node(i, 0) + 1] = dx[2 * mesh_.node(i, end) + 1] = 0;
+    if (held_) dx[2 * mesh_.node(i, end)] = 0;
+  }
+}
+
+void Solver::factorise() {
+  middle_.assign(2 * (mesh_.order + 1) * mesh_.across(), 0);  // the planes that share an element with the first
+  for (std::size_t i = 0; i < mesh_.across(); ++i) {
+    const std::size_t row = 2 * mesh_.node(i, 0) + 1;
+    for (std::size_t j = 0; j < row; ++j)
+      if (row - j <= system_.matrix.width()) middle_[j] += system_.matrix.column(j)[row - j];
+    for (std::size_t j = row; j < middle_.size() && j - row <= system_.matrix.width(); ++j)
+      middle_[j] += system_.matrix.column(row)[j - row];
+  }
+  factor_ = system_.matrix;
+  const std::size_t end = mesh_.planes() - 1;
+  const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
+  for (std::size_t i = 0; i < mesh_.across(); ++i) {
+    factor_.fix(2 * mesh_.node(i, 0) + 1, diagonal);
+    factor_.fix(2 * mesh_.node(i, end) + 1, diagonal);
+    if (held_) factor_.fix(2 * mesh_.node(i, end), diagonal);
+  }
+  negative_ = factor_.factorise();
+  ++effort_.factorisations;
+}
+
+Status Solver::solve(const Load& load, State& state, bool full_steps) {
+  impose(load, state);
+  effort_.steps.clear();
+  double last = std::numeric_limits<double>::infinity();
+  bool full = true;
+  for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
+    if (late()) return Status::failed("the time limit is reached");
+    if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
+      return status;
+    if (full) factorise();
+    ++effort_.iterations;
+    std::copy(system_.right.begin(), system_.right.end(), dx_.begin());
+    prescribe(dx_);
+    factor_.solve(dx_);
+    prescribe(dx_);
+    const double step = largest(dx_) / mesh_.outer;
+    effort_.steps.push_back(step);
+    if (!std::isfinite(step)) return Status::failed("the stiffness is singular");
+    if (step > 10) return Status::failed("Newton's method runs away");
+    if (!full && step > slow * last) {  // the factor is too old
+      full = true;
+      system_.gamma = incompressibility * system_.stiffness;
+      continue;
+    }
+    assembly_->pressures(system_, dx_, true, dq_);
+    for (std::size_t i = 0; i < dx_.size(); ++i) state.x[i] += dx_[i];
+    for (std::size_t i = 0; i < dq_.size(); ++i) state.q[i] += dq_[i];
+    note_force();
+    // A full step leaves an error of the order of its square, a frozen one that times its contraction.
+    const double left = full ? step * step * 10 : step * step / last * 2;
+    if (left < tolerance && (!full_steps || step < consistent)) return {};
+    if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
+    last = step;
+    full = full_steps || step > frozen_below;
+    if (full) system_.gamma = incompressibility * system_.stiffness;
+  }
+  return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));
+}
+
+void Solver::derive(std::span<const double> right, std::span<const double> moved, State& derivative) {
+  derivative.x.resize(dx_.size()), derivative.q.resize(dq_.size());
+  if (moved.empty()) {
+    std::copy(right.begin(), right.end(), derivative.x.begin());
+  } else {
+    system_.matrix.multiply(moved, product_);
+    for (std::size_t i = 0; i < product_.size(); ++i) derivative.x[i] = (right.empty() ? 0 : right[i]) - product_[i];
+  }
+  prescribe(derivative.x);
+  factor_.solve(derivative.x);
+  prescribe(derivative.x);
+  for (std::size_t i = 0; i < moved.size(); ++i) derivative.x[i] += moved[i];
+  assembly_->pressures(system_, derivative.x, false, derivative.q);
+}
+
+/// To first order after a step: ∂Π/∂x + K dx − G dq = −right + (K + γ G M⁻¹ Gᵀ) dx.
+void Solver::note_force() {
+  middle_force_ = 0;
+  for (std::size_t j = 0; j < middle_.size(); ++j) middle_force_ += middle_[j] * dx_[j];
+  for (std::size_t i = 0; i < mesh_.across(); ++i) middle_force_ -= system_.right[2 * mesh_.node(i, 0) + 1];
+}
+
+double Solver::axial_force_by(const State& derivative, std::span<const double> right) const {
+  double sum = 0;
+  for (std::size_t j = 0; j < middle_.size(); ++j) sum += middle_[j] * derivative.x[j];
+  for (std::size_t i = 0; i < (right.empty() ? 0 : mesh_.across()); ++i) sum -= right[2 * mesh_.node(i, 0) + 1];
+  return -2 * std::numbers::pi * sum;
+}
+
+}  // namespace tunica::fe

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "assembly.hpp"
+
+namespace tunica::fe {
+
+/// What holds the tube: its ends at `stretch` times their distance, and a pressure in the lumen, kPa.
+struct Load {
+  double stretch = 1, pressure = 0;
+};
+
+/// What one solution took.
+struct Effort {
+  std::size_t factorisations = 0, iterations = 0;
+  std::vector<double> steps;  ///< the largest |dx| of each iteration over the outer radius, of the last solution
+};
+
+/// Newton's method on one mesh. Prescribed are z at both ends and, where the ends are held, r at the far one.
+///
+/// A step assembles and factorises until the state moves by less than 1e-3 of the radius; from there on the last factor
+/// serves, while each of its steps is a tenth of the one before at most: a residual costs a fifth of a factor. For
+/// exact sensitivities it is full steps to the end, so that the factor belongs to the solution to within 1e-7.
+class Solver {
+ public:
+  static constexpr double tolerance = 1e-11;  ///< of the positions, over the outer radius
+
+  explicit Solver(const Mesh& mesh);
+
+  [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const State& rest() const { return rest_; }
+  Assembly& assembly() { return *assembly_; }
+
+  /// Begins with another material, which must outlive what follows.
+  Status begin(const Material& material);
+  void hold_ends(bool held) { held_ = held; }
+  /// r at the far end, where it is held from now on: that of `state`.
+  void hold_at(const State& state);
+  /// A deadline after which solutions fail.
+  void set_deadline(std::chrono::steady_clock::time_point deadline) { deadline_ = deadline; }
+
+  /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
+  Status solve(const Load& load, State& state, bool full_steps);
+  /// Of the factor at hand: 0 where the equilibrium is stable.
+  [[nodiscard]] std::size_t negative_pivots() const { return negative_; }
+  [[nodiscard]] bool late() const { return std::chrono::steady_clock::now() > deadline_; }
+  [[nodiscard]] const Effort& effort() const { return effort_; }
+  [[nodiscard]] const System& system() const { return system_; }
+
+  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (condensed as System::right; empty
+  /// = nothing) and moves the prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all). As
+  /// accurate as the factor.
+  void derive(std::span<const double> right, std::span<const double> moved, State& derivative);
+  /// `right` by the pressure, ∂V/∂x; `moved` by the axial stretch.
+  [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
+  [[nodiscard]] std::span<const double> by_stretch() const { return end_moved_; }
+
+  /// Reduced axial force in mN: −2π Σ ∂Π/∂z over the plane of symmetry, the derivative of Π by its position.
+  [[nodiscard]] double axial_force() const { return -2 * std::numbers::pi * middle_force_; }
+  [[nodiscard]] double axial_force_by(const State& derivative, std::span<const double> right) const;
+  [[nodiscard]] double outer_radius(const State& state) const { return state.x[2 * (mesh_.across() - 1)]; }
+  [[nodiscard]] double inner_radius(const State& state) const { return state.x[0]; }
+
+ private:
+  void impose(const Load& load, State& state) const;
+  void factorise();
+  void note_force();
+  /// Sets prescribed entries to zero.
+  void prescribe(std::span<double> dx) const;
+
+  Mesh mesh_;
+  std::unique_ptr<Assembly> assembly_;
+  const Material* material_ = nullptr;
+  State rest_;
+  std::vector<double> held_radius_;  ///< r at the far end, where it is held
+  std::vector<double> end_moved_;    ///< ∂x/∂λz of the prescribed positions
+  System system_;
+  Banded factor_;
+  std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
+  double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
+  std::size_t negative_ = 0;
+  bool held_ = true;
+  std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
+  Effort effort_;
+};
+
+}  // namespace tunica::fe
