@@ -208,6 +208,23 @@ TEST_F(ProblemOnALine, RefusesARunWithNothingToDo) {
               HasSubstr("every row is held out"));
 }
 
+TEST_F(ProblemOnALine, CountsFailuresByReasonWhateverTheNumbersInThem) {
+  fakes::set_behaviour([](double a, std::span<double>, Status& status) {
+    status = a > 5 ? Status::failed("no root at row " + std::to_string(a * 1000)) : Status::failed("overflow");
+  });
+  const Assembly assembly = bench_.assemble();
+  CalibrationProblem problem(assembly, settings());
+  double objective = 0;
+  static_cast<void>(problem.evaluate(std::vector{0.1, 0.5, 0.5}, objective));
+  for (int k = 0; k < 3; ++k) static_cast<void>(problem.evaluate(std::vector{0.7 + 0.05 * k, 0.5, 0.5}, objective));
+  const auto& reasons = problem.tally().reasons;
+  ASSERT_EQ(reasons.size(), 2u);
+  EXPECT_EQ(reasons[0].example, "test 't': overflow");
+  EXPECT_EQ(reasons[0].count, 1u);
+  EXPECT_THAT(reasons[1].example, HasSubstr("no root at row 7"));
+  EXPECT_EQ(reasons[1].count, 3u);
+}
+
 TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
   fakes::set_behaviour([](double a, std::span<double>, Status& status) {
     if (a > 5) status = Status::failed("a is too large");

@@ -97,6 +97,14 @@ TEST(Summary, WarnsOfWhatNobodyShouldOverlook) {
   EXPECT_THAT(warnings, Contains("plugin x was refused"));
 }
 
+TEST(Summary, TellsTheMostFrequentReasonsOfFailures) {
+  Summarised made;
+  made.results[0].realisations[0].tally.reasons = {{"a", 1}, {"b", 3}, {"c", 2}};
+  made.results[0].realisations[1].tally.reasons = {{"d", 1}, {"c", 9}};
+  EXPECT_THAT(made.summarise().warnings,
+              Contains(HasSubstr("; 11 times: c; 3 times: b; 1 times: a; and other reasons")));
+}
+
 TEST(FitTable, ShowsMeasuredPredictedAndWhatWasHeldOut) {
   Summarised made;
   const auto summary = made.summarise();

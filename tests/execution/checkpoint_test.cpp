@@ -26,7 +26,7 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   result.realisation = 4;
   result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};
   result.trace = {{3, 1e300}, {18, 66.1}};
-  result.tally = {120, 30, 5, 2, "row 3: \"no\" root"};
+  result.tally = {120, 30, 5, 2, "row 3: \"no\" root", {{"row 3: \"no\" root", 5}}};
   result.converged = true;
   result.reason = "step below tolerance";
   result.stop_reason = "stall";
@@ -51,6 +51,9 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.tally.failures, 5u);
   EXPECT_EQ(back.tally.infeasible, 2u);
   EXPECT_EQ(back.tally.first_failure, result.tally.first_failure);
+  ASSERT_EQ(back.tally.reasons.size(), 1u);
+  EXPECT_EQ(back.tally.reasons[0].example, result.tally.first_failure);
+  EXPECT_EQ(back.tally.reasons[0].count, 5u);
   EXPECT_TRUE(back.converged);
   EXPECT_EQ(back.reason, result.reason);
   EXPECT_EQ(back.stop_reason, "stall");

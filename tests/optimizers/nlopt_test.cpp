@@ -49,6 +49,22 @@ TEST(Nlopt, DrawsTheSameNumbersOnAnyThread) {
   EXPECT_TRUE(points(true) == points(false));
 }
 
+TEST(Nlopt, EndsAStartThatAsksForAPointThatIsNotANumber) {
+  // SLSQP loses its quadratic model to this derivative, and would ask for NaN until the budget is spent.
+  const Function function =
+      constrained(sphere(2), 1, -2, 3, [](const auto& y, std::span<double> c, std::span<double> d) {
+        c[0] = 1.5 - y[0];
+        if (!d.empty()) d[0] = std::nan("");
+      });
+  FunctionProblem problem(function, {.budget = 5000});
+  const auto outcome =
+      make_optimizer("nlopt", {{"algorithm", "slsqp"}, {"starts", std::int64_t{3}}})->minimise(problem);
+  EXPECT_EQ(problem.outside, 0u);
+  EXPECT_LT(problem.evaluations(), 200u);
+  EXPECT_FALSE(outcome.converged);
+  EXPECT_NE(outcome.reason.find("it asked for a point that is not a number"), std::string::npos) << outcome.reason;
+}
+
 TEST(Nlopt, TakesTheValueAndTheGradientOfAPointAsOneEvaluation) {
   FunctionProblem problem(rosenbrock(2), {.remember = true});
   make_optimizer("nlopt", {{"algorithm", "slsqp"}, {"starts", std::int64_t{1}}})->minimise(problem);

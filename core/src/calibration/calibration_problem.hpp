@@ -53,9 +53,20 @@ struct Replayed {
 };
 using Replay = std::function<bool(std::uint64_t index, Replayed& entry)>;
 
+/// Failures whose reasons differ in numbers only.
+struct FailureKind {
+  std::string example;  ///< the first of them
+  std::uint64_t count = 0;
+};
+
 struct Tally {
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
-  std::string first_failure;  ///< reason of the first failed evaluation
+  std::string first_failure = {};         ///< reason of the first failed evaluation
+  std::vector<FailureKind> reasons = {};  ///< in order of appearance, the first `most_reasons`
+  static constexpr std::size_t most_reasons = 20;
+
+  void add_failure(const std::string& reason, std::uint64_t count = 1);
+  void add(const Tally& part);
 };
 
 /// The host's Problem: counts, keeps the best, enforces the stop block and the failure policy, records every

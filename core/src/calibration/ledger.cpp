@@ -1,16 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/ledger.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 
 namespace tunica::calibration {
+namespace {
+
+/// Equal but for digits, signs and points.
+bool same_kind(std::string_view a, std::string_view b) {
+  const auto part_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'; };
+  for (;;) {
+    while (!a.empty() && part_of_number(a.front())) a.remove_prefix(1);
+    while (!b.empty() && part_of_number(b.front())) b.remove_prefix(1);
+    if (a.empty() || b.empty()) return a.empty() && b.empty();
+    if (a.front() != b.front()) return false;
+    a.remove_prefix(1), b.remove_prefix(1);
+  }
+}
+
+}  // namespace
+
+void Tally::add_failure(const std::string& reason, std::uint64_t count) {
+  if (first_failure.empty()) first_failure = reason;
+  const auto known = std::find_if(reasons.begin(), reasons.end(),
+                                  [&](const FailureKind& kind) { return same_kind(kind.example, reason); });
+  if (known != reasons.end())
+    known->count += count;
+  else if (reasons.size() < most_reasons)
+    reasons.push_back({reason, count});
+}
+
+void Tally::add(const Tally& part) {
+  evaluations += part.evaluations, jacobians += part.jacobians;
+  failures += part.failures, infeasible += part.infeasible;
+  if (first_failure.empty()) first_failure = part.first_failure;
+  for (const FailureKind& kind : part.reasons) add_failure(kind.example, kind.count);
+}
 
 void Ledger::add(std::span<const double> parameters, double objective, const Status& status, bool jacobian) {
   const std::uint64_t index = next_index();
   ++tally_.evaluations;
   if (jacobian) ++tally_.jacobians;
   if (status.kind() == Status::Kind::failed) {
-    if (tally_.failures++ == 0) tally_.first_failure = status.reason();
+    ++tally_.failures;
+    tally_.add_failure(status.reason());
   } else {
     const double violation = status.violation();
     if (status.kind() == Status::Kind::infeasible) ++tally_.infeasible;

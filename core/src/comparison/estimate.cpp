@@ -32,10 +32,6 @@ void evaluate_again(const calibration::Assembly& assembly, const execution::Real
     summary.objective = objective;  // the search may have left them out
     return;
   }
-  if (summary.status.kind() == Status::Kind::infeasible && assembly.has_costly_tests()) {
-    summary.objective = objective;  // the search may have left them out
-    return;
-  }
   if (std::abs(objective - best.best.objective) > 1e-9 * std::abs(best.best.objective) + 1e-12)
     warnings.push_back(
         fmt::format("{}: the best point gives the objective {} where the search recorded {}: model or test do "

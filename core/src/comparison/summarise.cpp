@@ -25,16 +25,18 @@ const execution::RealisationResult* best_of(const execution::RunResult& result) 
 
 void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::vector<double> objectives;
+  calibration::Tally total;
   for (const auto& realisation : result.realisations) {
-    summary.evaluations += realisation.tally.evaluations;
-    summary.jacobians += realisation.tally.jacobians;
-    summary.failures += realisation.tally.failures;
-    summary.infeasible += realisation.tally.infeasible;
+    total.add(realisation.tally);
     summary.seconds += realisation.seconds;
-    if (summary.first_failure.empty()) summary.first_failure = realisation.tally.first_failure;
     summary.given_up += realisation.stop_reason.starts_with("failure");
     if (realisation.best.feasible()) objectives.push_back(realisation.best.objective);
   }
+  summary.evaluations = total.evaluations, summary.jacobians = total.jacobians;
+  summary.failures = total.failures, summary.infeasible = total.infeasible;
+  summary.first_failure = total.first_failure, summary.failure_reasons = total.reasons;
+  std::stable_sort(summary.failure_reasons.begin(), summary.failure_reasons.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
   summary.realisations = result.realisations.size();
   summary.objectives = sample_statistics(objectives);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/calibration_problem.hpp"
 #include "calibration/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/information.hpp"
@@ -32,6 +33,7 @@ struct Estimate {
   std::optional<Interval> bootstrap;
   bool straight = true;     ///< ci95 can be believed, see calibration/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
+  bool held = false;        ///< a constraint fixes it
   Bound at_bound = Bound::none;
   SampleStatistics over_realisations;
 };
@@ -82,8 +84,9 @@ struct RunSummary {
   std::optional<StabilitySummary> stability;  ///< with a result
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::string first_failure;
-  std::uint64_t given_up = 0;  ///< realisations that the failure policy ended
-  bool converged = false;      ///< of the best realisation, in the optimiser's own word
+  std::vector<calibration::FailureKind> failure_reasons;  ///< most frequent first
+  std::uint64_t given_up = 0;                             ///< realisations that the failure policy ended
+  bool converged = false;                                 ///< of the best realisation, in the optimiser's own word
   std::string reason, stop_reason;
   double seconds = 0;  ///< Σ over realisations
 };

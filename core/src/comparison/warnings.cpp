@@ -26,7 +26,8 @@ void warn_of_bounds(const RunSummary& run, std::vector<std::string>& warnings) {
 void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   for (const auto& parameter : run.parameters)
-    if (!parameter.identified && parameter.at_bound == Estimate::Bound::none) names.push_back(parameter.name);
+    if (!parameter.identified && !parameter.held && parameter.at_bound == Estimate::Bound::none)
+      names.push_back(parameter.name);
   if (!names.empty())
     warnings.push_back(fmt::format("{}: the data do not fix {} one by one; what they do fix is said below", run.label,
                                    fmt::join(names, ", ")));
@@ -36,12 +37,16 @@ void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnin
   if (!run.stability) return;
   const auto& verdict = run.stability->verdict;
   for (const auto& strip : verdict.transverse)
-    if (!strip.stable)
+    if (strip.stable == false) {
+      const bool pulled = strip.first_unstable && *strip.first_unstable < strip.judged_to;
+      const auto& from = pulled ? strip.first_unstable : strip.first_unstable_pressed;
       warnings.push_back(fmt::format(
-          "{}: UNSTABLE: pulled along the {} axis, the transverse stretch λ3 grows from stretch {:.4g} "
-          "(measured to {:.4g}); impose the constraint transverse_stability, or take a model with dispersed "
-          "fibres",
-          run.label, strip.axis == 0 ? "circumferential" : "axial", *strip.first_unstable, strip.measured_to));
+          "{}: UNSTABLE: {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to {:.4g}); impose the "
+          "constraint transverse_stability, or take a model with dispersed fibres",
+          run.label, pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial",
+          pulled ? "grows" : "falls", from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
+          strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
+    }
   if (verdict.ellipticity.first_lost)
     warnings.push_back(
         fmt::format("{}: ELLIPTICITY IS LOST at stretch {:.4g} in {}, within the measured domain: finite "
@@ -58,12 +63,23 @@ void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnin
                     run.label, fmt::join(run.stability->inadmissible, ", ")));
 }
 
+/// "600 times: …; 3 times: …", or the first where there is one kind.
+std::string reasons_text(const RunSummary& run) {
+  constexpr std::size_t told = 3;
+  const auto& kinds = run.failure_reasons;
+  if (kinds.size() < 2) return "the first: " + run.first_failure;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(told, kinds.size()); ++k)
+    text += fmt::format("{}{} times: {}", k == 0 ? "" : "; ", kinds[k].count, kinds[k].example);
+  return kinds.size() > told ? text + "; and other reasons" : text;
+}
+
 void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings) {
   if (run.failures == 0 || !run.has_result) return;
   const double share =
       100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
-  warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.2g} %); the first: {}", run.label, run.failures,
-                                 run.evaluations, share, run.first_failure));
+  warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.3g} %); {}", run.label, run.failures,
+                                 run.evaluations, share, reasons_text(run)));
   if (run.given_up > 0)
     warnings.push_back(
         fmt::format("{}: {} of {} realisations were GIVEN UP by on_failure before their budget was spent", run.label,
@@ -76,10 +92,10 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
   std::vector<std::string> warnings;
   for (const auto& run : runs)
     if (!run.has_result)
-      warnings.push_back(fmt::format("{}: NO RESULT: {}", run.label,
-                                     run.evaluations == 0 ? "nothing was evaluated"
-                                                          : fmt::format("all {} evaluations failed; the first: {}",
-                                                                        run.evaluations, run.first_failure)));
+      warnings.push_back(fmt::format(
+          "{}: NO RESULT: {}", run.label,
+          run.evaluations == 0 ? "nothing was evaluated"
+                               : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons_text(run))));
   for (const auto& run : runs)
     if (run.has_result && run.status.kind() == Status::Kind::infeasible)
       warnings.push_back(fmt::format("{}: the best point BREAKS A CONSTRAINT: {}", run.label, run.status.reason()));

@@ -27,6 +27,8 @@ json to_json(std::size_t task, const RealisationResult& result) {
     evaluations.push_back(improvement.evaluations);
     objectives.push_back(improvement.objective);
   }
+  json reasons = json::array();
+  for (const auto& kind : result.tally.reasons) reasons.push_back({{"example", kind.example}, {"count", kind.count}});
   return {{"task", task},
           {"realisation", result.realisation},
           {"best",
@@ -40,6 +42,7 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"failures", result.tally.failures},
           {"infeasible", result.tally.infeasible},
           {"first_failure", result.tally.first_failure},
+          {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
           {"reason", result.reason},
           {"stop_reason", result.stop_reason},
@@ -62,6 +65,8 @@ RealisationResult from_json(const json& entry) {
   result.tally.failures = entry.at("failures");
   result.tally.infeasible = entry.at("infeasible");
   result.tally.first_failure = entry.at("first_failure");
+  for (const auto& kind : entry.value("failure_reasons", json::array()))
+    result.tally.reasons.push_back({kind.at("example"), kind.at("count")});
   result.converged = entry.at("converged");
   result.reason = entry.at("reason");
   result.stop_reason = entry.at("stop_reason");

@@ -25,14 +25,6 @@ experiment::Stop stage_stop(const experiment::Stop& shared, const experiment::St
   return stop;
 }
 
-void add(calibration::Tally& total, const calibration::Tally& part) {
-  total.evaluations += part.evaluations;
-  total.jacobians += part.jacobians;
-  total.failures += part.failures;
-  total.infeasible += part.infeasible;
-  if (total.first_failure.empty()) total.first_failure = part.first_failure;
-}
-
 /// One line, as evaluations.csv stores it, so that a resumed run reports the same words.
 std::string one_line(std::string text) {
   for (char& character : text)
@@ -76,7 +68,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
     const auto outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
 
-    add(result.tally, problem.tally());
+    result.tally.add(problem.tally());
     const auto& best = problem.best();
     if (best.better_than(result.best)) result.best = best;
     result.converged = outcome.converged;
@@ -92,6 +84,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     if (!stage_ended) break;
   }
   result.tally.first_failure = one_line(result.tally.first_failure);
+  for (auto& kind : result.tally.reasons) kind.example = one_line(kind.example);
   result.finished = !surroundings.interrupted();
   return result;
 }

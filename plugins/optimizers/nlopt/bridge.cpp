@@ -70,6 +70,7 @@ void Bridge::constraints(unsigned m, double* values, unsigned /*n*/, const doubl
 /// NLopt may leave its bounds by rounding.
 void Bridge::move_to(const double* x) {
   for (std::size_t j = 0; j < x_.size(); ++j) {
+    if (std::isnan(x[j])) return halt(Stop::not_a_number);
     const double inside = std::clamp(x[j], 0.0, 1.0);
     if (inside != x_[j]) known_ = false;
     x_[j] = inside;
@@ -155,7 +156,10 @@ void Bridge::note_progress() {
 void Bridge::constraints_at(const double* x, double* values, double* jacobian) {
   move_to(x);
   const std::size_t m = problem_.constraint_count();
-  const Status status = problem_.constraints(x_, {values, m}, {jacobian, jacobian == nullptr ? 0 : m * x_.size()});
+  const Status status =
+      stop_ == Stop::not_a_number
+          ? Status::failed("not a number")
+          : problem_.constraints(x_, {values, m}, {jacobian, jacobian == nullptr ? 0 : m * x_.size()});
   if (status.kind() == Status::Kind::failed) {
     std::fill_n(values, m, 1.0);
     if (jacobian != nullptr) std::fill_n(jacobian, m * x_.size(), 0.0);

@@ -37,8 +37,9 @@ enum class Failed {
 };
 
 /// The problem as NLopt's callbacks. No exception passes through NLopt: one is kept, the search is stopped, and
-/// rethrow() throws it. A search ends when the problem stops, when it made no progress for `stall` evaluations, or when
-/// nothing can be evaluated.
+/// rethrow() throws it. A search ends when the problem stops, when it made no progress for `stall` evaluations, when
+/// nothing can be evaluated, or when NLopt asks for a point that is not a number, which SLSQP does once its quadratic
+/// model is lost, and from then on for ever.
 class Bridge {
  public:
   struct Rules {
@@ -48,7 +49,7 @@ class Bridge {
     std::size_t stall = 0;  ///< 0 = no such end
     double tolerance = 0;   ///< relative improvement that counts as progress
   };
-  enum class Stop { none, problem, stalled, nothing_succeeded };
+  enum class Stop { none, problem, stalled, nothing_succeeded, not_a_number };
   static constexpr std::size_t gives_up_after = 2000;  ///< evaluations, all failed
 
   Bridge(Problem& problem, Rules rules);

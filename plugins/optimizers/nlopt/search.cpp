@@ -78,6 +78,10 @@ void run(nlopt::opt& opt, const Bridge& bridge, std::span<const double> from, Se
   bridge.rethrow();
   if (bridge.stop() == Bridge::Stop::stalled) search.end = Search::End::stalled;
   if (bridge.stop() == Bridge::Stop::problem) search.end = Search::End::stopped;
+  if (bridge.stop() == Bridge::Stop::not_a_number) {
+    search.end = Search::End::gave_up;
+    search.message = "it asked for a point that is not a number";
+  }
   search.evaluated += bridge.evaluated();
   if (search.failure.empty()) search.failure = bridge.failure();
   if (bridge.best().better_than(search.best)) search.best = bridge.best();
