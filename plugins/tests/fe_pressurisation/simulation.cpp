@@ -9,7 +9,7 @@
 namespace tunica::fe {
 namespace {
 
-constexpr std::size_t first_points = 11;  ///< then 21 and 41, each within the next
+constexpr std::size_t first_points = 15, most_points = 29;  ///< each within the next
 
 Mesh mesh_of(const Tube& tube) {
   return {tube.order, tube.radial, tube.axial, tube.inner, tube.outer, tube.length / 2, tube.grading, tube.ends};
@@ -77,7 +77,7 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
                         std::size_t& failed_at) {
   std::set<double> pressures;
   for (const std::size_t i : rows) pressures.insert(loads[i].pressure);
-  for (std::size_t points = first_points; points < pressures.size() && points <= 41; points = 2 * points - 1) {
+  for (std::size_t points = first_points; points < pressures.size() && points <= most_points; points = 2 * points - 1) {
     bool accurate = false;
     const Status status = interpolated(path, trunk, loads, rows, derivatives, points, samples, failed_at, accurate);
     if (!status.ok() || accurate) return status;
@@ -136,7 +136,7 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
     double largest = 0;
     for (std::size_t k = 0; k < points; ++k)
       values[k] = nodes[k].value[c], largest = std::max(largest, std::abs(values[k]));
-    accurate &= curve.tail(values) <= tube_.tolerance * (c < 2 ? tube_.outer : largest);
+    accurate &= curve.tail(values) <= tube_.tolerance * (c < 2 ? tube_.outer : 10 * largest);
   }
   if (!accurate) return {};
   for (const std::size_t i : rows) {

@@ -14,7 +14,7 @@ constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
 constexpr double slow = 0.1;               ///< a step of a frozen factor this times the last one is too long
 constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
-constexpr double incompressibility = 1e5;  ///< γ over the largest modulus: see System; 1e5 to 1e9 behave alike
+constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e9 behave alike
 
 double largest(std::span<const double> x) {
   double value = 0;
@@ -50,6 +50,7 @@ Status Solver::begin(const Material& material) {
   if (Status status = assembly_->assemble(material, rest_, 0, true, system_); !status.ok()) return status;
   system_.gamma = incompressibility * system_.stiffness;
   effort_ = {};
+  has_factor_ = false;
   return {};
 }
 
@@ -94,6 +95,7 @@ void Solver::factorise() {
     if (held_) factor_.fix(2 * mesh_.node(i, end), diagonal);
   }
   negative_ = factor_.factorise();
+  has_factor_ = true;
   ++effort_.factorisations;
 }
 
@@ -101,7 +103,8 @@ Status Solver::solve(const Load& load, State& state, bool full_steps) {
   impose(load, state);
   effort_.steps.clear();
   double last = std::numeric_limits<double>::infinity();
-  bool full = true;
+  // Near the last solution its factor comes close before a new one makes it exact.
+  bool full = !(full_steps && has_factor_);
   for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
@@ -116,7 +119,8 @@ Status Solver::solve(const Load& load, State& state, bool full_steps) {
     effort_.steps.push_back(step);
     if (!std::isfinite(step)) return Status::failed("the stiffness is singular");
     if (step > 10) return Status::failed("Newton's method runs away");
-    if (!full && step > slow * last) {  // the factor is too old
+    const double allowed = full_steps ? 0.4 : slow;
+    if (!full && step > allowed * last) {  // the factor is too old
       full = true;
       system_.gamma = incompressibility * system_.stiffness;
       continue;
@@ -126,11 +130,11 @@ Status Solver::solve(const Load& load, State& state, bool full_steps) {
     for (std::size_t i = 0; i < dq_.size(); ++i) state.q[i] += dq_[i];
     note_force();
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
-    const double left = full ? step * step * 10 : step * step / last * 2;
-    if (left < tolerance && (!full_steps || step < consistent)) return {};
+    const double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
+    if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;
-    full = full_steps || step > frozen_below;
+    full = full_steps ? full || step < consistent || step > frozen_below : step > frozen_below;
     if (full) system_.gamma = incompressibility * system_.stiffness;
   }
   return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));

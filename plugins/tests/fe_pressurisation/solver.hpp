@@ -85,7 +85,7 @@ class Solver {
   std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
   double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
   std::size_t negative_ = 0;
-  bool held_ = true;
+  bool held_ = true, has_factor_ = false;
   std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();
   Effort effort_;
 };
