@@ -39,11 +39,9 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   auto domain = comparison::domain_of(assembly);
   if (options.to > 1) {
     domain.largest = options.to;
-    for (auto& strip : domain.strips) {
-      strip.clear();
-      for (int k = 1; k <= 100; ++k) strip.push_back(1 + (options.to - 1) * k / 100);
-    }
-    domain.stated = true;
+    domain.strips = {};
+    for (auto& stretches : domain.asked)
+      for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
   }
   const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);
   fmt::print("{}\n", options.model);

@@ -35,6 +35,33 @@ TEST(Stability, JudgesAParameterSetOverTheMeasuredStretchesOrAStatedOne) {
   EXPECT_THAT(stated.out, AllOf(Not(HasSubstr("UNSTABLE")), HasSubstr("beyond that domain (judged to 1.1)")));
 }
 
+TEST(Stability, IsNoVerdictForBiaxialDataUnlessAConstraintStatesARange) {
+  trial::Bench bench;
+  std::string rows = "stretch,stress\n";
+  for (int k = 1; k <= 10; ++k) rows += std::to_string(1 + 0.02 * k) + "," + std::to_string(10 * k) + "\n";
+  bench.folder.write("sheet.csv", rows);
+  bench.experiment["tests"] = {
+      {"sheet",
+       {{"type", "biaxial"},
+        {"protocol", "equibiaxial"},
+        {"data", {{"file", "sheet.csv"}, {"columns", {{"stretch", "stretch"}, {"stress", "stress"}}}}}}}};
+  bench.experiment["runs"] = {
+      {{"model", "neo"}, {"optimizer", "lm"}},
+      {{"model", "neo"},
+       {"optimizer", "lm"},
+       {"constraints", {{{"type", "transverse_stability"}, {"range", {0.8, 1.5}}, {"directions", {"axial"}}}}}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto result = bench.result("out");
+  EXPECT_EQ(result["runs"][0]["best"]["stable"], nullptr);
+  EXPECT_EQ(result["runs"][0]["best"]["stability"]["transverse"][1]["stable"], nullptr);
+  const auto& stated = result["runs"][1]["best"]["stability"]["transverse"];
+  EXPECT_EQ(result["runs"][1]["best"]["stable"], true);
+  EXPECT_EQ(stated[0]["stable"], nullptr);
+  EXPECT_EQ(stated[1]["measured_from"], 0.8);
+  EXPECT_EQ(stated[1]["measured_to"], 1.5);
+}
+
 TEST(Stability, DrawsAMapOfTwoParameters) {
   trial::Bench bench;
   bench.experiment["models"]["u"] = set_u();

@@ -115,16 +115,55 @@ TEST(Drucker, IsOnlyAskedOfIsotropicModels) {
 TEST(Admissibility, SaysWhatIsLostAndWhere) {
   const auto gho = testing::model("gho");
   const auto unstable = stability::judge(*gho, set_u, strips_to(1.8));
-  EXPECT_FALSE(unstable.transversely_stable());
+  EXPECT_EQ(unstable.transversely_stable(), false);
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("circumferential strip: UNSTABLE"));
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("from stretch 1.166"));
   const auto stable = stability::judge(*gho, set_s, strips_to(1.8));
-  EXPECT_TRUE(stable.transversely_stable());
+  EXPECT_EQ(stable.transversely_stable(), true);
   EXPECT_THAT(stable.sentences().front(), HasSubstr("falls up to stretch"));
   // Measured only where it is still stable: said, and no verdict of instability.
   const auto short_of_it = stability::judge(*gho, set_u, strips_to(1.1));
-  EXPECT_TRUE(short_of_it.transversely_stable());
+  EXPECT_EQ(short_of_it.transversely_stable(), true);
   EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond that domain (measured to 1.1)"));
+}
+
+TEST(Admissibility, IsNotCertifiedWhereNothingWasMeasured) {
+  const auto gho = testing::model("gho");
+  stability::Domain none = strips_to(1.8);
+  none.strips = {};
+  const auto unasked = stability::judge(*gho, set_u, none);
+  EXPECT_EQ(unasked.transversely_stable(), std::nullopt);
+  EXPECT_THAT(unasked.sentences().front(), HasSubstr("(no strip was measured)"));
+  // A constraint's range is asked for.
+  none.asked[0] = {1.1, 1.3};
+  const auto asked = stability::judge(*gho, set_u, none);
+  EXPECT_EQ(asked.transversely_stable(), false);
+  EXPECT_THAT(asked.sentences().front(), HasSubstr("UNSTABLE, the transverse stretch λ3 grows from stretch 1.166"));
+  EXPECT_THAT(asked.sentences().front(), HasSubstr("(judged to 1.3)"));
+}
+
+// I1 = λ² + 2/λ < 3 + Jm ends a strip at 2.33 and equibiaxial extension at 1.7.
+TEST(Admissibility, IsReportedAsFarAsTheResponseCanBeFollowed) {
+  const auto gent = testing::model("gent");
+  stability::Domain far{.strips = {}, .largest = 1000};
+  const auto nowhere = stability::judge(*gent, std::vector<double>{10, 0.2}, far);
+  EXPECT_EQ(nowhere.ellipticity.followed.size(), 5u);
+  for (const auto& path : nowhere.ellipticity.followed) EXPECT_EQ(path.to, 1) << path.path;
+  EXPECT_THAT(nowhere.sentences(),
+              ::testing::Contains("ellipticity NOT ASSESSED: the response cannot be evaluated on any path"));
+  EXPECT_THAT(nowhere.sentences(),
+              ::testing::Contains("Drucker's condition NOT ASSESSED: the response cannot be evaluated on any path"));
+  far.largest = 3;
+  const auto some = stability::judge(*gent, std::vector<double>{10, 3}, far);
+  EXPECT_FALSE(some.ellipticity.first_lost);
+  for (const auto& path : some.ellipticity.followed) {
+    const bool equibiaxial = path.path == "equibiaxial extension";
+    EXPECT_GT(path.to, equibiaxial ? 1.5 : 2) << path.path;
+    EXPECT_LT(path.to, equibiaxial ? 1.74 : 2.5) << path.path;
+  }
+  EXPECT_THAT(some.sentences()[2],
+              HasSubstr("elliptic as far as the response can be followed: circumferential strip to 2."));
+  EXPECT_THAT(some.sentences()[3], HasSubstr("Drucker-stable as far as the response can be followed"));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "comparison/stability_report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -48,6 +50,36 @@ std::map<std::string, double> free_objectives(const execution::Plan& plan, const
   return best;
 }
 
+/// Stretches that the constraints of a run state.
+void add_asked(const experiment::RunEntry& run, stability::Domain& domain) {
+  constexpr int points = 100;
+  for (const auto& constraint : run.constraints)
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+      if (!constraint.range || !constraint.directions[axis]) continue;
+      const auto [first, last] = *constraint.range;
+      for (int k = 0; k <= points; ++k) domain.asked[axis].push_back(first + (last - first) * k / points);
+    }
+}
+
+/// The least stretch that all paths were followed to; null where one was not at all.
+json reached(const std::vector<stability::Followed>& followed) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& path : followed) least = std::min(least, path.to);
+  return std::isfinite(least) && least > 1 ? json(least) : json(nullptr);
+}
+
+json condition(const std::optional<double>& first_lost, const std::string& path,
+               const std::vector<stability::Followed>& followed) {
+  const bool any = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return one.to > 1; });
+  json paths = json::object();
+  for (const auto& one : followed) paths[one.path] = one.to > 1 ? json(one.to) : json(nullptr);
+  return {{"holds", any ? json(!first_lost.has_value()) : json(nullptr)},
+          {"first_lost", first_lost ? json(*first_lost) : json(nullptr)},
+          {"path", path},
+          {"checked_to", reached(followed)},
+          {"paths", std::move(paths)}};
+}
+
 json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
 }  // namespace
@@ -69,6 +101,7 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     const auto parameters = assembly.model_parameters(values_of(entry));
     StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}, {}};
     auto domain = domain_of(assembly);
+    add_asked(*plan.runs[run].entry, domain);
     domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
     found.verdict = stability::judge(assembly.model(), parameters, domain);
     for (const auto& inequality : assembly.model().describe().admissible) {
@@ -100,10 +133,14 @@ std::string stability_table(const Summary& summary) {
     for (const auto& verdict : found.verdict.transverse)
       if (verdict.first_unstable && *verdict.first_unstable < 2 * found.verdict.domain.largest)
         where.push_back(fmt::format("{:.3f} {}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial"));
+    const std::optional<bool> stable = found.verdict.transversely_stable();
     text += fmt::format("  {}  {:<10} {:>#12.6g} {:>7}  {:<8} {}\n", pad(run.label, width),
                         found.imposed.empty() ? "-" : found.imposed, run.objective,
                         found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
-                        found.verdict.transversely_stable() ? "yes" : "NO", fmt::join(where, ", "));
+                        !stable   ? "-"
+                        : *stable ? "yes"
+                                  : "NO",
+                        fmt::join(where, ", "));
   }
   return text;
 }
@@ -114,26 +151,21 @@ json stability_json(const RunSummary& run) {
   json directions = json::array();
   for (const auto& verdict : found.verdict.transverse)
     directions.push_back({{"direction", direction(verdict.axis)},
-                          {"measured_to", verdict.measured_to > 1 ? json(verdict.measured_to) : json(nullptr)},
-                          {"stable", verdict.stable},
+                          {"measured_from", verdict.judged_from < 1 ? json(verdict.judged_from) : json(nullptr)},
+                          {"measured_to", verdict.judged_to > 1 ? json(verdict.judged_to) : json(nullptr)},
+                          {"stable", verdict.stable ? json(*verdict.stable) : json(nullptr)},
                           {"first_unstable", optional_number(verdict.first_unstable)},
                           {"stable_again", optional_number(verdict.stable_again)},
+                          {"first_unstable_pressed", optional_number(verdict.first_unstable_pressed)},
+                          {"checked_from", verdict.checked_from},
                           {"checked_to", verdict.checked_to}});
   const auto& ellipticity = found.verdict.ellipticity;
   const auto& drucker = found.verdict.drucker;
   return {{"imposed", found.imposed.empty() ? json(nullptr) : json(found.imposed)},
           {"ratio_to_free", optional_number(found.ratio_to_free)},
           {"transverse", std::move(directions)},
-          {"ellipticity",
-           {{"holds", !ellipticity.first_lost.has_value()},
-            {"first_lost", optional_number(ellipticity.first_lost)},
-            {"path", ellipticity.path},
-            {"checked_to", found.verdict.domain.largest}}},
-          {"drucker", drucker ? json{{"holds", !drucker->first_lost.has_value()},
-                                     {"first_lost", optional_number(drucker->first_lost)},
-                                     {"path", drucker->path},
-                                     {"checked_to", found.verdict.domain.largest}}
-                              : json(nullptr)},
+          {"ellipticity", condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
+          {"drucker", drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
           {"inadmissible", found.inadmissible},
           {"sentences", found.verdict.sentences()}};
 }

@@ -4,31 +4,61 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace tunica::stability {
 namespace {
 
 const char* direction(std::size_t axis) { return axis == 0 ? "circumferential" : "axial"; }
 
+/// "measured to 1.4", "judged from 0.8 to 1.2".
+std::string reach(const TransverseVerdict& verdict, const Domain& domain) {
+  if (!verdict.asked()) return "no strip was measured";
+  const bool measured = !domain.strips[verdict.axis].empty(), asked = !domain.asked[verdict.axis].empty();
+  const char* const how = !asked ? "measured" : measured ? "measured or asked for" : "judged";
+  return verdict.judged_from < 1 ? fmt::format("{} from {:.4g} to {:.4g}", how, verdict.judged_from, verdict.judged_to)
+                                 : fmt::format("{} to {:.4g}", how, verdict.judged_to);
+}
+
 std::string words(const TransverseVerdict& verdict, const Domain& domain) {
-  const char* const name = direction(verdict.axis);
-  const std::string reach =
-      verdict.measured_to > 1 ? fmt::format("{} to {:.4g}", domain.stated ? "judged" : "measured", verdict.measured_to)
-                              : "no strip was measured";
-  if (!verdict.first_unstable)
-    return fmt::format("{} strip: the transverse stretch λ3 falls up to stretch {:.4g} ({})", name, verdict.checked_to,
-                       reach);
+  const std::string name = fmt::format("{} strip: ", direction(verdict.axis)), range = reach(verdict, domain);
+  if (verdict.checked_from == 1 && verdict.checked_to == 1)
+    return fmt::format("{}NOT ASSESSED, the response cannot be followed from rest ({})", name, range);
+  const bool pulled = verdict.first_unstable.has_value(), pressed = verdict.first_unstable_pressed.has_value();
   const std::string until = verdict.stable_again ? fmt::format(" to {:.4g}", *verdict.stable_again) : " on";
-  if (!verdict.stable)
-    return fmt::format("{} strip: UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
-                       *verdict.first_unstable, until, reach);
-  if (*verdict.first_unstable < verdict.measured_to)
-    return fmt::format("{} strip: stable at every measured stretch ({}); between them λ3 grows from stretch {:.5g}{}",
-                       name, reach, *verdict.first_unstable, until);
+  if (verdict.stable == false && pulled && *verdict.first_unstable < verdict.judged_to)
+    return fmt::format("{}UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
+                       *verdict.first_unstable, until, range);
+  if (verdict.stable == false)
+    return fmt::format("{}UNSTABLE, the transverse stretch λ3 falls as the strip is pressed{} ({})", name,
+                       pressed ? fmt::format(" below stretch {:.4g}", *verdict.first_unstable_pressed) : "", range);
+  if (verdict.asked() && !verdict.stable)
+    return fmt::format("{}NO VERDICT, the response can be followed from stretch {:.4g} to {:.4g} only ({})", name,
+                       verdict.checked_from, verdict.checked_to, range);
+  if (!pulled)
+    return fmt::format("{}the transverse stretch λ3 falls up to stretch {:.4g} ({})", name, verdict.checked_to, range);
+  if (*verdict.first_unstable < verdict.judged_to)
+    return fmt::format("{}stable at every measured stretch ({}); between them λ3 grows from stretch {:.5g}{}", name,
+                       range, *verdict.first_unstable, until);
   return fmt::format(
-      "{} strip: the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that "
-      "domain ({})",
-      name, *verdict.first_unstable, until, reach);
+      "{}the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that domain ({})", name,
+      *verdict.first_unstable, until, range);
+}
+
+/// "up to stretch 1.5 in strips, equibiaxial extension and pure shear", or path by path where one ends before; empty
+/// where none could be followed at all.
+std::string followed_in_words(const std::vector<Followed>& followed, double limit) {
+  std::vector<std::string> words;
+  bool any = false, all = true;
+  for (const Followed& path : followed) {
+    any = any || path.to > 1;
+    all = all && path.to > limit * (1 - 1e-9);
+    words.push_back(path.to > 1 ? fmt::format("{} to {:.4g}", path.path, path.to)
+                                : fmt::format("{} not at all", path.path));
+  }
+  if (!any) return "";
+  if (all) return fmt::format("up to stretch {:.4g} in strips, equibiaxial extension and pure shear", limit);
+  return fmt::format("as far as the response can be followed: {}", fmt::join(words, "; "));
 }
 
 std::string components(const std::array<double, 3>& v) {
@@ -37,38 +67,50 @@ std::string components(const std::array<double, 3>& v) {
 
 }  // namespace
 
-bool Admissibility::transversely_stable() const {
-  return std::all_of(transverse.begin(), transverse.end(), [](const TransverseVerdict& v) { return v.stable; });
+std::optional<bool> Admissibility::transversely_stable() const {
+  bool any = false, open = false;
+  for (const TransverseVerdict& verdict : transverse) {
+    if (verdict.stable == false) return false;
+    any = any || verdict.stable.has_value();
+    open = open || (verdict.asked() && !verdict.stable);
+  }
+  return any && !open ? std::optional(true) : std::nullopt;
 }
 
 std::vector<std::string> Admissibility::sentences() const {
   std::vector<std::string> all;
   for (const TransverseVerdict& verdict : transverse) all.push_back(words(verdict, domain));
+  const std::string elliptic = followed_in_words(ellipticity.followed, domain.largest);
   if (ellipticity.first_lost)
     all.push_back(
         fmt::format("ELLIPTICITY IS LOST at stretch {:.4g} in {}: bands of normal {} would shear along {} "
                     "(components t, z, r)",
                     *ellipticity.first_lost, ellipticity.path, components(ellipticity.n), components(ellipticity.m)));
+  else if (elliptic.empty())
+    all.push_back("ellipticity NOT ASSESSED: the response cannot be evaluated on any path");
   else
     all.push_back(
-        fmt::format("elliptic up to stretch {:.4g} in strips, equibiaxial extension and pure shear; weakest, "
-                    "{:.3g} kPa, in {}",
-                    domain.largest, ellipticity.weakest, ellipticity.path));
-  if (drucker && drucker->first_lost)
+        fmt::format("elliptic {}; weakest, {:.3g} kPa, in {}", elliptic, ellipticity.weakest, ellipticity.path));
+  if (!drucker) return all;
+  const std::string stable = followed_in_words(drucker->followed, domain.largest);
+  if (drucker->first_lost)
     all.push_back(
         fmt::format("DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}", *drucker->first_lost, drucker->path));
-  else if (drucker)
-    all.push_back(fmt::format("Drucker-stable up to stretch {:.4g} in strips, equibiaxial extension and pure shear",
-                              domain.largest));
+  else if (stable.empty())
+    all.push_back("Drucker's condition NOT ASSESSED: the response cannot be evaluated on any path");
+  else
+    all.push_back("Drucker-stable " + stable);
   return all;
 }
 
 Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain) {
   Admissibility found;
   found.domain = domain;
-  for (std::size_t axis = 0; axis < 2; ++axis)
-    found.transverse.push_back(
-        judge(model, parameters, axis, domain.strips[axis], std::max(domain.beyond, domain.largest)));
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::vector<double> judged = domain.strips[axis];
+    judged.insert(judged.end(), domain.asked[axis].begin(), domain.asked[axis].end());
+    found.transverse.push_back(judge(model, parameters, axis, judged, std::max(domain.beyond, domain.largest)));
+  }
   const auto paths = homogeneous_paths(model, parameters, domain.largest);
   found.ellipticity = judge_ellipticity(model, parameters, paths);
   if (is_isotropic(model, parameters)) found.drucker = judge_drucker(model, parameters, paths);

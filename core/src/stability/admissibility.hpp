@@ -14,10 +14,10 @@ namespace tunica::stability {
 
 /// Over which stretches a parameter set is judged.
 struct Domain {
-  std::array<std::vector<double>, 2> strips;  ///< measured stretches of strips along the circumference and the axis
-  double largest = 1.5;                       ///< of any test, for ellipticity and Drucker
-  double beyond = 10;                         ///< transverse stability is followed so far
-  bool stated = false;                        ///< by a person, not by what was measured: only for the words
+  std::array<std::vector<double>, 2> strips;      ///< measured stretches of strips along the circumference and the axis
+  std::array<std::vector<double>, 2> asked = {};  ///< stated by a person: in a constraint, on the command line
+  double largest = 1.5;                           ///< of any test, for ellipticity and Drucker
+  double beyond = 10;                             ///< transverse stability is followed so far
 };
 
 /// Whether a parameter set behaves as a material: what every report says of its best point.
@@ -27,8 +27,8 @@ struct Admissibility {
   std::optional<DruckerVerdict> drucker;  ///< isotropic models
   Domain domain;
 
-  /// λ3 falls over all measured stretches of every strip.
-  [[nodiscard]] bool transversely_stable() const;
+  /// λ3 falls at every stretch that was measured or asked for; none where there is none, or no answer at one of them.
+  [[nodiscard]] std::optional<bool> transversely_stable() const;
   /// One sentence a finding, what is lost first.
   [[nodiscard]] std::vector<std::string> sentences() const;
 };

@@ -20,8 +20,14 @@ struct Path {
   std::vector<Deformation> points;
 };
 
+/// How far along a path a condition could be asked: the response may end before the path does.
+struct Followed {
+  std::string path;
+  double to = 1;  ///< stretch; 1 = nowhere
+};
+
 /// The homogeneous paths from rest to the stretch `limit`: a free strip along either axis, equibiaxial extension, pure
-/// shear along either axis. A strip ends where it has no equilibrium any more.
+/// shear along either axis; evenly spaced in ln λ. A strip ends where it has no equilibrium any more.
 std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> parameters, double limit);
 
 }  // namespace tunica::stability

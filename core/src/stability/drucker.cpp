@@ -49,9 +49,11 @@ DruckerVerdict judge_drucker(const Model& model, std::span<const double> paramet
   DruckerVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
+    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
     for (const Deformation& point : path.points) {
       AtPoint at;
       if (!evaluate(view, parameters, point.stretch, at)) break;
+      followed.to = point.along;
       // τ_a = 2 c_a g_a;  ∂²W/∂ε_a∂ε_b = 4 c_a c_b H_ab + 4 c_a g_a δ_ab =: K_ab, then ε3 = −ε1 − ε2:
       // D_ab = K_ab − K_a3 − K_3b + K_33
       std::array<double, 3> c;

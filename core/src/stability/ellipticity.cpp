@@ -46,12 +46,38 @@ Eigen::Matrix3d acoustic_tensor(const std::array<double, 3>& F, const std::array
   return Q;
 }
 
+struct Weakest {
+  double value = std::numeric_limits<double>::infinity();  ///< m·Q(n) m, kPa
+  Eigen::Vector3d n = Eigen::Vector3d::Zero(), m = Eigen::Vector3d::Zero();
+};
+
+/// Over all directions; none where the response is not finite.
+std::optional<Weakest> weakest_at(const Model& model, std::span<const double> parameters, const Deformation& at) {
+  static const std::vector<Eigen::Vector3d> spread = directions();
+  std::array<double, 6> C{}, S;
+  std::array<double, 36> tangent;
+  for (std::size_t a = 0; a < 3; ++a) C[a] = at.stretch[a] * at.stretch[a];
+  if (!model.evaluate({1, C, parameters, {}, {}}, {{}, S, tangent, {}, {}}).ok()) return std::nullopt;
+  Weakest found;
+  for (const Eigen::Vector3d& n : spread) {
+    const Eigen::Matrix3d Q = acoustic_tensor(at.stretch, S, tangent, n);
+    const Eigen::Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+    Eigen::Matrix2d plane;
+    plane << e1.dot(Q * e1), e1.dot(Q * e2), e2.dot(Q * e1), e2.dot(Q * e2);
+    if (!plane.allFinite()) return std::nullopt;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
+    if (eigen.eigenvalues()[0] >= found.value) continue;
+    found = {eigen.eigenvalues()[0], n, eigen.eigenvectors()(0, 0) * e1 + eigen.eigenvectors()(1, 0) * e2};
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> parameters, double limit) {
   std::vector<double> stretches;
   for (std::size_t k = 1; k <= points_a_path; ++k)
-    stretches.push_back(1 + (limit - 1) * static_cast<double>(k) / points_a_path);
+    stretches.push_back(std::pow(limit, static_cast<double>(k) / points_a_path));
   std::vector<Path> paths;
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
     Path strip{axis == 0 ? "circumferential strip" : "axial strip", {}};
@@ -77,37 +103,23 @@ std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> 
 
 EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double> parameters,
                                      const std::vector<Path>& paths) {
-  static const std::vector<Eigen::Vector3d> spread = directions();
   EllipticityVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
+    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
     for (const Deformation& at : path.points) {
-      std::array<double, 6> C{}, S;
-      std::array<double, 36> tangent;
-      for (std::size_t a = 0; a < 3; ++a) C[a] = at.stretch[a] * at.stretch[a];
-      if (!model.evaluate({1, C, parameters, {}, {}}, {{}, S, tangent, {}, {}}).ok()) break;
-      double least = std::numeric_limits<double>::infinity();
-      Eigen::Vector3d worst_n = Eigen::Vector3d::Zero(), worst_m = Eigen::Vector3d::Zero();
-      for (const Eigen::Vector3d& n : spread) {
-        const Eigen::Matrix3d Q = acoustic_tensor(at.stretch, S, tangent, n);
-        const Eigen::Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
-        Eigen::Matrix2d plane;
-        plane << e1.dot(Q * e1), e1.dot(Q * e2), e2.dot(Q * e1), e2.dot(Q * e2);
-        if (!plane.allFinite()) return verdict;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
-        if (eigen.eigenvalues()[0] >= least) continue;
-        least = eigen.eigenvalues()[0];
-        worst_n = n, worst_m = eigen.eigenvectors()(0, 0) * e1 + eigen.eigenvectors()(1, 0) * e2;
-      }
-      const bool lost = least <= 0 && (!verdict.first_lost || at.along < *verdict.first_lost);
-      if (lost || (!verdict.first_lost && least < verdict.weakest)) {
+      const std::optional<Weakest> here = weakest_at(model, parameters, at);
+      if (!here) break;
+      followed.to = at.along;
+      const bool lost = here->value <= 0 && (!verdict.first_lost || at.along < *verdict.first_lost);
+      if (lost || (!verdict.first_lost && here->value < verdict.weakest)) {
         verdict.path = path.name;
         for (int a = 0; a < 3; ++a)
-          verdict.n[static_cast<std::size_t>(a)] = worst_n[a], verdict.m[static_cast<std::size_t>(a)] = worst_m[a];
+          verdict.n[static_cast<std::size_t>(a)] = here->n[a], verdict.m[static_cast<std::size_t>(a)] = here->m[a];
       }
       if (lost) verdict.first_lost = at.along;
-      verdict.weakest = std::min(verdict.weakest, least);
-      if (least <= 0) break;
+      verdict.weakest = std::min(verdict.weakest, here->value);
+      if (here->value <= 0) break;
     }
   }
   return verdict;

@@ -115,24 +115,32 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
   return {};
 }
 
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
-                        const std::vector<double>& measured, double limit) {
-  TransverseVerdict verdict;
-  verdict.axis = axis;
-  if (!measured.empty()) verdict.measured_to = *std::max_element(measured.begin(), measured.end());
-  verdict.worst_slope = -std::numeric_limits<double>::infinity();
-  const auto slope_at = [&](double stretch) {
-    double slope = std::numeric_limits<double>::quiet_NaN();
-    return FreePath(model, axis, {stretch}).slopes(parameters, {&slope, 1}, {}).ok()
-               ? slope
-               : std::numeric_limits<double>::quiet_NaN();
-  };
-  constexpr double edge = 1 + Problem::constraint_tolerance;  // c ≤ tolerance counts as stable, as in the constraint
+namespace {
+
+constexpr double edge = 1 + Problem::constraint_tolerance;  // c ≤ tolerance counts as stable, as in the constraint
+
+/// What is found on the way from rest to one side.
+struct Course {
+  std::optional<double> first_unstable, stable_again;
+  double reached = 1, worst = -std::numeric_limits<double>::infinity();
+};
+
+/// NaN where there is no answer.
+double slope_at(const Model& model, std::span<const double> parameters, std::size_t axis, double stretch) {
+  double slope = std::numeric_limits<double>::quiet_NaN();
+  return FreePath(model, axis, {stretch}).slopes(parameters, {&slope, 1}, {}).ok()
+             ? slope
+             : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// From rest to the stretch `limit`, above 1 or below.
+Course follow(const Model& model, std::span<const double> parameters, std::size_t axis, double limit) {
+  Course course;
   // Between a stable and an unstable stretch, to 1e-10.
   const auto crossing = [&](double stable, double unstable) {
     while (std::abs(unstable - stable) > 1e-10 * unstable) {
       const double middle = 0.5 * (stable + unstable);
-      const double slope = slope_at(middle);
+      const double slope = slope_at(model, parameters, axis, middle);
       if (!std::isfinite(slope)) break;
       (slope > edge ? unstable : stable) = middle;
     }
@@ -140,34 +148,62 @@ TransverseVerdict judge(const Model& model, std::span<const double> parameters, 
   };
   // Steps of half a per cent, in blocks, so that an overflow far out costs little.
   constexpr std::size_t block = 48;
-  constexpr double growth = 1.005;
-  double last = 1;
-  for (double begin = std::exp(rest); begin <= limit;) {
+  const bool pulled = limit > 1;
+  const double growth = pulled ? 1.005 : 1 / 1.005;
+  const auto within = [&](double stretch) { return pulled ? stretch <= limit : stretch >= limit; };
+  for (double begin = std::exp(pulled ? rest : -rest); within(begin);) {
     std::vector<double> stretches;
-    for (double at = begin; stretches.size() < block && at <= limit; at *= growth) stretches.push_back(at);
-    if (stretches.back() * growth > limit && stretches.back() < limit) stretches.push_back(limit);
+    for (double at = begin; stretches.size() < block && within(at); at *= growth) stretches.push_back(at);
+    if (!within(stretches.back() * growth) && stretches.back() != limit) stretches.push_back(limit);
     std::vector<double> slopes(stretches.size());
     while (!stretches.empty() &&
            !FreePath(model, axis, stretches).slopes(parameters, {slopes.data(), stretches.size()}, {}).ok())
       stretches.resize(stretches.size() / 2);
     for (std::size_t i = 0; i < stretches.size(); ++i) {
-      verdict.worst_slope = std::max(verdict.worst_slope, (slopes[i] - 1) / 2);
-      if (!verdict.first_unstable && slopes[i] > edge)
-        verdict.first_unstable = last == 1 ? 1 : crossing(last, stretches[i]);
-      else if (verdict.first_unstable && !verdict.stable_again && slopes[i] <= edge)
-        verdict.stable_again = crossing(stretches[i], last);
-      last = stretches[i];
+      course.worst = std::max(course.worst, (slopes[i] - 1) / 2);
+      if (!course.first_unstable && slopes[i] > edge)
+        course.first_unstable = course.reached == 1 ? 1 : crossing(course.reached, stretches[i]);
+      else if (course.first_unstable && !course.stable_again && slopes[i] <= edge)
+        course.stable_again = crossing(stretches[i], course.reached);
+      course.reached = stretches[i];
     }
     if (stretches.size() < block) break;
-    begin = last * growth;
+    begin = course.reached * growth;
   }
-  verdict.checked_to = last;
-  if (verdict.first_unstable && *verdict.first_unstable < verdict.measured_to) {
-    std::vector<double> slopes(measured.size());
-    const Status status = FreePath(model, axis, measured).slopes(parameters, slopes, {});
-    verdict.stable =
-        status.ok() && std::all_of(slopes.begin(), slopes.end(), [](double slope) { return slope <= edge; });
+  return course;
+}
+
+std::optional<bool> stable_at(const Model& model, std::span<const double> parameters, std::size_t axis,
+                              const std::vector<double>& stretches) {
+  if (stretches.empty()) return std::nullopt;
+  const auto stable = [](double slope) { return slope <= edge; };
+  std::vector<double> slopes(stretches.size());
+  if (FreePath(model, axis, stretches).slopes(parameters, slopes, {}).ok())
+    return std::all_of(slopes.begin(), slopes.end(), stable);
+  for (const double stretch : stretches)
+    if (slope_at(model, parameters, axis, stretch) > edge) return false;
+  return std::nullopt;
+}
+
+}  // namespace
+
+TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
+                        const std::vector<double>& judged, double limit) {
+  TransverseVerdict verdict;
+  verdict.axis = axis;
+  for (const double stretch : judged) {
+    verdict.judged_from = std::min(verdict.judged_from, stretch);
+    verdict.judged_to = std::max(verdict.judged_to, stretch);
   }
+  const Course pulled = follow(model, parameters, axis, std::max(limit, verdict.judged_to));
+  verdict.first_unstable = pulled.first_unstable, verdict.stable_again = pulled.stable_again;
+  verdict.checked_to = pulled.reached, verdict.worst_slope = pulled.worst;
+  if (verdict.judged_from < 1) {
+    const Course pressed = follow(model, parameters, axis, verdict.judged_from);
+    verdict.first_unstable_pressed = pressed.first_unstable, verdict.checked_from = pressed.reached;
+    verdict.worst_slope = std::max(verdict.worst_slope, pressed.worst);
+  }
+  verdict.stable = stable_at(model, parameters, axis, judged);
   return verdict;
 }
 

@@ -59,19 +59,23 @@ class FreePath {
   free_strip::Start start_;
 };
 
-/// What the criterion (h = 1) says of one direction.
+/// What the criterion (h = 1) says of one direction. "Judged" are the stretches that were measured or asked for.
 struct TransverseVerdict {
   std::size_t axis = 0;
-  double measured_to = 1;                ///< largest measured stretch of a strip along it; 1 = none measured
-  bool stable = true;                    ///< at every measured stretch
-  std::optional<double> first_unstable;  ///< stretch from which λ3 grows, measured or not
-  std::optional<double> stable_again;    ///< and where it stops growing, when it does below checked_to
-  double checked_to = 1;                 ///< the response was followed so far; beyond, it overflows or nobody looked
-  double worst_slope = 0;                ///< largest d ln λ3/d ln λ1 up to checked_to
+  double judged_from = 1, judged_to = 1;  ///< least and largest judged stretch; 1 = none on that side of rest
+  std::optional<bool> stable;             ///< at every judged one; none without any, or without an answer at some
+  std::optional<double> first_unstable;   ///< stretch from which λ3 grows, judged or not
+  std::optional<double> stable_again;     ///< and where it stops growing, when it does below checked_to
+  std::optional<double> first_unstable_pressed;  ///< stretch below which λ3 falls as the strip is pressed
+  double checked_from = 1, checked_to = 1;       ///< the response was followed so far, or nobody looked further
+  double worst_slope = 0;                        ///< largest d ln λ3/d ln λ1 between them
+
+  [[nodiscard]] bool asked() const { return judged_from < 1 || judged_to > 1; }
 };
 
-/// Follows the path from rest to the stretch `limit`, or as far as there is an equilibrium.
+/// Follows the path from rest to the stretch `limit`, and under compression to the least judged stretch, or as far as
+/// there is an equilibrium.
 TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
-                        const std::vector<double>& measured, double limit);
+                        const std::vector<double>& judged, double limit);
 
 }  // namespace tunica::stability
