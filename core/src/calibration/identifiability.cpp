@@ -114,7 +114,11 @@ std::string constrained_in_words(bool all_held, const std::vector<ParameterInter
     if (parameter.held) held.push_back(parameter.name);
   return fmt::format(
       "A constraint holds the result, not the data: intervals are those along its border{}. Where it touches: {}.",
-      held.empty() ? "" : fmt::format(", which leaves {} no room", fmt::join(held, ", ")), where);
+      held.empty()
+          ? ""
+          : fmt::format(", along which {} cannot move (a profile tells how far the data let it leave the border)",
+                        fmt::join(held, ", ")),
+      where);
 }
 
 /// Parameters whose interval fills the box although no direction by itself is weak: the direction that costs each of
@@ -175,7 +179,7 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
     const double half_width = spectrum.half_width(Vector::Unit(flat.rows(), at));
     if (at_bound[j] || found.parameters[j].held || flat(at, at) >= moved * moved || half_width > widest) continue;
     found.parameters[j].identified = true;
-    found.parameters[j].straight = active.rows() > 0 || straightness.holds(at, half_width, spectrum.quantile);
+    found.parameters[j].straight = straightness.holds(at, half_width, spectrum.quantile);
     found.parameters[j].ci95 = half_width * unit_slope(parameters[j], free[j]);
     std::vector<double> end = unit, mapped(n);
     end[j] = unit[j] - half_width, assembly.from_unit(end, mapped), found.parameters[j].lower = mapped[j];

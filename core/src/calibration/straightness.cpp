@@ -7,6 +7,8 @@
 
 #include <Eigen/QR>
 
+#include "calibration/constrained_step.hpp"
+
 namespace tunica::calibration {
 
 Straightness::Straightness(const Assembly& assembly, const Whitening& noise, std::span<const double> free)
@@ -18,6 +20,8 @@ Straightness::Straightness(const Assembly& assembly, const Whitening& noise, std
       by_free_(predictions_.size() * free.size()),
       residuals_(noise.count()),
       jacobian_(noise.count() * free.size()),
+      constraints_(assembly.constraint_count()),
+      by_constraint_(constraints_.size() * free.size()),
       centre_(free.size()) {
   assembly.to_unit(free, centre_);
   least_ = fit(centre_, {});
@@ -42,11 +46,42 @@ double Straightness::linearise(const std::vector<double>& x) {
     return std::numeric_limits<double>::infinity();
   whitened_residuals(noise_, free_, predictions_, by_free_, residuals_, jacobian_);
   assembly_.jacobian_to_unit(free_, jacobian_, *workspace_);
-  return Eigen::Map<const Vector>(residuals_.data(), static_cast<Eigen::Index>(residuals_.size())).squaredNorm();
+  violation_ = 0;
+  if (!constraints_.empty()) {
+    if (!assembly_.constraints(free_, constraints_, by_constraint_).ok())
+      return std::numeric_limits<double>::infinity();
+    assembly_.jacobian_to_unit(free_, by_constraint_, *workspace_);
+    for (const double c : constraints_) violation_ += std::max(0.0, c);
+  }
+  const Eigen::Map<const Vector> r(residuals_.data(), static_cast<Eigen::Index>(residuals_.size()));
+  return r.squaredNorm() + penalty_ * violation_;
+}
+
+Vector Straightness::step(const std::vector<double>& x, const std::vector<Eigen::Index>& moving) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto n = static_cast<Eigen::Index>(x.size()), m = static_cast<Eigen::Index>(constraints_.size());
+  const Eigen::Map<const Rows> J(jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
+  const Eigen::Map<const Vector> r(residuals_.data(), J.rows());
+  if (m == 0) return Eigen::CompleteOrthogonalDecomposition<Matrix>(J(Eigen::all, moving)).solve(-r);
+  const auto k = static_cast<Eigen::Index>(moving.size());
+  Matrix A = Matrix::Zero(m + 2 * k, k);
+  Vector c(m + 2 * k);
+  A.topRows(m) = Eigen::Map<const Rows>(by_constraint_.data(), m, n)(Eigen::all, moving);
+  c.head(m) = Eigen::Map<const Vector>(constraints_.data(), m);
+  for (Eigen::Index a = 0; a < k; ++a) {
+    const double at = x[static_cast<std::size_t>(moving[static_cast<std::size_t>(a)])];
+    A(m + a, a) = 1, c[m + a] = at - 1;
+    A(m + k + a, a) = -1, c[m + k + a] = -at;
+  }
+  const auto found = constrained_step(J(Eigen::all, moving), r, A, c);
+  if (!found) return {};
+  penalty_ = std::max(penalty_, 2 * found->largest_multiplier);
+  return found->step;
 }
 
 double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> held) {
-  constexpr int iterations = 8, halvings = 4;
+  const int iterations = constraints_.empty() ? 8 : 20;
+  constexpr int halvings = 4;
   constexpr double enough = 1e-2;  // of −2 ln L, where intervals end at about 4
   const auto n = static_cast<Eigen::Index>(x.size());
   double here = linearise(x);
@@ -54,15 +89,18 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     std::vector<Eigen::Index> moving;
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(
         jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
-    const Eigen::Map<const Vector> r(residuals_.data(), J.rows());
-    const Vector slope = J.transpose() * r;
+    const Vector slope = J.transpose() * Eigen::Map<const Vector>(residuals_.data(), J.rows());
     for (Eigen::Index j = 0; j < n; ++j) {
       const double at = x[static_cast<std::size_t>(j)];
-      const bool pressed = (at <= 0 && slope[j] > 0) || (at >= 1 && slope[j] < 0);  // against its bound
+      // Against its bound; where constraints push too, the step itself keeps within the bounds.
+      const bool pressed = constraints_.empty() && ((at <= 0 && slope[j] > 0) || (at >= 1 && slope[j] < 0));
       if (j != held && !pressed) moving.push_back(j);
     }
     if (moving.empty()) break;
-    const Vector step = Eigen::CompleteOrthogonalDecomposition<Matrix>(J(Eigen::all, moving)).solve(-r);
+    const double violation = violation_, penalty = penalty_;
+    const Vector step = this->step(x, moving);
+    if (step.size() == 0) break;
+    here += (penalty_ - penalty) * violation;
     std::vector<double> next;
     double there = std::numeric_limits<double>::infinity(), length = 1;
     for (int half = 0; half < halvings && !(there < here); ++half, length /= 2) {

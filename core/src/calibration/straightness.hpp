@@ -14,7 +14,8 @@ namespace tunica::calibration {
 /// parameter held there and the others fitted again by Gauss–Newton steps, −2 ln L should have risen by t² (at a bound
 /// in proportion to the square of the distance). It holds when both rises are between a half and twice that: the ends
 /// then are within some 40 % of where a profile would put them. About ten linearisations a parameter. Constraints are
-/// not looked at.
+/// kept on the way, by steps of constrained_step.hpp and an exact penalty, so that the border may bend, or be left, as
+/// in a profile.
 class Straightness {
  public:
   Straightness(const Assembly& assembly, const Whitening& noise, std::span<const double> free);
@@ -24,13 +25,17 @@ class Straightness {
  private:
   /// Least −2 ln L from x on, with one coordinate held; x is moved there. Infinity where nothing can be evaluated.
   double fit(std::vector<double>& x, std::optional<Eigen::Index> held);
-  /// −2 ln L at x, residuals and their Jacobian by the unit box.
+  /// The step of Gauss and Newton from x in the coordinates `moving`; empty where the constraints allow none.
+  Vector step(const std::vector<double>& x, const std::vector<Eigen::Index>& moving);
+  /// −2 ln L at x, and the penalty of broken constraints; residuals, constraints and their Jacobians by the unit box.
   double linearise(const std::vector<double>& x);
 
   const Assembly& assembly_;
   const Whitening& noise_;
   Assembly::WorkspacePointer workspace_;
-  std::vector<double> free_, predictions_, by_free_, residuals_, jacobian_;
+  std::vector<double> free_, predictions_, by_free_, residuals_, jacobian_, constraints_, by_constraint_;
+  double penalty_ = 0;          ///< of a unit of violation
+  double violation_ = 0;        ///< at the last point
   std::vector<double> centre_;  ///< the optimum of the likelihood next to the point
   double least_;
 };
