@@ -15,6 +15,7 @@ Estimate estimate(double value, std::optional<Interval> ci95, Estimate::Bound bo
   result.value = value;
   result.ci95 = ci95;
   result.identified = ci95.has_value();
+  result.assessed = true;
   result.at_bound = bound;
   return result;
 }
@@ -56,6 +57,7 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   good.evaluations_to_target = sample_statistics(std::vector<double>{1234567, 1234567});
   good.expected_running_time = 123456789;
   good.seconds = 123456;
+  good.evaluations = 34567;
   good.certificate.verdict = "no better neighbour";
   RunSummary broken = good;
   broken.label = "b/es";
@@ -65,10 +67,66 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   const auto text = ranking_table(summary);
   EXPECT_THAT(text,
               HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                        1.2346e-21   19/20 "
-                        "1234567 1.23e+08      0 123456      0\n"));
-  EXPECT_THAT(text, HasSubstr("12.3\n     BREAKS A CONSTRAINT: unstable at stretch 1.2\n"));
+                        "1234567 1.23e+08   34567      0 123456      0\n"));
+  EXPECT_THAT(text, HasSubstr("12.3\n     NO FEASIBLE POINT, least violation 0.3: unstable at stretch 1.2\n"));
   EXPECT_THAT(text, HasSubstr("ΔAICc"));
   EXPECT_THAT(text, HasSubstr("  optimum: no better neighbour\n"));
+}
+
+TEST(RankingTable, SaysWhatEndedARunAndWhetherItsBestSearchHadConverged) {
+  Summary summary;
+  RunSummary run;
+  run.label = "m/lm", run.group = "g", run.has_result = true, run.reason = "the reason";
+  summary.ranking = {{0, 1, std::nullopt}};
+  const auto text = [&](bool converged, const std::string& stop) {
+    run.converged = converged, run.stop_reason = stop;
+    summary.runs = {run};
+    return ranking_table(summary);
+  };
+  EXPECT_THAT(text(true, ""), HasSubstr("m/lm  (converged: the reason)\n"));
+  EXPECT_THAT(text(false, ""), HasSubstr("m/lm  (not converged: the reason)\n"));
+  EXPECT_THAT(text(true, "stall"),
+              HasSubstr("m/lm  (ended by stall; the search that found the best point had converged: the\n"));
+  EXPECT_THAT(text(false, "stall"),
+              HasSubstr("m/lm  (ended by stall; the search that found the best point had not converged:\n"));
+  EXPECT_THAT(text(true, "target"), HasSubstr("m/lm  (ended at its target)\n"));
+}
+
+TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {
+  Summary summary;
+  RunSummary run;
+  run.label = "m/lm", run.group = "g", run.has_result = true, run.target = 0.25;
+  summary.runs = {run, run};
+  summary.ranking = {{0, 1, std::nullopt}, {1, 2, std::nullopt}};
+  EXPECT_THAT(ranking_table(summary), HasSubstr("Ranking by success, then ERT, at the target 0.25: g\n"));
+}
+
+TEST(RankingTable, GivesMeanAndDeviationOverRealisations) {
+  Summary summary;
+  RunSummary run;
+  run.label = "m/lm", run.group = "g", run.has_result = true;
+  run.parameters = {estimate(22.4, Interval{21.9, 22.9})};
+  run.parameters[0].over_realisations = sample_statistics(std::vector<double>{22, 23});
+  run.objectives = sample_statistics(std::vector<double>{1, 3});
+  summary.runs = {run};
+  summary.ranking = {{0, 1, std::nullopt}};
+  EXPECT_THAT(ranking_table(summary),
+              HasSubstr("  over realisations: objective 2 ± 1.4, mu 22.5 ± 0.71 kPa (mean ± sd"));
+}
+
+TEST(RankingTable, SaysNothingOfTheDataAtAPointThatIsNoFit) {
+  Summary summary;
+  RunSummary run;
+  run.label = "m/lm", run.group = "g", run.has_result = true, run.status = tunica::Status::infeasible("x", 1);
+  run.parameters = {estimate(22.4, std::nullopt)};
+  run.parameters[0].assessed = false;
+  summary.runs = {run};
+  summary.ranking = {{0, 1, std::nullopt}};
+  EXPECT_THAT(ranking_table(summary), ::testing::Not(HasSubstr("not fixed by the data")));
+  summary.runs[0].parameters[0].assessed = true;
+  EXPECT_THAT(ranking_table(summary), HasSubstr("(not fixed by the data)"));
+  summary.runs[0].parameters[0].held = true;
+  EXPECT_THAT(ranking_table(summary), HasSubstr("(held by a constraint)"));
 }
 
 TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {

@@ -37,6 +37,27 @@ TEST(Ranking, NeverHidesARunWithoutAResult) {
   EXPECT_FALSE(ranking[2].rank);
 }
 
+TEST(Ranking, PutsTheLeastViolationFirstOfPointsThatBreakAConstraint) {
+  const auto ranking = comparison::rank(
+      {run("a", 1, Status::infeasible("x", 3)), run("a", 9, Status::infeasible("x", 2)), run("a", 99)});
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 1, 0));
+}
+
+TEST(Ranking, GoesBySuccessAndExpectedRunningTimeWhereAllStopAtOneTarget) {
+  const auto aimed = [](double objective, double rate, std::optional<double> expected) {
+    RunSummary summary = run("a", objective);
+    summary.target = 1e-3, summary.success_rate = rate, summary.expected_running_time = expected;
+    return summary;
+  };
+  std::vector<RunSummary> runs{aimed(9e-4, 0.05, 5000), aimed(9.9e-4, 1, 80), aimed(9.5e-4, 1, 900),
+                               aimed(2e-3, 0, std::nullopt), aimed(1.5e-3, 0, std::nullopt)};
+  EXPECT_TRUE(comparison::ranked_by_success(runs, "a"));
+  EXPECT_THAT(order(comparison::rank(runs)), ::testing::ElementsAre(1, 2, 0, 4, 3));
+  runs[3].target = 1e-4;  // not the same question any more
+  EXPECT_FALSE(comparison::ranked_by_success(runs, "a"));
+  EXPECT_THAT(order(comparison::rank(runs)), ::testing::ElementsAre(0, 2, 1, 4, 3));
+}
+
 TEST(Ranking, ComparesOnlyWithinAGroup) {
   const auto ranking = comparison::rank({run("a", 50), run("b", 1), run("a", 40)});
   EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 0, 1));

@@ -62,6 +62,7 @@ void add_parameters(const calibration::Assembly& assembly, const execution::Real
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
 void add_identifiability(const calibration::Assembly& assembly, const execution::RealisationResult& best,
                          RunSummary& summary, std::vector<std::string>& warnings) {
+  if (summary.status.kind() == Status::Kind::infeasible) return;  // of a point that is not allowed nobody asks
   calibration::Identifiability found;
   const Status status = calibration::identify(assembly, best.best.parameters, found);
   if (!status.ok()) {
@@ -72,6 +73,7 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
   for (std::size_t j = 0; j < summary.parameters.size(); ++j) {
     auto& estimate = summary.parameters[j];
     const auto& interval = found.parameters[j];
+    estimate.assessed = true;
     estimate.identified = interval.identified;
     estimate.held = interval.held;
     estimate.straight = interval.straight;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -33,14 +35,30 @@ std::string group_of(const experiment::RunEntry& run) {
   return fmt::format("{} on {}", name_of(run.objective), fmt::join(run.tests, ", "));
 }
 
+bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& group) {
+  std::set<std::optional<double>> targets;
+  std::size_t count = 0;
+  for (const auto& run : runs)
+    if (run.group == group) targets.insert(run.target), ++count;
+  return count > 1 && targets.size() == 1 && targets.begin()->has_value();
+}
+
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs) {
   std::map<std::string, std::size_t> group_order;
-  for (const auto& run : runs) group_order.emplace(run.group, group_order.size());
+  std::map<std::string, bool> by_success;
+  for (const auto& run : runs) {
+    group_order.emplace(run.group, group_order.size());
+    by_success.emplace(run.group, ranked_by_success(runs, run.group));
+  }
   std::vector<Ranked> order;
   for (std::size_t run = 0; run < runs.size(); ++run) order.push_back({run, std::nullopt, std::nullopt});
   std::stable_sort(order.begin(), order.end(), [&](const Ranked& a, const Ranked& b) {
     const auto key = [&](const RunSummary& run) {
-      return std::tuple(group_order.at(run.group), standing(run), run.has_result ? run.objective : 0.0);
+      // How far below a common target a search happened to stop says nothing; how often and how fast it got there does.
+      const bool success = by_success.at(run.group) && standing(run) == 0;
+      return std::tuple(group_order.at(run.group), standing(run), success ? -run.success_rate : 0.0,
+                        success ? run.expected_running_time.value_or(std::numeric_limits<double>::infinity()) : 0.0,
+                        standing(run) == 1 ? run.status.violation() : 0.0, run.has_result ? run.objective : 0.0);
     };
     return key(runs[a.run]) < key(runs[b.run]);
   });

@@ -13,8 +13,11 @@ const char* name_of(experiment::ObjectiveType type);
 /// Runs of one group have the same objective on the same tests: only their objectives can be compared.
 std::string group_of(const experiment::RunEntry& run);
 
-/// Within a group by objective, ties in the order of the file; then the points that break a constraint; then runs
-/// without a result.
+/// All runs of the group, of which there are several, stop at the same target.
+bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& group);
+
+/// Within a group by objective, ties in the order of the file; where all its runs stop at one target by success rate,
+/// then by expected running time. Then the points that break a constraint, by violation; then runs without a result.
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 
 /// Where runs of a group fit different models: AICc above the least of the group.

@@ -2,10 +2,12 @@
 #include "comparison/ranking_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/text.hpp"
 
@@ -45,22 +47,26 @@ std::string objective_text(double objective) {
 /// What a reader must know of a run that has no rank, or one that does not count.
 std::string flaw(const RunSummary& run) {
   if (!run.has_result) return "NO RESULT: " + run.status.reason();
-  if (run.status.kind() == Status::Kind::infeasible) return "BREAKS A CONSTRAINT: " + run.status.reason();
+  if (run.status.kind() == Status::Kind::infeasible)
+    return fmt::format("NO FEASIBLE POINT, least violation {:.3g}: {}", run.status.violation(), run.status.reason());
   return run.status.ok() ? "" : run.status.reason();
 }
 
-constexpr std::size_t label_width = 20;  // longer ones stand on a line of their own
+/// Longer ones stand on a line of their own; all lines fit into 80 columns.
+std::size_t label_width(bool compares_models) { return compares_models ? 13 : 20; }
 
 std::string row(const Ranked& entry, const RunSummary& run, bool compares_models) {
   const std::string objective = run.has_result ? objective_text(run.objective) : "-";
   const auto& to_target = run.evaluations_to_target.box;
+  const std::size_t width = label_width(compares_models);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
-  if (columns(run.label) > label_width) text += run.label + '\n' + std::string(3, ' ');
-  text += fmt::format(
-      "{} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(run.label) > label_width ? "" : run.label, label_width),
-      objective, fmt::format("{}/{}", run.successes, run.realisations),
-      count_text(to_target ? std::optional(to_target->median) : std::nullopt), count_text(run.expected_running_time),
-      count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
+  if (columns(run.label) > width) text += run.label + '\n' + std::string(3, ' ');
+  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}",
+                      pad(columns(run.label) > width ? "" : run.label, width), objective,
+                      fmt::format("{}/{}", run.successes, run.realisations),
+                      count_text(to_target ? std::optional(to_target->median) : std::nullopt),
+                      count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
+                      count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
   if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
   text += '\n';
   if (const std::string reason = flaw(run); !reason.empty()) text += hanging("     ", reason) + '\n';
@@ -75,16 +81,22 @@ std::string ranking_lines(const Summary& summary) {
     const auto& run = summary.runs[entry.run];
     if (run.group != group) {
       group = run.group;
-      text += hanging("Ranking by ", group) + '\n';
-      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n", pad("run", label_width), "objective",
-                          "success", "evals", "ERT", "failed", "sec", compares_models ? "  ΔAICc" : "");
+      text += ranked_by_success(summary.runs, group)
+                  ? hanging("Ranking by ", fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
+                  : hanging("Ranking by ", group);
+      text += '\n';
+      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n",
+                          pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT", "total",
+                          "failed", "sec", compares_models ? "  ΔAICc" : "");
     }
     text += row(entry, run, compares_models);
   }
   return text +
          hanging("   ",
                  "success: realisations at or below the target, or 0.1 % above the best known; evals: their "
-                 "median of evaluations to it; ERT: evaluations spent for one success, failures included") +
+                 "median of evaluations to it; ERT: evaluations spent for one success, failed realisations included; "
+                 "total: all evaluations (their Jacobians are in ranking.csv), failed: of these; sec: all realisations "
+                 "added up") +
          '\n';
 }
 
@@ -108,9 +120,28 @@ std::string quality_text(const Quality& quality) {
   return text + (quality.held_out ? ", HELD OUT" : "");
 }
 
+/// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.
+std::string spread_text(const RunSummary& run) {
+  const auto one = [](const std::string& name, const SampleStatistics& sample, const std::string& unit) {
+    return fmt::format("{} {:.5g} ± {:.2g}{}", name, sample.mean, sample.sd.value_or(0), unit_text(unit));
+  };
+  std::vector<std::string> parts{one("objective", run.objectives, "")};
+  for (const auto& parameter : run.parameters)
+    parts.push_back(one(parameter.name, parameter.over_realisations, parameter.unit));
+  return fmt::format("{} (mean ± sd of {}; intervals in statistics.csv)", fmt::join(parts, ", "), run.objectives.count);
+}
+
+/// What ended the run, and whether the search that found its best point had converged by then.
+std::string ending(const RunSummary& run) {
+  const std::string reason = run.reason.empty() ? "" : ": " + run.reason;
+  if (run.stop_reason.empty()) return (run.converged ? "converged" : "not converged") + reason;
+  if (run.stop_reason == "target") return "ended at its target";
+  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_reason,
+                     run.converged ? "had" : "had not", reason);
+}
+
 std::string run_lines(const RunSummary& run) {
-  std::string how = run.stop_reason.empty() ? run.reason : "stopped by " + run.stop_reason;
-  if (run.converged) how = "converged: " + run.reason;
+  const std::string how = ending(run);
   std::string text = run.label;
   if (run.realisations > 1) text += fmt::format(", best of {} realisations", run.realisations);
   text = hanging(text + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n';
@@ -123,6 +154,7 @@ std::string run_lines(const RunSummary& run) {
     if (const auto other = other_intervals(parameter); !other.empty())
       text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }
+  if (run.objectives.count > 1) text += hanging("  over realisations: ", spread_text(run)) + '\n';
   for (const auto& quality : run.quality) {
     const std::string name = fmt::format("  {}, {}: ", quality.test, quality.channel);
     text += hanging(columns(name) < 40 ? name : name + "\n    ", quality_text(quality)) + '\n';
@@ -146,7 +178,8 @@ std::string value_text(const Estimate& estimate) {
     text += unit_text(estimate.unit);
   } else {
     text += unit_text(estimate.unit);
-    if (!estimate.identified) text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
+    if (estimate.assessed && !estimate.identified)
+      text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
   }
   if (estimate.at_bound != Estimate::Bound::none)
     text += fmt::format("  <- AT ITS {} BOUND", estimate.at_bound == Estimate::Bound::upper ? "UPPER" : "LOWER");

@@ -110,7 +110,8 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     }
     const auto free = unconstrained.find(entry.model + '\n' + entry.group);
     // Over a perfect fit the ratio says nothing.
-    if (!found.imposed.empty() && free != unconstrained.end() && free->second > 1e-6 * entry.objective)
+    if (!found.imposed.empty() && entry.status.ok() && free != unconstrained.end() &&
+        free->second > 1e-6 * entry.objective)
       found.ratio_to_free = entry.objective / free->second;
     entry.stability = std::move(found);
   }

@@ -73,7 +73,8 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                            "success_threshold",
                            "median_evaluations_to_target",
                            "expected_running_time",
-                           "evaluations",
+                           "evaluations_total",
+                           "jacobians_total",
                            "failures",
                            "infeasible",
                            "seconds [s]",
@@ -110,6 +111,7 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                   to_target ? fmt::format("{}", to_target->median) : "",
                   cell(run.expected_running_time),
                   fmt::format("{}", run.evaluations),
+                  fmt::format("{}", run.jacobians),
                   fmt::format("{}", run.failures),
                   fmt::format("{}", run.infeasible),
                   fmt::format("{}", run.seconds),
@@ -161,6 +163,32 @@ std::string realisations_csv(const execution::Plan& plan, const std::vector<exec
   return text;
 }
 
+std::string statistics_csv(const Summary& summary) {
+  std::string text =
+      "# Over the realisations of each run that have a feasible point: what another seed would give. ci95: of the "
+      "mean.\n"
+      "run,quantity,unit,realisations,mean,sd,ci95_low,ci95_high,min,q1,median,q3,max\n";
+  const auto row = [&](const RunSummary& run, const std::string& name, const std::string& unit,
+                       const SampleStatistics& sample) {
+    if (sample.count == 0) return;
+    const auto& box = *sample.box;
+    text +=
+        line({csv_cell(run.label), csv_cell(name), unit, fmt::format("{}", sample.count),
+              fmt::format("{}", sample.mean), cell(sample.sd), sample.ci95 ? fmt::format("{}", sample.ci95->first) : "",
+              sample.ci95 ? fmt::format("{}", sample.ci95->second) : "", fmt::format("{}", box.min),
+              fmt::format("{}", box.lower), fmt::format("{}", box.median), fmt::format("{}", box.upper),
+              fmt::format("{}", box.max)});
+  };
+  for (const auto& run : summary.runs) {
+    row(run, "objective", "1", run.objectives);
+    for (const auto& parameter : run.parameters) row(run, parameter.name, parameter.unit, parameter.over_realisations);
+    row(run, "evaluations", "1", run.evaluations_spent);
+    row(run, "evaluations_to_target", "1", run.evaluations_to_target);
+    row(run, "seconds", "s", run.seconds_spent);
+  }
+  return text;
+}
+
 std::string convergence_csv(const std::vector<execution::RunResult>& results, const Summary& summary) {
   std::string text =
       "# Best feasible objective after so many evaluations. Rows: the first and the last improvement, the end of the\n"
@@ -187,6 +215,7 @@ void write_study_tables(const std::filesystem::path& directory, const execution:
                         const std::vector<execution::RunResult>& results, const Summary& summary) {
   execution::write_atomically(directory / "ranking.csv", ranking_csv(plan, summary));
   execution::write_atomically(directory / "realisations.csv", realisations_csv(plan, results, summary));
+  execution::write_atomically(directory / "statistics.csv", statistics_csv(summary));
   execution::write_atomically(directory / "convergence.csv", convergence_csv(results, summary));
   if (plan.tasks.size() < 2) return;
   const auto made = profiles(plan, results, summary.runs);

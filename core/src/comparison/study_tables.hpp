@@ -21,6 +21,8 @@ namespace tunica::comparison {
 std::string ranking_csv(const execution::Plan& plan, const Summary& summary);
 std::string realisations_csv(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
                              const Summary& summary);
+/// statistics.csv: the statistics of result.json as a table.
+std::string statistics_csv(const Summary& summary);
 std::string convergence_csv(const std::vector<execution::RunResult>& results, const Summary& summary);
 void write_study_tables(const std::filesystem::path& directory, const execution::Plan& plan,
                         const std::vector<execution::RunResult>& results, const Summary& summary);

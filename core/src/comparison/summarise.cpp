@@ -49,6 +49,7 @@ RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunR
   summary.optimizer = run.entry->optimizer;
   summary.tests = run.entry->tests;
   summary.group = group_of(*run.entry);
+  summary.target = run.entry->stop.target;
   summary.fixed = run.assembly->fixed_parameters();
   add_counts(result, summary);
   const auto* best = best_of(result);
@@ -70,6 +71,7 @@ RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunR
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
   if (best->best.feasible())
     add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);
+  summary.certificate.ended_at_target = best->stop_reason == "target";
   for (const auto& parameter : summary.parameters)
     if (parameter.at_bound != Estimate::Bound::none) summary.certificate.at_bounds.push_back(parameter.name);
   return summary;

@@ -34,6 +34,7 @@ struct Estimate {
   bool straight = true;     ///< ci95 can be believed, see calibration/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   bool held = false;        ///< a constraint fixes it
+  bool assessed = false;    ///< the point is a fit and was linearised, so that `identified` means something
   Bound at_bound = Bound::none;
   SampleStatistics over_realisations;
 };
@@ -56,10 +57,11 @@ struct StabilitySummary {
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
-  std::string group;        ///< runs of one group have the same objective on the same tests and can be ranked
-  bool has_result = false;  ///< some evaluation succeeded
-  Status status;            ///< of the best point, evaluated again; failed with the first reason without result
-  double objective = 0;     ///< of the best evaluated point
+  std::string group;                  ///< runs of one group have the same objective on the same tests and can be ranked
+  bool has_result = false;            ///< some evaluation succeeded
+  std::optional<double> target = {};  ///< of the objective, where the run has one
+  Status status;         ///< of the best point, evaluated again; failed with the first reason without result
+  double objective = 0;  ///< of the best evaluated point
   std::vector<double> per_test;
   std::vector<Estimate> parameters;
   std::vector<calibration::FixedParameter> fixed;
@@ -86,7 +88,8 @@ struct RunSummary {
   std::string first_failure;
   std::vector<calibration::FailureKind> failure_reasons;  ///< most frequent first
   std::uint64_t given_up = 0;                             ///< realisations that the failure policy ended
-  bool converged = false;                                 ///< of the best realisation, in the optimiser's own word
+  bool converged = false;  ///< the search that found the best point had, in the optimiser's own word; what ended
+                           ///< the whole stands in stop_reason
   std::string reason, stop_reason;
   double seconds = 0;  ///< Σ over realisations
 };

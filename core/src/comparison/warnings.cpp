@@ -26,11 +26,11 @@ void warn_of_bounds(const RunSummary& run, std::vector<std::string>& warnings) {
 void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   for (const auto& parameter : run.parameters)
-    if (!parameter.identified && !parameter.held && parameter.at_bound == Estimate::Bound::none)
+    if (parameter.assessed && !parameter.identified && !parameter.held && parameter.at_bound == Estimate::Bound::none)
       names.push_back(parameter.name);
   if (!names.empty())
-    warnings.push_back(fmt::format("{}: the data do not fix {} one by one; what they do fix is said below", run.label,
-                                   fmt::join(names, ", ")));
+    warnings.push_back(fmt::format("{}: the data do not fix {}{}; what they do fix is said below", run.label,
+                                   fmt::join(names, ", "), names.size() > 1 ? " one by one" : ""));
 }
 
 void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnings) {
@@ -98,10 +98,16 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
                                : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons_text(run))));
   for (const auto& run : runs)
     if (run.has_result && run.status.kind() == Status::Kind::infeasible)
-      warnings.push_back(fmt::format("{}: the best point BREAKS A CONSTRAINT: {}", run.label, run.status.reason()));
-  for (const auto& run : runs) warn_of_instability(run, warnings);
+      warnings.push_back(
+          fmt::format("{}: NO FEASIBLE POINT WAS FOUND in {} evaluations: shown is the least violation, {:.3g}, not a "
+                      "fit; its worst "
+                      "is {}. Widen the bounds, or ask for less",
+                      run.label, run.evaluations, run.status.violation(), run.status.reason()));
+  for (const auto& run : runs)
+    if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
   for (const auto& run : runs) warn_of_bounds(run, warnings);
-  for (const auto& run : runs) warn_of_loose_parameters(run, warnings);
+  for (const auto& run : runs)
+    if (run.status.ok()) warn_of_loose_parameters(run, warnings);
   for (const auto& run : runs) warn_of_failures(run, warnings);
   for (std::size_t run = 0; run < runs.size(); ++run) {
     const auto& entry = *plan.runs[run].entry;
