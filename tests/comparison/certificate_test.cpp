@@ -85,6 +85,17 @@ TEST(Certificate, SaysWhatSpeaksAgainstIt) {
               HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
 }
 
+TEST(Certificate, DoesNotBlameASearchForEndingAtItsTarget) {
+  auto certificate = spotless();
+  certificate.ended_at_target = true;
+  certificate.fresh->around.better = true;
+  certificate.fresh->around.lowest->objective = 66.1 * 0.9;
+  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; stopped at its target, not at the optimum: a step of"));
+  EXPECT_FALSE(comparison::alarming(certificate));
+  certificate.ended_at_target = false;
+  EXPECT_TRUE(comparison::alarming(certificate));
+}
+
 TEST(Certificate, AlarmsOfWhatIsNotTheOptimumThatItIsSaidToBe) {
   auto certificate = spotless();
   EXPECT_FALSE(comparison::alarming(certificate));

@@ -28,14 +28,16 @@ std::string fresh_words(const Certificate& certificate) {
                      fresh.difference);
 }
 
-std::string neighbour_words(const calibration::Neighbourhood& around) {
+std::string neighbour_words(const calibration::Neighbourhood& around, bool ended_at_target) {
   if (!around.lowest) return "no neighbour could be compared";
   if (!around.better) return "no better neighbour";
   const double drop = around.objective - around.lowest->objective;
   const double share = drop / std::abs(around.objective);
-  return fmt::format("{}a step of {:g} along {} lowers the objective by {:.2g} %",
-                     share > not_an_optimum ? "NOT AN OPTIMUM: " : "", around.lowest->step, around.lowest->along,
-                     100 * share);
+  const char* const finding = share <= not_an_optimum ? ""
+                              : ended_at_target       ? "stopped at its target, not at the optimum: "
+                                                      : "NOT AN OPTIMUM: ";
+  return fmt::format("{}a step of {:g} along {} lowers the objective by {:.2g} %", finding, around.lowest->step,
+                     around.lowest->along, 100 * share);
 }
 
 /// How far apart the parameters of agreeing realisations are, where there are several.
@@ -74,13 +76,15 @@ bool alarming(const Certificate& certificate) {
   const auto& around = certificate.fresh->around;
   if (around.status.kind() == Status::Kind::failed) return true;
   if (!calibration::same_objective(around.objective, around.objective - certificate.fresh->difference)) return true;
-  return around.better && around.objective - around.lowest->objective > not_an_optimum * std::abs(around.objective);
+  return !certificate.ended_at_target && around.better &&
+         around.objective - around.lowest->objective > not_an_optimum * std::abs(around.objective);
 }
 
 std::string verdict(const Certificate& certificate) {
   std::vector<std::string> parts{fresh_words(certificate)};
   const bool known = certificate.fresh && certificate.fresh->around.status.kind() != Status::Kind::failed;
-  if (known && certificate.fresh->around.status.ok()) parts.push_back(neighbour_words(certificate.fresh->around));
+  if (known && certificate.fresh->around.status.ok())
+    parts.push_back(neighbour_words(certificate.fresh->around, certificate.ended_at_target));
   if (known && !certificate.fresh->around.status.ok()) parts.emplace_back("it BREAKS A CONSTRAINT");
   if (certificate.realisations > 1)
     parts.push_back(fmt::format("{} of {} realisations agree{}", certificate.agreeing, certificate.realisations,

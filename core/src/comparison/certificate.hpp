@@ -30,7 +30,8 @@ struct Certificate {
   std::uint64_t realisations = 0, agreeing = 0;
   std::vector<Spread> spread;
   std::vector<std::string> at_bounds;
-  std::string verdict;  ///< one sentence
+  bool ended_at_target = false;  ///< the search was not to go on to the optimum
+  std::string verdict;           ///< one sentence
 };
 
 /// Fills in how many realisations end within 1e-3 (relative) of the best objective or, where the best one reached the
