@@ -102,5 +102,12 @@ TEST(CeresLm, ReachesTheOptimumOfTheLambAortaFromEverySeed) {
   }
 }
 
+TEST(CeresLm, CountsTheStartsThatWereMadeBeforeTheEnd) {
+  FunctionProblem problem(rosenbrock(2), {.budget = 40});
+  const auto outcome = make_optimizer("ceres_lm", {{"starts", std::int64_t{20}}})->minimise(problem);
+  EXPECT_NE(outcome.reason.find(" starts (of 20) made until then could be evaluated"), std::string::npos)
+      << outcome.reason;
+}
+
 }  // namespace
 }  // namespace tunica::testing

@@ -114,14 +114,18 @@ Optimizer::Outcome MultiStart::minimise(Problem& problem) {
     return descent.evaluated && descent.violation == best.violation &&
            descent.objective - best.objective <= 1e-6 * std::abs(best.objective);
   });
-  const bool infeasible = best.violation > 0;
+  const auto made = std::ranges::count_if(
+      descents, [](const Descent& descent) { return descent.evaluated || !descent.failure.empty(); });
+  const bool infeasible = best.violation > 0, cut_short = static_cast<std::size_t>(made) < settings_.starts;
   return {
       best.end == Descent::End::converged && !infeasible,
       fmt::format(
-          "{}{}{} of {} starts could be evaluated, {} came to the best objective; the best was start {}: {}",
-          problem.should_stop() ? "stopped; " : "",
+          "{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
           infeasible ? fmt::format("no feasible point was found, the least violation was {:g}; ", best.violation) : "",
-          evaluated, settings_.starts, agree, order[0] + 1, words(best.end))};
+          evaluated,
+          cut_short ? fmt::format("the {} starts (of {}) made until then", made, settings_.starts)
+                    : fmt::format("{} starts", settings_.starts),
+          agree, order[0] + 1, words(best.end))};
 }
 
 }  // namespace tunica::ceres_lm

@@ -48,6 +48,8 @@ NloptOptimizer::NloptOptimizer(const Settings& settings) : settings_(settings) {
             .constraints = true,
             .random = random_numbers(settings),
             .infeasible = algorithm != Algorithm::crs2_lm};
+  // A simplex of n + 1 points is drawn from the population.
+  if (algorithm == Algorithm::crs2_lm && settings.population > 0) needs_.most_parameters = settings.population - 1;
 }
 
 Optimizer::Outcome NloptOptimizer::minimise(Problem& problem) {
@@ -114,11 +116,14 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
            search.best.objective - best->best.objective <= 1e-6 * std::abs(best->best.objective);
   });
   const auto number = best - searches.begin() + 1;
-  return {
-      best->converged(),
-      fmt::format("{}{}{} of {} starts could be evaluated, {} came to the best objective; the best was start {}: {}",
-                  problem.should_stop() ? "stopped; " : "", infeasibility(best->best), settings_.starts - which.size(),
-                  settings_.starts, agree, number, best->words())};
+  const auto made = std::ranges::count_if(searches, [](const Search& search) { return search.evaluated > 0; });
+  const bool cut_short = static_cast<std::size_t>(made) < settings_.starts;
+  return {best->converged(),
+          fmt::format("{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
+                      infeasibility(best->best), settings_.starts - which.size(),
+                      cut_short ? fmt::format("the {} starts (of {}) made until then", made, settings_.starts)
+                                : fmt::format("{} starts", settings_.starts),
+                      agree, number, best->words())};
 }
 
 }  // namespace tunica::nlopt_plugin
