@@ -12,6 +12,7 @@
 #include "calibration/identifiability.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/text.hpp"
+#include "comparison/uncertainty.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
@@ -109,6 +110,7 @@ int check(const GlobalOptions& global, const std::string& file) {
   const Session session(global);
   const auto experiment = session.read(file);
   const auto plan = execution::make_plan(experiment, session.catalogue());
+  comparison::check_analysis(plan, session.catalogue());
   fmt::print("{}: {}, {}, {}, seed {}\n", experiment.name, counted(experiment.models.size(), "model", "models"),
              counted(experiment.tests.size(), "test", "tests"), counted(experiment.runs.size(), "run", "runs"),
              experiment.seed);

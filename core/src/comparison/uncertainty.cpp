@@ -25,9 +25,9 @@ calibration::LocalOptimizer local_optimizer(const experiment::Experiment& experi
   const auto found = catalogue.optimizers().find(type);
   if (found == catalogue.optimizers().end())
     throw InputError(
-        fmt::format("analysis: refits need the optimizer type '{}', which no plugin provides; name another "
-                    "of \"optimizers\" in analysis.optimizer",
-                    type));
+        fmt::format("{} (/analysis): refits need the optimizer type '{}', which no plugin provides; name another of "
+                    "\"optimizers\" in analysis.optimizer",
+                    experiment.file.string(), type));
   if (!named.empty()) return {&found->second, experiment.optimizer(named).options};
   Options options;
   for (const auto& option : found->second.factory.options)
@@ -66,12 +66,12 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
       if (std::find(known.begin(), known.end(), parameter.name) == known.end()) known.push_back(parameter.name);
   for (const auto& name : analysis.profiles)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("analysis: no run searches for the parameter '{}' that a profile is asked of. {}",
-                                   name, data::suggestion(name, known)));
+      throw InputError(fmt::format("{}: no run searches for the parameter '{}' that a profile is asked of. {}",
+                                   analysis.place("profiles", name), name, data::suggestion(name, known)));
   for (const auto& name : analysis.stability_map)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("analysis: no run searches for the parameter '{}' of the stability map. {}", name,
-                                   data::suggestion(name, known)));
+      throw InputError(fmt::format("{}: no run searches for the parameter '{}' of the stability map. {}",
+                                   analysis.place("map", name), name, data::suggestion(name, known)));
   if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }
 

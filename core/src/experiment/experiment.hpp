@@ -71,13 +71,13 @@ enum class OnFailure { penalise, stop, retry };
 using StabilityFactor = std::vector<std::pair<double, double>>;
 
 struct ConstraintEntry {
-  std::string type;  ///< "transverse_stability", "admissible_parameters"
-  std::string json, pointer;
+  std::string type;                     ///< "transverse_stability", "admissible_parameters"
+  std::string json = {}, pointer = {};  ///< pointer: with file and line
   // transverse_stability
   StabilityFactor h = {{1, 1}};
-  std::optional<std::pair<double, double>> range;  ///< stretches, besides the measured ones
-  std::optional<std::size_t> points;               ///< evenly spaced stretches in place of every measured one
-  std::array<bool, 2> directions = {true, true};   ///< circumferential, axial
+  std::optional<std::pair<double, double>> range = {};  ///< stretches, besides the measured ones
+  std::optional<std::size_t> points = {};               ///< evenly spaced stretches in place of every measured one
+  std::array<bool, 2> directions = {true, true};        ///< circumferential, axial
 };
 
 /// max_evaluations of a stage that has no limit of its own: what is left of the shared one.
@@ -113,6 +113,8 @@ struct RunEntry {
 struct Analysis {
   bool all_profiles = false;
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
+  /// Where the file names a parameter, "profiles mu" or "map mu": for messages.
+  std::map<std::string, std::string> places;
   std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
   std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
   std::optional<double>
@@ -120,6 +122,16 @@ struct Analysis {
   std::vector<std::string> stability_map;  ///< two parameters, or none
   std::size_t map_points = 41;             ///< along each
 
+  void add_profile(const std::string& name, const std::string& place) {
+    profiles.push_back(name), places.emplace("profiles " + name, place);
+  }
+  void add_map(const std::string& name, const std::string& place) {
+    stability_map.push_back(name), places.emplace("map " + name, place);
+  }
+  [[nodiscard]] std::string place(const std::string& use, const std::string& name) const {
+    const auto found = places.find(use + ' ' + name);
+    return found == places.end() ? "--profiles" : found->second;
+  }
   [[nodiscard]] bool wanted() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
 };
 

@@ -32,6 +32,11 @@ std::string described(const Json& value) {
 
 }  // namespace
 
+std::string Node::place() const {
+  const auto [line, column] = document_->place(pointer_);
+  return fmt::format("{} ({}, line {}, column {})", document_->file().string(), pointer_, line, column);
+}
+
 void Node::fail(std::string_view what, std::string_view help) const {
   const auto [line, column] = document_->place(pointer_);
   throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", document_->file().string(), what, pointer_,

@@ -21,6 +21,8 @@ class Node {
   [[nodiscard]] const Json& json() const { return *value_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
+  /// "file (/pointer, line 4, column 7)", for messages about it later on.
+  [[nodiscard]] std::string place() const;
   /// "file: what (/pointer, line 4, column 7). help"
   [[noreturn]] void fail(std::string_view what, std::string_view help = {}) const;
   [[noreturn]] void fail_expected(std::string_view expected) const;

@@ -108,7 +108,7 @@ void read_analysis(const Node& node, Experiment& experiment) {
       analysis.all_profiles = true;
     } else {
       for (const Node& name : profiles->elements("\"all\" or a list of parameter names"))
-        analysis.profiles.push_back(name.text("the name of a parameter, as in results"));
+        analysis.add_profile(name.text("the name of a parameter, as in results"), name.place());
     }
   }
   if (const auto bootstrap = node.find("bootstrap")) {
@@ -132,7 +132,7 @@ void read_analysis(const Node& node, Experiment& experiment) {
     }
     if (const auto map = stability->find("map")) {
       for (const Node& name : map->elements("two names of parameters, as in results,"))
-        analysis.stability_map.push_back(name.text("the name of a parameter, as in results"));
+        analysis.add_map(name.text("the name of a parameter, as in results"), name.place());
       if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
     }
     if (const auto points = stability->find("points"))

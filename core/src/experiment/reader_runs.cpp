@@ -62,15 +62,21 @@ void read_transverse_stability(const Node& entry, ConstraintEntry& constraint) {
     if (!range->is_array() || range->json().size() != 2) range->fail_expected(expected);
     constraint.range = {range->element(0).number(expected), range->element(1).number(expected)};
     if (!(constraint.range->first > 0 && constraint.range->first < constraint.range->second))
-      range->fail_expected(expected);
+      range->fail(fmt::format("the range goes from {} to {}", constraint.range->first, constraint.range->second),
+                  "Expected two stretches [from, to], 0 < from < to.");
   }
   if (const auto points = entry.find("points"))
     constraint.points = points->count("a whole number of stretches from 2", 2);
   if (const auto directions = entry.find("directions")) {
     static const std::vector<std::string> names = {"circumferential", "axial"};
     constraint.directions = {false, false};
-    for (const Node& name : directions->elements("a list of directions"))
+    const auto add = [&](const Node& name) {
       constraint.directions[name.one_of(names, "direction") == names[0] ? 0 : 1] = true;
+    };
+    if (directions->is_text())
+      add(*directions);
+    else
+      for (const Node& name : directions->elements("a direction, or a list of them,")) add(name);
   }
 }
 
@@ -115,7 +121,7 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
     ConstraintEntry constraint;
     constraint.type =
         entry.require("type", "a constraint").one_of({"transverse_stability", "admissible_parameters"}, "constraint");
-    constraint.json = entry.json().dump(), constraint.pointer = entry.pointer();
+    constraint.json = entry.json().dump(), constraint.pointer = entry.place();
     const std::string owner = fmt::format("the constraint '{}'", constraint.type);
     if (constraint.type == "transverse_stability") {
       entry.allow_only({"type", "h", "range", "points", "directions"}, owner);

@@ -113,7 +113,9 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   h["anyOf"] = Json::array({std::move(factor), std::move(table)});
   Json range = list_schema("Stretches from, to: besides those that were measured.", {{"type", "number"}});
   range["minItems"] = 2, range["maxItems"] = 2;
-  Json directions = list_schema("Strips along which axes (default both).", {{"enum", {"circumferential", "axial"}}});
+  Json directions = {{"description", "Strips along which axes (default both)."}};
+  directions["anyOf"] = Json::array({{{"enum", {"circumferential", "axial"}}},
+                                     list_schema("Several.", {{"enum", {"circumferential", "axial"}}})});
   Json either = {{"description", "A condition on the parameters."}};
   either["anyOf"] = Json::array(
       {object_schema("The transverse stretch λ3 falls as the strip is pulled: d ln λ3/d ln λ1 ≤ −(1 − h)/2.",
