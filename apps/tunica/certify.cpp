@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "execution/files.hpp"
 #include "execution/plan.hpp"
@@ -24,8 +25,10 @@ int certify(const GlobalOptions& global, const std::filesystem::path& folder) {
   const Session session(global);
   const auto experiment = session.read(folder / "input.json");
   const auto plan = execution::make_plan(experiment, session.catalogue());
-  fmt::print("{}", comparison::certify(plan, execution::read_text(folder / "result.json")));
-  return done;
+  std::vector<std::string> contradictions;
+  fmt::print("{}", comparison::certify(plan, execution::read_text(folder / "result.json"), &contradictions));
+  for (const auto& contradiction : contradictions) fmt::print(stderr, "error: {}\n", contradiction);
+  return contradictions.empty() ? done : not_converged;
 }
 
 }  // namespace
@@ -37,7 +40,8 @@ void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
-      "of the neighbours. `tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
+      "of the neighbours. Exit code 1, and a line on stderr, where a recorded objective is not confirmed.\n"
+      "`tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
       "Example:\n"
       "  tunica certify results/a");
   verb->callback([&global, &action, folder] { action = [&global, folder] { return certify(global, *folder); }; });

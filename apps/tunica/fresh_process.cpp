@@ -48,7 +48,7 @@ Answer ask_fresh_process(const std::vector<std::string>& arguments) {
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) answer.problem = fmt::format("it was ended by signal {}", WTERMSIG(status));
-  if (WIFEXITED(status) && WEXITSTATUS(status) != 0)
+  if (WIFEXITED(status) && WEXITSTATUS(status) > 1)  // 1: it answered, with bad news
     answer.problem = fmt::format("it ended with code {}", WEXITSTATUS(status));
   return answer;
 }

@@ -67,6 +67,9 @@ TEST(Run, WritesTheComparisonAsTables) {
   };
   EXPECT_EQ(lines("ranking.csv"), 1 + 2);
   EXPECT_EQ(lines("realisations.csv"), 1 + 4);
+  EXPECT_GE(lines("statistics.csv"), 2 + 2 * 4);
+  EXPECT_THAT(bench.text("out/statistics.csv"), HasSubstr("\ngho/es,mu,kPa,3,"));
+  EXPECT_THAT(bench.text("out/ranking.csv"), HasSubstr(",evaluations_total,jacobians_total,failures,"));
   EXPECT_GT(lines("convergence.csv"), 3 + 4 * 3);
   EXPECT_GE(lines("performance_profile.csv"), 3 + 2);
   EXPECT_GE(lines("data_profile.csv"), 3 + 2);
@@ -94,6 +97,39 @@ TEST(Run, CertifiesItsOptimaInAFreshProcess) {
   const auto certified = nlohmann::json::parse(again.out);
   EXPECT_EQ(certified["runs"].size(), 2u);
   EXPECT_EQ(certified["runs"][0]["recorded"], bench.result("out")["runs"][0]["best"]["objective"]);
+}
+
+TEST(Run, IsContradictedByCertifyWhereAnObjectiveWasChanged) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--no-certificate"}).code, 0);
+  auto result = bench.result("out");
+  result["runs"][0]["best"]["objective"] = 0.5 * result["runs"][0]["best"]["objective"].get<double>();
+  bench.folder.write("out/result.json", result.dump());
+  const auto ended = bench.tunica({"certify", "out"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("error: neo/lm: NOT CONFIRMED: result.json records the objective "));
+  EXPECT_EQ(nlohmann::json::parse(ended.out)["runs"].size(), 2u);
+}
+
+TEST(Run, SaysThatNoFeasiblePointWasFoundBeforeAnythingElse) {
+  trial::Bench bench;
+  auto& parameters = bench.experiment["models"]["gho"]["parameters"];
+  parameters = {{"mu", {{"max", 2}}},
+                {"k1", {{"min", 20}}},
+                {"k2", {{"min", 0.5}, {"max", 1}}},
+                {"theta", {{"min", 40}, {"max", 50}}},
+                {"kappa", {{"min", 0}, {"max", 0.01}}}};
+  bench.experiment["runs"] = {
+      {{"model", "gho"}, {"optimizer", "lm"}},
+      {{"model", "gho"}, {"optimizer", "lm"}, {"constraints", {{{"type", "transverse_stability"}, {"h", 0.7}}}}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_NE(ended.out.find("WARNINGS\n  ! gho/lm#2: NO FEASIBLE POINT WAS FOUND in "), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("gho/lm#2: UNSTABLE"), std::string::npos) << "of a point that is no fit";
+  const auto best = bench.result("out")["runs"][1]["best"];
+  EXPECT_EQ(best["status"], "infeasible");
+  EXPECT_EQ(best["stability"]["ratio_to_free"], nullptr);
+  EXPECT_EQ(best["parameters"]["k1"]["ci95"], nullptr);
 }
 
 TEST(Run, LeavesTheCertificateOutOnDemand) {

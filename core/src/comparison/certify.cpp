@@ -67,7 +67,8 @@ const json& run_named(const json& result, const std::string& label) {
 
 }  // namespace
 
-std::string certify(const execution::Plan& plan, const std::string& result_json) {
+std::string certify(const execution::Plan& plan, const std::string& result_json,
+                    std::vector<std::string>* contradictions) {
   json runs = json::array();
   try {
     const json result = json::parse(result_json);
@@ -81,12 +82,21 @@ std::string certify(const execution::Plan& plan, const std::string& result_json)
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
         free.push_back(values.at(parameter.name).at("value"));
       }
-      json entry = to_json(calibration::look_around(*planned.assembly, free));
+      const auto around = calibration::look_around(*planned.assembly, free);
+      json entry = to_json(around);
       const double recorded = run.at("best").at("objective"), now = entry.at("objective");
       entry["run"] = planned.label;
       entry["recorded"] = recorded;
       entry["difference"] = now - recorded;
       entry["identical"] = std::bit_cast<std::uint64_t>(now) == std::bit_cast<std::uint64_t>(recorded);
+      if (contradictions && around.status.kind() == Status::Kind::failed)
+        contradictions->push_back(
+            fmt::format("{}: the best point cannot be evaluated: {}", planned.label, around.status.reason()));
+      else if (contradictions && !calibration::same_objective(now, recorded))
+        contradictions->push_back(
+            fmt::format("{}: NOT CONFIRMED: result.json records the objective {}, evaluated again it "
+                        "is {}",
+                        planned.label, recorded, now));
       runs.push_back(std::move(entry));
     }
   } catch (const json::exception& problem) {

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "comparison/summary.hpp"
 
 namespace tunica::comparison {
 
 /// What `tunica certify` prints: for every run of a result.json that has a best point, that point evaluated again by
-/// this process, and its neighbours, as JSON. `plan` is made from the input.json beside it. Throws InputError when the
+/// this process, and its neighbours, as JSON. `contradictions`: a sentence for each point that does not confirm what
+/// is recorded. `plan` is made from the input.json beside it. Throws InputError when the
 /// two do not belong together.
-std::string certify(const execution::Plan& plan, const std::string& result_json);
+std::string certify(const execution::Plan& plan, const std::string& result_json,
+                    std::vector<std::string>* contradictions = nullptr);
 
 /// Reads what certify() printed elsewhere into the certificates of the summary and words every verdict. A run that is
 /// not in it, or an empty text, is left without; `missing` then says why.
