@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "comparison/simulation.hpp"
+#include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
@@ -17,7 +18,7 @@ namespace tunica::app {
 namespace {
 
 struct SimulateOptions {
-  std::string file, model, parameters, directory;
+  std::string file, model, parameters, run, directory;
   double noise = 0;
   std::optional<std::uint64_t> seed;
 };
@@ -30,7 +31,11 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   if (!options.parameters.empty()) request.parameters = options.parameters;
   request.noise = options.noise;
   request.seed = options.seed.value_or(experiment.seed);
-  const auto tables = comparison::simulate(experiment, session.catalogue(), request);
+  request.run = options.run;
+  const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
+  fmt::print(stderr, "{}\n", comparison::hanging("", subject.origin));
+  for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
+  const auto tables = comparison::simulate(experiment, session.catalogue(), request, subject);
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
   for (const auto& table : tables) fmt::print("{}\n", comparison::write_table(directory.path(), table).string());
   return done;
@@ -46,6 +51,8 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--parameters", options->parameters,
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");
+  verb->add_option("--run", options->run, "A run of that result.json instead of the best-ranked one of the model")
+      ->type_name("NAME");
   verb->add_option("--noise", options->noise, "Relative noise: y (1 + R N(0, 1))")
       ->check(CLI::NonNegativeNumber)
       ->type_name("R");

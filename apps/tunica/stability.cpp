@@ -20,7 +20,7 @@ namespace tunica::app {
 namespace {
 
 struct StabilityOptions {
-  std::string file, model, parameters, directory;
+  std::string file, model, parameters, run, directory;
   std::vector<std::string> map;
   std::size_t points = 41;
   double to = 0;
@@ -34,6 +34,7 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   comparison::SimulationRequest request;
   request.model = options.model;
   if (!options.parameters.empty()) request.parameters = options.parameters;
+  request.run = options.run;
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
   const auto& assembly = *subject.assembly;
   auto domain = comparison::domain_of(assembly);
@@ -44,7 +45,8 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
       for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
   }
   const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);
-  fmt::print("{}\n", options.model);
+  for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
+  fmt::print("{}\n{}\n", options.model, comparison::hanging("  ", subject.origin));
   for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging("  ", sentence));
   if (options.directory.empty()) return done;
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
@@ -68,6 +70,8 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--parameters", options->parameters,
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");
+  verb->add_option("--run", options->run, "A run of that result.json instead of the best-ranked one of the model")
+      ->type_name("NAME");
   verb->add_option("--to", options->to, "Judge up to this stretch instead of the largest measured one")
       ->check(CLI::Range(1.0, 100.0))
       ->type_name("STRETCH");

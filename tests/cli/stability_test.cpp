@@ -93,6 +93,42 @@ TEST(Stability, RefusesMapsItCannotDraw) {
   EXPECT_THAT(refused({"--map", "kappa", "kappa", "-o", "c"}), HasSubstr("named twice"));
 }
 
+TEST(Stability, SaysWhoseParametersItTakesAndTakesThoseOfANamedRun) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}, {{"model", "neo"}, {"optimizer", "es"}}};
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  for (const std::string verb : {"stability", "simulate"}) {
+    const auto asked = [&](std::vector<std::string> more) {
+      std::vector<std::string> command{verb, "experiment.json", "--model", "neo"};
+      command.insert(command.end(), more.begin(), more.end());
+      if (verb == "simulate") command.insert(command.end(), {"-o", "simulated" + more.back().substr(0, 3)});
+      return bench.tunica(command);
+    };
+    const std::string file = "out/result.json";
+    const auto best = asked({"--parameters", file}), named = asked({"--run", "neo/es", "--parameters", file});
+    EXPECT_THAT(best.out + best.err, HasSubstr("run 'neo/lm' of out/result.json: mu = "));
+    EXPECT_EQ(named.code, verb == "simulate" ? 2 : 0) << "the folder is there already";
+    EXPECT_THAT(named.out + named.err, HasSubstr("run 'neo/es' of out/result.json: mu = "));
+    const auto unknown = asked({"--parameters", file, "--run", "neo/ex"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err,
+                HasSubstr("no run 'neo/ex' of the model 'neo' has a result in it. Did you mean 'neo/es'?"));
+    EXPECT_THAT(asked({"--run", "neo/es"}).err, HasSubstr("name that with --parameters"));
+    bench.folder.write("p.json", R"({"mu": -5})");
+    EXPECT_THAT(asked({"--run", "neo/es", "--parameters", "p.json"}).err, HasSubstr("is no result.json"));
+  }
+  EXPECT_THAT(bench.tunica({"stability", "experiment.json", "--model", "neo", "--parameters", "p.json"}).err,
+              HasSubstr("warning: mu = -5 kPa lies outside "));
+}
+
+TEST(Stability, BoundsBeyondTheDeclaredRangeAreWarnedOf) {
+  trial::Bench bench;
+  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"min", -0.2}, {"max", 0.9}};
+  const auto ended = bench.tunica({"check", "experiment.json"});
+  EXPECT_THAT(ended.out, HasSubstr("! parameter 'kappa': its bounds -0.2 … 0.9 go beyond 0 … 0.3333"));
+  EXPECT_THAT(ended.out, Not(HasSubstr("parameter 'mu'")));
+}
+
 TEST(Stability, IsReportedOfEveryRunAskedForOrNot) {
   trial::Bench bench;
   bench.experiment["models"]["u"] = set_u();
@@ -127,8 +163,12 @@ TEST(Stability, IsJudgedFurtherAndMappedWhereTheExperimentAsks) {
   EXPECT_FALSE(std::filesystem::exists(bench.path("out/stability_map_neo-lm.csv")));  // has neither
 
   bench.experiment["analysis"]["stability"]["map"] = {"kappa", "k3"};
+  const auto checked = bench.tunica({"check", "experiment.json"});
+  EXPECT_EQ(checked.code, 2) << "what run refuses, check does not pass";
   const auto refused = bench.tunica({"run", "experiment.json", "-o", "never"});
   EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err, checked.err);
+  EXPECT_THAT(refused.err, HasSubstr("experiment.json (/analysis/stability/map/1, line "));
   EXPECT_THAT(refused.err,
               HasSubstr("no run searches for the parameter 'k3' of the stability map. Did you mean 'k1'?"));
 }

@@ -130,6 +130,27 @@ void add_stretches(const Test& test, const std::vector<Observable>& observables,
   }
 }
 
+/// Bounds, and values that are held, outside of what the model or test declares. On a logarithmic scale an upper bound
+/// is a habit of its tissue, which others may exceed; a sign is not.
+std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
+                                      const std::vector<FixedParameter>& fixed) {
+  std::vector<std::string> warnings;
+  const auto unit = [](const std::string& name) { return name == "1" ? "" : ' ' + name; };
+  for (const FreeParameter& p : free) {
+    const bool sign = p.min < 0 && p.declared.min >= 0;
+    if (!sign && (p.scale == Scale::log || (p.declared.contains(p.min) && p.declared.contains(p.max)))) continue;
+    warnings.push_back(
+        fmt::format("parameter '{}': its bounds {:g} … {:g}{} go beyond {:g} … {:g}, the range declared for it: values "
+                    "there may mean nothing",
+                    p.name, p.min, p.max, unit(p.unit), p.declared.min, p.declared.max));
+  }
+  for (const FixedParameter& p : fixed)
+    if (p.value != 0 && !p.declared.contains(p.value))  // 0 switches a part of a model off
+      warnings.push_back(fmt::format("parameter '{}': held at {:g}{}, outside {:g} … {:g}, the range declared for it",
+                                     p.name, p.value, unit(p.unit), p.declared.min, p.declared.max));
+  return warnings;
+}
+
 Map map_of(const FreeParameter& free) {
   if (free.scale == Scale::linear) return {free.min, free.max, 0, 0, false};
   return {free.min, free.max, std::log(free.min), std::log(free.max / free.min), true};
@@ -155,6 +176,7 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
   parts.model_parameters = std::move(binding.owners[0]);
   parts.free = std::move(binding.free), parts.fixed = std::move(binding.fixed);
   std::transform(parts.free.begin(), parts.free.end(), std::back_inserter(parts.maps), map_of);
+  parts.warnings = out_of_range(parts.free, parts.fixed);
   parts.combinations = free_combinations(parts.model->describe().combinations, parts.model_parameters);
 
   for (std::size_t t = 0; t < tests.size(); ++t) {

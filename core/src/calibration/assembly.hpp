@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,13 @@
 
 namespace tunica::calibration {
 
+/// Bounds that the owner of a parameter declares: outside of them it may mean nothing.
+struct DeclaredRange {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool contains(double value) const { return value >= min && value <= max; }
+};
+
 /// A parameter the run searches for, with its name as the outside sees it: "mu", "viscoelasticity.tau",
 /// "circumferential_strip.force_offset.value"; base units.
 struct FreeParameter {
@@ -21,11 +29,13 @@ struct FreeParameter {
   double min, max, initial;
   Scale scale;
   std::optional<experiment::Prior> prior;
+  DeclaredRange declared = {};
 };
 
 struct FixedParameter {
   std::string name, unit;
   double value;
+  DeclaredRange declared = {};
 };
 
 /// One channel of one test: where its rows lie in the vector of all predictions.

@@ -30,7 +30,7 @@ double held_value(const Slot& slot) { return slot.setting ? *slot.setting->fixed
 /// The effective declaration of one slot, before sharing.
 FreeParameter effective(const Slot& slot) {
   const Parameter& own = slot.declaration;
-  FreeParameter free{own.name, own.unit, own.min, own.max, own.initial, own.scale, {}};
+  FreeParameter free{own.name, own.unit, own.min, own.max, own.initial, own.scale, {}, {own.min, own.max}};
   if (const ParameterSetting* setting = slot.setting) {
     free.min = setting->min.value_or(own.min);
     free.max = setting->max.value_or(own.max);
@@ -126,7 +126,10 @@ Binding bind_parameters(const std::vector<std::vector<Slot>>& owners) {
       const Slot& slot = slots[position];
       if (held(slot)) {
         bound.values[position] = held_value(slot);
-        binding.fixed.push_back({slot.declaration.name, slot.declaration.unit, held_value(slot)});
+        binding.fixed.push_back({slot.declaration.name,
+                                 slot.declaration.unit,
+                                 held_value(slot),
+                                 {slot.declaration.min, slot.declaration.max}});
         continue;
       }
       const bool shared = slot.setting && slot.setting->share;

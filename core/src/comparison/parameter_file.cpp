@@ -18,16 +18,24 @@ namespace {
 
 using nlohmann::json;
 
-/// {name: value} of the best-ranked run of the model in a result.json.
-json from_result(const json& document, const std::string& model, const std::string& file) {
+/// {name: value} of a run of the model in a result.json, the best-ranked one unless `wanted` names it, which then is
+/// its name.
+json from_result(const json& document, const std::string& model, std::string& wanted, const std::string& file) {
+  std::vector<std::string> known;
   for (const auto& entry : document.at("ranking"))
     for (const auto& run : document.at("runs"))
       if (run.at("run") == entry.at("run") && run.at("model") == model && !run.at("best").is_null()) {
+        known.push_back(run.at("run"));
+        if (!wanted.empty() && known.back() != wanted) continue;
+        wanted = known.back();
         json values = json::object();
         for (const auto& [name, parameter] : run.at("best").at("parameters").items())
           values[name] = parameter.at("value");
         return values;
       }
+  if (!wanted.empty() && !known.empty())
+    throw InputError(fmt::format("{}: no run '{}' of the model '{}' has a result in it. {}", file, wanted, model,
+                                 data::suggestion(wanted, known)));
   throw InputError(fmt::format("{}: no run of the model '{}' has a result in it", file, model));
 }
 
@@ -44,14 +52,20 @@ double value_of(const json& value, const std::string& unit, const std::string& w
 
 }  // namespace
 
-std::vector<double> read_parameters(const std::filesystem::path& path, const std::string& model,
-                                    const calibration::Assembly& assembly) {
+std::pair<std::vector<double>, std::string> read_parameters(const std::filesystem::path& path, const std::string& model,
+                                                            const std::string& run,
+                                                            const calibration::Assembly& assembly) {
   const std::string file = path.string();
+  std::string origin = file, chosen = run;
   json values;
   try {
     values = json::parse(execution::read_text(path), nullptr, true, true);
-    if (values.is_object() && values.contains("runs") && values.contains("ranking"))
-      values = from_result(values, model, file);
+    if (values.is_object() && values.contains("runs") && values.contains("ranking")) {
+      values = from_result(values, model, chosen, file);
+      origin = fmt::format("run '{}' of {}", chosen, file);
+    } else if (!run.empty()) {
+      throw InputError(fmt::format("{}: is no result.json, so it has no run '{}'", file, run));
+    }
   } catch (const json::exception& problem) {
     throw InputError(
         fmt::format("{}: is neither a result.json nor an object {{name: value}}: {}", file, problem.what()));
@@ -83,7 +97,7 @@ std::vector<double> read_parameters(const std::filesystem::path& path, const std
           fmt::format("{}: found {}, but the experiment holds it fixed at {} {}; take it out of one of the two files",
                       where, wanted, held->value, held->unit));
   }
-  return free;
+  return {std::move(free), std::move(origin)};
 }
 
 }  // namespace tunica::comparison

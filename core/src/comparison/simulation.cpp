@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
+#include <tuple>
 
 #include "calibration/assembly.hpp"
 #include "comparison/parameter_file.hpp"
@@ -66,17 +67,37 @@ Subject subject_of(const experiment::Experiment& experiment, const plugins::Cata
   Subject subject;
   subject.assembly =
       std::make_unique<calibration::Assembly>(experiment, all_tests_with(experiment, request.model), catalogue);
+  if (!request.run.empty() && !request.parameters)
+    throw InputError("--run names a run of a result.json: name that with --parameters FILE");
+  const auto& parameters = subject.assembly->parameters();
   if (request.parameters)
-    subject.free = read_parameters(*request.parameters, request.model, *subject.assembly);
+    std::tie(subject.free, subject.origin) =
+        read_parameters(*request.parameters, request.model, request.run, *subject.assembly);
   else
-    for (const auto& parameter : subject.assembly->parameters()) subject.free.push_back(parameter.initial);
+    for (const auto& parameter : parameters) subject.free.push_back(parameter.initial);
+  if (!request.parameters) subject.origin = "initial values of the experiment";
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const auto& parameter = parameters[j];
+    const std::string unit = parameter.unit == "1" ? "" : ' ' + parameter.unit;
+    subject.origin += fmt::format("{}{} = {:.6g}{}", j == 0 ? ": " : ", ", parameter.name, subject.free[j], unit);
+    if (!parameter.declared.contains(subject.free[j]))
+      subject.warnings.push_back(
+          fmt::format("{} = {:g}{} lies outside {:g} … {:g}, the range declared for it: what "
+                      "follows may mean nothing",
+                      parameter.name, subject.free[j], unit, parameter.declared.min, parameter.declared.max));
+  }
   return subject;
 }
 
 std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                                      const SimulationRequest& request) {
-  const auto [owner, free] = subject_of(experiment, catalogue, request);
-  const auto& assembly = *owner;
+  return simulate(experiment, catalogue, request, subject_of(experiment, catalogue, request));
+}
+
+std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                     const SimulationRequest& request, const Subject& subject) {
+  const auto& assembly = *subject.assembly;
+  const auto& free = subject.free;
   std::vector<double> predictions(assembly.prediction_count());
   auto workspace = assembly.make_workspace();
   const Status status = assembly.predict(free, predictions, {}, *workspace);

@@ -18,6 +18,7 @@ namespace tunica::comparison {
 struct SimulationRequest {
   std::string model;
   std::optional<std::filesystem::path> parameters;  ///< a result.json, or {name: value or "value unit"}
+  std::string run = {};                             ///< of the result.json; empty = the best-ranked of the model
   double noise = 0;                                 ///< relative
   std::uint64_t seed = 1;
 };
@@ -26,6 +27,8 @@ struct SimulationRequest {
 struct Subject {
   std::unique_ptr<calibration::Assembly> assembly;
   std::vector<double> free;
+  std::string origin;                 ///< "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"
+  std::vector<std::string> warnings;  ///< values outside the declared ranges
 };
 Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                    const SimulationRequest& request);
@@ -42,6 +45,9 @@ struct SimulatedTable {
 /// test's does not depend on which others there are. Throws InputError.
 std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                                      const SimulationRequest& request);
+/// The same of a subject that is there already.
+std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                     const SimulationRequest& request, const Subject& subject);
 
 /// Writes directory/<test>.csv and returns its path.
 std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table);
