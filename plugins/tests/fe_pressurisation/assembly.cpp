@@ -50,8 +50,9 @@ class AssemblyOf final : public Assembly {
     for (std::size_t i = 0; i < size; ++i) system.right[i] -= system.force[i];
     system.largest_dilation = largest;
     if (tangent) system.stiffness = stiffness;
-    const double sum = largest + (tangent ? stiffness : 0);
-    return std::isfinite(sum) ? Status() : Status::failed("the stress overflows, or an element is turned inside out");
+    return std::isfinite(largest + (tangent ? stiffness : 0))
+               ? Status()
+               : Status::failed("the stress overflows, or an element is turned inside out");
   }
 
   Status by_parameters(const Material& material, const State& state, std::span<double> forces) override {
@@ -213,7 +214,7 @@ class AssemblyOf final : public Assembly {
     double* __restrict__ const a = a_.data();
     const double area = element_.weight[g] * h_ * height(row) / 4;
     const double* __restrict__ const R = radius_.data() + g * n_;
-    double largest = 0;
+    double largest = 0, sum = 0;
     for (std::size_t e = 0; e < n_; ++e) {
       const double f0 = f[e], f1 = f[all + e], f2 = f[2 * all + e], f3 = f[3 * all + e], f4 = f[4 * all + e];
       const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e];
@@ -238,9 +239,10 @@ class AssemblyOf final : public Assembly {
       a[upper(3, 3) * n_ + e] = dV * (zz * f3 * f3 + wz);
       a[upper(3, 4) * n_ + e] = dV * (tz * f3 * f4 - q * f0);
       a[upper(4, 4) * n_ + e] = dV * (tt * f4 * f4 + wt);
-      largest = std::max(largest, tt * f4 * f4 + zz * f3 * f3 + rr * f0 * f0 + std::abs(wt));
+      const double modulus = tt * f4 * f4 + zz * f3 * f3 + rr * f0 * f0 + std::abs(wt);
+      largest = std::max(largest, modulus), sum += modulus;
     }
-    stiffness = std::max(stiffness, largest);
+    stiffness = std::isfinite(sum) ? std::max(stiffness, largest) : sum;
     if (sees_shear) add_shear(g, area);
   }
 
@@ -378,7 +380,6 @@ class AssemblyOf final : public Assembly {
         const std::size_t at = (row * n_ + e) * np + m;
         system.dilation[at] = c;
         largest = std::max(largest, std::abs(c) / mass(0, e, row));
-        if (!std::isfinite(c)) largest = c;
         double* __restrict__ const coupling = system.coupling.data() + at * dofs;
         for (std::size_t i = 0; i < (tangent ? dofs : 0); ++i) coupling[i] = g_[(m * dofs + i) * n_ + e];
         for (std::size_t a = 0; a < nn; ++a) {

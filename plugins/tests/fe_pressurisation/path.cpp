@@ -9,8 +9,8 @@
 namespace tunica::fe {
 namespace {
 
-constexpr double shortest = 1. / 256;  ///< of what is left to go
-constexpr double far = 0.05;           ///< Newton's method may move the state so much, over the outer radius
+constexpr double shortest = 1. / 64;  ///< of what is left to go
+constexpr double far = 0.05;          ///< Newton's method may move the state so much, over the outer radius
 
 /// y += a x
 void add(double a, const State& x, State& y) {

@@ -77,7 +77,9 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
                         std::size_t& failed_at) {
   std::set<double> pressures;
   for (const std::size_t i : rows) pressures.insert(loads[i].pressure);
-  for (std::size_t points = first_points; points < pressures.size() && points <= most_points; points = 2 * points - 1) {
+  // Worth it where it saves three rows in ten.
+  for (std::size_t points = first_points; points <= most_points && 10 * points < 7 * pressures.size();
+       points = 2 * points - 1) {
     bool accurate = false;
     const Status status = interpolated(path, trunk, loads, rows, derivatives, points, samples, failed_at, accurate);
     if (!status.ok() || accurate) return status;

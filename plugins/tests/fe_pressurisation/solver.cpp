@@ -16,10 +16,11 @@ constexpr double slow = 0.1;               ///< a step of a frozen factor this t
 constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e9 behave alike
 
+/// Not finite where an entry is not.
 double largest(std::span<const double> x) {
-  double value = 0;
-  for (const double entry : x) value = std::abs(entry) <= value ? value : std::abs(entry);  // NaN stays
-  return value;
+  double value = 0, sum = 0;
+  for (const double entry : x) value = std::max(value, std::abs(entry)), sum += entry;
+  return std::isfinite(sum) ? value : sum;
 }
 
 }  // namespace
@@ -100,6 +101,13 @@ void Solver::factorise() {
 }
 
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
+  const double gamma = system_.gamma;
+  Status status = iterate(load, state, full_steps);
+  if (!status.ok()) system_.gamma = gamma, has_factor_ = false;  // what a wild state left behind
+  return status;
+}
+
+Status Solver::iterate(const Load& load, State& state, bool full_steps) {
   impose(load, state);
   effort_.steps.clear();
   double last = std::numeric_limits<double>::infinity();

@@ -69,6 +69,7 @@ class Solver {
 
  private:
   void impose(const Load& load, State& state) const;
+  Status iterate(const Load& load, State& state, bool full_steps);
   void factorise();
   void note_force();
   /// Sets prescribed entries to zero.
