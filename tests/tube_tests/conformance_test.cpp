@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/strip.hpp"
+#include "support/tensors_only.hpp"
 #include "support/test_conformance.hpp"
 #include "support/tube.hpp"
 
@@ -107,23 +108,6 @@ TEST(Tube, GivesTheMeanOfBothSidesWhereTheOpeningAngleHasAKink) {
   }
   EXPECT_TRUE(kink);
 }
-
-/// A model without its principal-axes path.
-class TensorsOnly final : public Model {
- public:
-  explicit TensorsOnly(std::unique_ptr<Model> model) : model_(std::move(model)), description_(model_->describe()) {
-    description_.principal_axes = false;
-  }
-  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
-  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    return model_->evaluate(points, response);
-  }
-  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return model_->parts(); }
-
- private:
-  std::unique_ptr<Model> model_;
-  ModelDescription description_;
-};
 
 TEST(Tube, TensorsGiveWhatTheAxesGive) {
   const auto model = make_model("gho");

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "kernel.hpp"
+#include "support/fe_tube.hpp"
+#include "support/strip.hpp"
+#include "support/tensors_only.hpp"
+
+namespace tunica::testing {
+namespace {
+
+std::string refusal(const std::vector<double>& pressure, const FeSetup& setup) {
+  try {
+    make_fe_tube(pressure, setup);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+template <class T>
+Options option(const char* name, T value) {
+  Options options;
+  options.set(name, value);
+  return options;
+}
+std::string reason(const Test& tube, const char* model, const std::vector<double>& p,
+                   const std::vector<double>& own = bare_fe) {
+  return inflate(tube, *make_model(model), p, own).status.reason();
+}
+#define EXPECT_SAYS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
+
+TEST(FiniteElementMessages, TheMeshIsTwoNumbers) {
+  for (const char* wrong : {"[25]", "[25, 50, 3]", "[0, 50]", "[25, 1]", "[201, 50]", "[25, 2001]", "\"fine\"",
+                            "[2.5, 50]", "[-3, 50]", "7"}) {
+    EXPECT_SAYS(refusal({1}, {.elements = wrong}), "\"elements\" is " + std::string(wrong));
+    EXPECT_SAYS(refusal({1}, {.elements = wrong}), "give two numbers, [radial, axial over half the length]");
+  }
+  EXPECT_EQ(refusal({1}, {.elements = "[1, 2]"}), "");
+  EXPECT_EQ(refusal({1}, {.elements = "[200, 2000]"}), "");
+}
+
+TEST(FiniteElementMessages, TheLengthIsNeeded) {
+  EXPECT_SAYS(refusal({1}, {.options = option("length", 0.)}),
+              "fe_pressurisation: \"length\" is 0; give the unloaded length between the ends");
+}
+
+TEST(FiniteElementMessages, TubesThatAreNoneAreRefusedByTheirName) {
+  EXPECT_SAYS(refusal({1}, {.options = option("inner_radius", 0.)}), "fe_pressurisation: give two of");
+  EXPECT_SAYS(refusal({1}, {.axial_stretch = 0}), "fe_pressurisation: the axial stretch is missing");
+  EXPECT_SAYS(refusal({}, {}), "fe_pressurisation: there are no rows");
+  EXPECT_SAYS(refusal({1, 2}, {.axial_stretches = {1.2, -1}}), "row 2 has axial stretch -1; a stretch is positive");
+}
+
+TEST(FiniteElementMessages, ModelsWithHistoryAreSentToTheLongTube) {
+  const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
+  const Inflated out = inflate(*make_fe_tube({1}, {.elements = "[2, 2]"}), *viscous, {60, 0.8, 5}, bare_fe);
+  EXPECT_EQ(out.status.kind(), Status::Kind::failed);
+  EXPECT_SAYS(out.status.reason(), "a model with history cannot be simulated here yet");
+}
+
+TEST(FiniteElementMessages, WithoutParameterDerivativesThereIsNoJacobian) {
+  class Bare final : public TensorsOnly {
+   public:
+    Bare() : TensorsOnly(make_model("neo_hooke")) { description_.parameter_derivatives = false; }
+  } const bare;
+  const auto tube = make_fe_tube({1}, {.elements = "[2, 2]"});
+  std::vector<double> jacobian(3 * 2);
+  EXPECT_SAYS(tube->predict({bare, std::vector<double>{60}, bare_fe}, {{}, jacobian, {}, {}}).reason(),
+              "the model has no parameter derivatives");
+  EXPECT_TRUE(inflate(*tube, bare, {60}, bare_fe).status.ok());
+}
+
+TEST(FiniteElementMessages, ImperfectionsThatLeaveNoTubeAreAStatus) {
+  Options thick = option("inner_radius", 1.);
+  thick.set("thickness", 3.);
+  const auto tube = make_fe_tube({1}, {.elements = "[2, 2]", .options = thick});
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0.4}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {-1.3, 0}), "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
+}
+
+TEST(FiniteElementMessages, TheTimeLimitIsKept) {
+  const auto tube = make_fe_tube({5, 20}, {.elements = "[25, 100]", .options = option("time_limit", 0.004)});
+  const auto start = std::chrono::steady_clock::now();
+  const std::string late = reason(*tube, "gho", set_s);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1);
+  EXPECT_SAYS(late, "row 1 (pressure 5 kPa");
+  EXPECT_SAYS(late, "the time limit is reached");
+}
+
+TEST(FiniteElementMessages, TheStepsAreCounted) {
+  const auto tube = make_fe_tube({2, 8, 20}, {.elements = "[2, 3]", .options = option("max_steps", std::int64_t{2})});
+  EXPECT_SAYS(reason(*tube, "gho", set_s), "2 load steps were not enough");
+  EXPECT_SAYS(reason(*tube, "gho", set_s), "row 2 (pressure 8 kPa");
+}
+
+TEST(FiniteElementMessages, AnOverflowNamesItsRow) {
+  const std::string text =
+      reason(*make_fe_tube({1, 2}, {.elements = "[2, 3]", .axial_stretch = 4}), "gho", {10, 0.1, 500, 100, 0});
+  EXPECT_SAYS(text, "row 1 (pressure 1 kPa, axial stretch 4)");
+  EXPECT_SAYS(text, " at pressure ");
+}
+
+/// What Newton's method says where it is sent to states without equilibrium nearby; the path then shortens its step.
+TEST(FiniteElementMessages, NewtonsMethodSaysHowItFails) {
+  const auto fails = [](const fe::Load& load, double disturbance, std::uint64_t seed) {
+    Kernel kernel(small_mesh(1, fe::Ends::clamped), make_model("gho"), set_s);
+    fe::State state = disturbed(kernel.solver, disturbance, 0, seed);
+    return kernel.solver.solve(load, state, true).reason();
+  };
+  for (double pressure : {30., 100., 300., 1000., 3e4, 1e6, 1e9})
+    for (double d : {0., 0.3, 1., 3., 30.})
+      std::printf("%g %g: %s\n", pressure, d, fails({1.2, pressure}, d, 3).c_str());
+}
+
+}  // namespace
+}  // namespace tunica::testing
