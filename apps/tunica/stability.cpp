@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,18 +45,24 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
     for (auto& stretches : domain.asked)
       for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
   }
+  // A map that cannot be drawn, or a folder that is there already, is said before anything else.
+  std::string map;
+  if (!options.map.empty())
+    map = comparison::stability_map(assembly, subject.free, {options.map[0], options.map[1]}, options.points,
+                                    domain.largest);
+  std::optional<execution::RunDirectory> directory;
+  if (!options.directory.empty())
+    directory.emplace(execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name));
   const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);
   for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
   fmt::print("{}\n{}\n", options.model, comparison::hanging("  ", subject.origin));
   for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging("  ", sentence));
-  if (options.directory.empty()) return done;
-  const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
-  comparison::write_stability_tables(directory.path(), {{options.model, &assembly, subject.free, domain.largest}});
-  fmt::print("{}\n{}\n", (directory.path() / "stability.csv").string(), (directory.path() / "energy.csv").string());
+  if (!directory) return done;
+  comparison::write_stability_tables(directory->path(), {{options.model, &assembly, subject.free, domain.largest}});
+  fmt::print("{}\n{}\n", (directory->path() / "stability.csv").string(), (directory->path() / "energy.csv").string());
   if (options.map.empty()) return done;
-  const auto file = directory.path() / "stability_map.csv";
-  execution::write_atomically(file, comparison::stability_map(assembly, subject.free, {options.map[0], options.map[1]},
-                                                              options.points, domain.largest));
+  const auto file = directory->path() / "stability_map.csv";
+  execution::write_atomically(file, map);
   fmt::print("{}\n", file.string());
   return done;
 }

@@ -88,6 +88,11 @@ TEST(Stability, RefusesMapsItCannotDraw) {
     return ended.err;
   };
   EXPECT_THAT(refused({"--map", "kappa", "k2"}), HasSubstr("-o DIR"));
+  std::filesystem::create_directory(bench.path("taken"));
+  bench.folder.write("taken/file", "");
+  const auto taken = bench.tunica({"stability", "experiment.json", "--model", "u", "-o", "taken"});
+  EXPECT_EQ(taken.code, 2);
+  EXPECT_EQ(taken.out, "") << "no verdict before the refusal";
   EXPECT_THAT(refused({"--map", "kappa", "k3", "-o", "a"}), HasSubstr("Did you mean 'k2'?"));
   EXPECT_THAT(refused({"--map", "kappa", "mu", "-o", "b"}), HasSubstr("'mu' is fixed at 10.015"));
   EXPECT_THAT(refused({"--map", "kappa", "kappa", "-o", "c"}), HasSubstr("named twice"));
@@ -171,4 +176,16 @@ TEST(Stability, IsJudgedFurtherAndMappedWhereTheExperimentAsks) {
   EXPECT_THAT(refused.err, HasSubstr("experiment.json (/analysis/stability/map/1, line "));
   EXPECT_THAT(refused.err,
               HasSubstr("no run searches for the parameter 'k3' of the stability map. Did you mean 'k1'?"));
+  const auto never = [&](const nlohmann::json& map) {
+    bench.experiment["analysis"]["stability"]["map"] = map;
+    const auto ended_at_once = bench.tunica({"run", "experiment.json", "-o", "never"});
+    EXPECT_EQ(ended_at_once.code, 2);
+    EXPECT_FALSE(std::filesystem::exists(bench.path("never")));
+    return ended_at_once.err;
+  };
+  EXPECT_THAT(never({"k2", "k2"}), HasSubstr("'k2' is named twice in the stability map"));
+  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0.1}};
+  bench.experiment["models"]["other"] = {{"type", "gho"}, {"parameters", {{"k2", {{"fixed", 1}}}}}};
+  bench.experiment["runs"].push_back({{"model", "other"}, {"optimizer", "lm"}});
+  EXPECT_THAT(never({"kappa", "k2"}), HasSubstr("no run searches for both 'kappa' and 'k2'"));
 }
