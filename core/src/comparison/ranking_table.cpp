@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
@@ -55,15 +56,28 @@ std::string flaw(const RunSummary& run) {
 /// Longer ones stand on a line of their own; all lines fit into 80 columns.
 std::size_t label_width(bool compares_models) { return compares_models ? 13 : 20; }
 
-std::string row(const Ranked& entry, const RunSummary& run, bool compares_models) {
+/// With the constraint, where runs differ in it: "hgo/lm#2 (h = 0.7)".
+std::string shown_label(const RunSummary& run, bool names_constraints) {
+  if (!names_constraints || !run.stability) return run.label;
+  return fmt::format("{} ({})", run.label, run.stability->imposed.empty() ? "free" : run.stability->imposed);
+}
+
+bool differ_in_constraints(const Summary& summary) {
+  std::set<std::string> imposed;
+  for (const auto& run : summary.runs)
+    if (run.stability) imposed.insert(run.stability->imposed);
+  return imposed.size() > 1;
+}
+
+std::string row(const Ranked& entry, const RunSummary& run, bool compares_models, bool names_constraints) {
+  const std::string label = shown_label(run, names_constraints);
   const std::string objective = run.has_result ? objective_text(run.objective) : "-";
   const auto& to_target = run.evaluations_to_target.box;
   const std::size_t width = label_width(compares_models);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
-  if (columns(run.label) > width) text += run.label + '\n' + std::string(3, ' ');
-  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}",
-                      pad(columns(run.label) > width ? "" : run.label, width), objective,
-                      fmt::format("{}/{}", run.successes, run.realisations),
+  if (columns(label) > width) text += label + '\n' + std::string(3, ' ');
+  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(label) > width ? "" : label, width),
+                      objective, fmt::format("{}/{}", run.successes, run.realisations),
                       count_text(to_target ? std::optional(to_target->median) : std::nullopt),
                       count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
                       count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
@@ -89,7 +103,7 @@ std::string ranking_lines(const Summary& summary) {
                           pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT", "total",
                           "failed", "sec", compares_models ? "  ΔAICc" : "");
     }
-    text += row(entry, run, compares_models);
+    text += row(entry, run, compares_models, differ_in_constraints(summary));
   }
   return text +
          hanging("   ",
@@ -178,7 +192,8 @@ std::string value_text(const Estimate& estimate) {
     text += unit_text(estimate.unit);
   } else {
     text += unit_text(estimate.unit);
-    if (estimate.assessed && !estimate.identified)
+    const bool closed = estimate.profile && estimate.profile->lower && estimate.profile->upper;
+    if (estimate.assessed && !estimate.identified && !closed)
       text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
   }
   if (estimate.at_bound != Estimate::Bound::none)

@@ -143,6 +143,13 @@ std::string stability_table(const Summary& summary) {
                                   : "NO",
                         fmt::join(where, ", "));
   }
+  const auto& runs = summary.runs;
+  const bool any_ratio = std::any_of(
+      runs.begin(), runs.end(), [](const RunSummary& run) { return run.stability && run.stability->ratio_to_free; });
+  if (any_ratio)
+    text +=
+        hanging("   ", "x free: objective over that of the best run of the same model and tests without constraints") +
+        '\n';
   return text;
 }
 

@@ -91,7 +91,7 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
         });
     if (!searched) continue;  // another model's parameters
     std::string label = subjects[k].label;
-    std::replace(label.begin(), label.end(), '/', '-');
+    for (const char c : {'/', '#'}) std::replace(label.begin(), label.end(), c, '-');
     execution::write_atomically(
         directory / ("stability_map_" + label + ".csv"),
         stability_map(*subjects[k].assembly, subjects[k].free, {analysis.stability_map[0], analysis.stability_map[1]},
