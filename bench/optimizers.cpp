@@ -72,6 +72,7 @@ void with_constraints(int seeds, std::uint64_t budget) {
       {"nlopt isres", "nlopt", {{"algorithm", "isres"}}},
       {"nlopt crs2_lm", "nlopt", {{"algorithm", "crs2_lm"}}},
       {"es", "es", {}},
+      {"es penalty", "es", {{"infeasible", "constant_penalty"}}},
       {"cma_es", "cma_es", {}},
 #ifdef TUNICA_HAVE_PAGMO
       {"pagmo_de", "pagmo_de", {}},
