@@ -54,6 +54,7 @@ TEST(Identifiability, TakesStatedNoiseInsteadOfResiduals) {
   // Correlation φ of neighbours: (XᵀΣ⁻¹X)⁻¹ for a constant alone is σ² (1 + φ)/(n − (n − 2) φ).
   bench.parameter("b").fixed = 2;
   bench.experiment.tests[0].data.noise = {{"y", {0.5, 0, 0.6}}};
+  bench.run.objective = experiment::ObjectiveType::least_squares;  // which takes the correlation into account
   EXPECT_NEAR(identify(bench, {1}).parameters[0].ci95, 1.959964 * 0.5 * std::sqrt(1.6 / (8 - 6 * 0.6)), 1e-6);
 }
 

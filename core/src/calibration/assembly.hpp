@@ -108,6 +108,10 @@ class Assembly {
   /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.
   void measure(std::span<const double> values, Workspace& workspace) const;
 
+  /// A residual row is r = own e_k − previous e_{k−1}, e = prediction − measured: the transpose of that map, from one
+  /// value a residual (priors left out) to one a prediction.
+  void transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const;
+
   [[nodiscard]] std::size_t constraint_count() const;
   /// c(p) ≤ 0 (constraint_count) and, unless empty, its Jacobian by the free parameters, row-major.
   Status constraints(std::span<const double> free, std::span<double> values, std::span<double> jacobian) const;

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <Eigen/SVD>
 
+#include "calibration/sandwich.hpp"
 #include "calibration/straightness.hpp"
 #include "calibration/valley_words.hpp"
 #include "calibration/valleys.hpp"
@@ -165,13 +166,15 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
   Matrix active;
   std::string where;
   if (Status status = active_gradients(assembly, free, active, where); !status.ok()) return status;
-  const Spectrum spectrum = spectrum_of(rows, active, at_bound, weakest, noise);
+  const Spectrum likelihood = spectrum_of(rows, active, at_bound, weakest, noise);
+  Spectrum spectrum = likelihood;
+  if (Status status = as_estimated(assembly, free, noise, spectrum); !status.ok()) return status;
   for (std::size_t j = 0; j < n; ++j)
     found.parameters[j].held =
         !at_bound[j] && spectrum.V.row(static_cast<Eigen::Index>(j)).squaredNorm() < moved * moved;
   found.constrained = constrained_in_words(spectrum.V.cols() == 0, found.parameters, where);
   if (spectrum.V.cols() == 0) return {};
-  found.singular_values.assign(spectrum.values.begin(), spectrum.values.end());
+  found.singular_values.assign(likelihood.values.begin(), likelihood.values.end());
   const Matrix flat = spectrum.projector(Seen::not_at_all);
   Straightness straightness(assembly, noise, free);
   for (std::size_t j = 0; j < n; ++j) {
@@ -179,7 +182,9 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
     const double half_width = spectrum.half_width(Vector::Unit(flat.rows(), at));
     if (at_bound[j] || found.parameters[j].held || flat(at, at) >= moved * moved || half_width > widest) continue;
     found.parameters[j].identified = true;
-    found.parameters[j].straight = straightness.holds(at, half_width, spectrum.quantile);
+    // The likelihood has to be straight over the whole of the interval, which another objective makes wider.
+    const double times = half_width / likelihood.half_width(Vector::Unit(flat.rows(), at));
+    found.parameters[j].straight = straightness.holds(at, half_width, times * spectrum.quantile);
     found.parameters[j].ci95 = half_width * unit_slope(parameters[j], free[j]);
     std::vector<double> end = unit, mapped(n);
     end[j] = unit[j] - half_width, assembly.from_unit(end, mapped), found.parameters[j].lower = mapped[j];

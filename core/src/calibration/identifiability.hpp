@@ -56,7 +56,8 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 
 /// Linearises about `free`. Let G = diag(1/σ) ∂ŷ/∂x over the fitted rows, x the unit box, σ the stated noise of a
 /// channel or else the standard deviation of its residuals (and a row (p − mean)/sd per prior), with the singular
-/// value decomposition G = U S Vᵀ. Then x has covariance V S⁻² Vᵀ (Laplace), and direction v_k is weak when
+/// value decomposition G = U S Vᵀ. Then the most likely x has covariance V S⁻² Vᵀ (Laplace); that of the objective
+/// which was minimised follows by sandwich.hpp, and is written V S⁻² Vᵀ again. Direction v_k is weak when
 ///
 ///   s_k < weakest·s_1 (no prediction changes), or 1/s_k > 1 (its standard deviation exceeds the box).
 ///

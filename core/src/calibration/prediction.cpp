@@ -217,6 +217,16 @@ void Assembly::measure(std::span<const double> values, Workspace& workspace) con
   }
 }
 
+void Assembly::transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const {
+  std::fill(by_prediction.begin(), by_prediction.end(), 0.0);
+  for (const FittedChannel& channel : parts_->fitted)
+    for (std::size_t k = 0; k < channel.rows.size(); ++k) {
+      const double value = by_residual[channel.block.offset + k];
+      by_prediction[channel.rows[k]] += channel.own[k] * value;
+      if (k > 0 && !channel.previous.empty()) by_prediction[channel.rows[k - 1]] -= channel.previous[k] * value;
+    }
+}
+
 void Assembly::jacobian_to_unit(std::span<const double> free, std::span<double> jacobian, Workspace& workspace) const {
   const std::size_t n = parts_->free.size();
   double* const slope = workspace.shifted.data();

@@ -62,9 +62,12 @@ void add_profile_words(const calibration::Assembly& assembly, experiment::Object
     if (differs(profile.lower, estimate.ci95->first, estimate.min) ||
         differs(profile.upper, estimate.ci95->second, estimate.max))
       summary.uncertainty.push_back(fmt::format(
-          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) DISAGREE: the likelihood is not "
-          "parabolic there; take the profile",
-          name, end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second));
+          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) DISAGREE: {}", name,
+          end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second,
+          objective == experiment::ObjectiveType::least_squares
+              ? "the likelihood is not parabolic there; take the profile"
+              : "the likelihood is not parabolic there, or has its optimum elsewhere than the objective that was "
+                "minimised and fixes the parameter better; minimise least_squares, or take the bootstrap"));
   }
 }
 
