@@ -2,6 +2,8 @@
 #include "comparison/certify.hpp"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include <filesystem>
 #include <memory>
@@ -18,7 +20,8 @@ namespace tunica::app {
 
 namespace {
 
-int certify(const GlobalOptions& global, const std::filesystem::path& folder) {
+int certify(const GlobalOptions& global, const std::filesystem::path& folder, unsigned threads) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
   for (const char* file : {"input.json", "result.json"})
     if (!std::filesystem::exists(folder / file))
       throw InputError(fmt::format("{}: there is no {}; name the folder of a finished run", folder.string(), file));
@@ -35,8 +38,13 @@ int certify(const GlobalOptions& global, const std::filesystem::path& folder) {
 
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
   auto folder = std::make_shared<std::string>();
+  auto threads = std::make_shared<unsigned>(static_cast<unsigned>(tbb::info::default_concurrency()));
   auto* verb = app.add_subcommand("certify", "Evaluate the best points of a finished run and their neighbours again");
   verb->add_option("folder", *folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
+  verb->add_option("-j,--threads", *threads, "Threads for the neighbours")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str()
+      ->type_name("N");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
@@ -44,7 +52,9 @@ void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
       "`tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
       "Example:\n"
       "  tunica certify results/a");
-  verb->callback([&global, &action, folder] { action = [&global, folder] { return certify(global, *folder); }; });
+  verb->callback([&global, &action, folder, threads] {
+    action = [&global, folder, threads] { return certify(global, *folder, *threads); };
+  });
 }
 
 }  // namespace tunica::app

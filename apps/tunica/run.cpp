@@ -50,10 +50,21 @@ void override_seed(experiment::Experiment& experiment, std::uint64_t seed) {
   experiment.input_json = input.dump(2) + '\n';
 }
 
+/// An empty list of names takes the next word of the command line for one: "--profiles , --quiet".
+void check_names(const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (name.empty() || name.starts_with('-'))
+      throw InputError(
+          fmt::format("--profiles: '{}' is not the name of a parameter; expected names separated by commas, "
+                      "or all, for example --profiles mu,k1",
+                      name));
+}
+
 /// The same for the analysis.
 void override_analysis(experiment::Experiment& experiment, const RunOptions& options) {
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
   auto& analysis = experiment.analysis;
+  check_names(options.profiles);
   if (!options.profiles.empty()) {
     analysis.all_profiles = options.profiles == std::vector<std::string>{"all"};
     analysis.profiles = analysis.all_profiles ? std::vector<std::string>{} : options.profiles;
@@ -95,7 +106,7 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
 void certify(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
              comparison::Summary& summary) {
   if (!options.certificate) return comparison::add_certificates("", "--no-certificate was given", summary);
-  std::vector<std::string> arguments{"certify", directory.string(), "--quiet"};
+  std::vector<std::string> arguments{"certify", directory.string(), "--quiet", "-j", std::to_string(options.threads)};
   for (const auto& path : global.plugin_paths) arguments.insert(arguments.end(), {"--plugin-path", path});
   if (global.allow_world_writable_plugins) arguments.emplace_back("--allow-world-writable-plugins");
   const Answer answer = ask_fresh_process(arguments);
@@ -105,7 +116,8 @@ void certify(const GlobalOptions& global, const RunOptions& options, const std::
 /// 1 when a run has nothing to show, broke its constraints or was given up by the failure policy.
 ExitCode judge(const comparison::Summary& summary) {
   for (const auto& run : summary.runs)
-    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.given_up > 0) return not_converged;
+    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.given_up + run.faults > 0)
+      return not_converged;
   return done;
 }
 

@@ -78,6 +78,24 @@ class Descent final : public Residual {
   Descent() { needs_.constraints = true; }
 };
 
+class Thrower final : public Optimizer {
+ public:
+  [[nodiscard]] const Needs& needs() const override { return needs_; }
+  Outcome minimise(Problem& problem) override {
+    double objective = 0;
+    static_cast<void>(problem.evaluate(problem.start(), objective));
+    throw std::runtime_error("the population is too small");
+  }
+
+ private:
+  Needs needs_;
+};
+
+class Narrow final : public Residual {
+ public:
+  Narrow() { needs_.most_parameters = 2; }
+};
+
 template <class Made>
 OptimizerFactory factory(const std::string& type) {
   return {type, "a fake", "", {}, [](const Options&) { return std::make_unique<Made>(); }};
@@ -90,6 +108,8 @@ void register_optimizers(plugins::Catalogue::Stage& stage) {
   stage.add(factory<Compass>("compass"));
   stage.add(factory<Residual>("residual"));
   stage.add(factory<Descent>("descent"));
+  stage.add(factory<Thrower>("thrower"));
+  stage.add(factory<Narrow>("narrow"));
 }
 
 plugins::Catalogue full_catalogue() {

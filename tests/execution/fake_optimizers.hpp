@@ -12,6 +12,8 @@
 ///   compass   from problem.start(), tries ± a step along each axis and halves it; converges
 ///   residual  needs residuals; linearises at the start, and returns
 ///   descent   the same, and meets constraints
+///   thrower   evaluates the start and throws
+///   narrow    searches two parameters at most
 namespace tunica::fakes {
 
 void register_optimizers(plugins::Catalogue::Stage& stage);

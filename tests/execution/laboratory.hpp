@@ -17,7 +17,7 @@ class Laboratory {
     bench.add_test("curve", x, fakes::map(x, [](double at) { return 2 + at + 3 * at * at; }));
     bench.shelf = fakes::full_catalogue();
     bench.experiment.input_json = "{\"name\": \"fake\", \"stop\": {\"max_evaluations\": 100}}";
-    for (const char* type : {"walk", "compass", "residual", "descent"})
+    for (const char* type : {"walk", "compass", "residual", "descent", "thrower", "narrow"})
       bench.experiment.optimizers.push_back(fakes::optimizer_entry(type));
   }
 

@@ -70,6 +70,16 @@ TEST(Plan, RefusesAnOptimiserThatNeedsDerivativesOfConstraintsWhereThereAreNone)
               HasSubstr("run m/descent: the optimiser 'descent' (descent) needs derivatives of the constraints"));
 }
 
+TEST(Plan, RefusesMoreParametersThanAnOptimiserSearches) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("narrow");
+  EXPECT_THAT(refusal(laboratory),
+              HasSubstr("run m/narrow: the optimiser 'narrow' (narrow) can search 2 parameters at most with the "
+                        "population it is given, and 3 are free"));
+  laboratory.bench.parameter("c").fixed = 0;
+  EXPECT_NO_THROW(laboratory.plan());
+}
+
 TEST(Plan, RefusesStagesWithinStages) {
   trial::Laboratory laboratory;
   auto& optimizers = laboratory.bench.experiment.optimizers;

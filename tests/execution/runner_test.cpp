@@ -204,6 +204,39 @@ TEST(Runner, TracesEveryImprovementUpToTheBest) {
   EXPECT_EQ(result.trace.back().objective, result.best.objective);
 }
 
+TEST(Runner, GoesOnWithTheOthersWhenAnOptimiserThrows) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("thrower");
+  laboratory.add_run("compass");
+  const trial::Folder folder;
+  const auto ended = run(laboratory, folder.path());
+  const auto& broken = ended.runs[0].realisations[0];
+  EXPECT_TRUE(broken.finished);
+  EXPECT_FALSE(broken.converged);
+  EXPECT_EQ(broken.stop_reason, execution::optimizer_failure);
+  EXPECT_THAT(broken.reason, HasSubstr("plugin 'fakes 1' failed: the population is too small"));
+  EXPECT_EQ(broken.tally.evaluations, 1u);
+  EXPECT_TRUE(broken.best.found());
+  EXPECT_GT(ended.runs[1].realisations[0].tally.evaluations, 50u);
+  expect_equal(run(laboratory, folder.path(), 1, true), ended);
+}
+
+TEST(Runner, BeginsEveryRealisationElsewhereWhereTheStartIsRandom) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("compass", 100, 2);
+  laboratory.add_run("compass", 100, 2).random_start = true;
+  laboratory.add_run("residual", 100, 1).random_start = true;
+  const trial::Folder folder;
+  const auto ended = run(laboratory, folder.path());
+  const auto first = [&](std::size_t run, std::size_t realisation) {
+    return ended.runs[run].realisations[realisation].trace.at(0).objective;
+  };
+  EXPECT_EQ(first(0, 0), first(0, 1));
+  EXPECT_NE(first(1, 0), first(1, 1));
+  EXPECT_NE(first(1, 0), first(0, 0));
+  expect_equal(run(laboratory, folder.path(), 2, true), ended);
+}
+
 TEST(Runner, ReportsTheFirstReasonWhenNothingSucceeds) {
   trial::Laboratory laboratory;
   laboratory.add_run("walk", 5000);

@@ -78,4 +78,26 @@ INSTANTIATE_TEST_SUITE_P(
     label);
 #endif
 
+#ifdef TUNICA_HAVE_PAGMO
+TEST(Pagmo, RefusesPopulationsThatItsAlgorithmsCannotWorkWith) {
+  for (const auto& [type, least] : {std::pair{"pagmo_de", 7}, {"pagmo_cmaes", 5}, {"pagmo_ga", 2}, {"pagmo_pso", 2}}) {
+    const auto with = [&, name = type](std::int64_t population) {
+      const auto optimizer = make_optimizer(name, {{"population", population}, {"restarts", std::int64_t{0}}});
+      FunctionProblem problem(sphere(2), {.budget = 100});
+      optimizer->minimise(problem);
+      return problem.evaluations();
+    };
+    EXPECT_EQ(with(least), 100u) << type;
+    try {
+      static_cast<void>(with(least - 1));
+      ADD_FAILURE() << type << " takes a population of " << least - 1;
+    } catch (const InputError& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find("is too small, " + std::to_string(least) + " is the least"),
+                std::string::npos)
+          << refusal.what();
+    }
+  }
+}
+#endif
+
 }  // namespace tunica::testing

@@ -65,6 +65,17 @@ TEST(Nlopt, EndsAStartThatAsksForAPointThatIsNotANumber) {
   EXPECT_NE(outcome.reason.find("it asked for a point that is not a number"), std::string::npos) << outcome.reason;
 }
 
+TEST(Nlopt, Crs2SearchesNoMoreParametersThanItsPopulationSpans) {
+  const auto most = [](std::int64_t population) {
+    return make_optimizer("nlopt", {{"algorithm", "crs2_lm"}, {"population", population}})->needs().most_parameters;
+  };
+  EXPECT_EQ(most(3), 2u);
+  EXPECT_GT(most(0), 1000000u);
+  FunctionProblem problem(sphere(2), {.budget = 200});
+  make_optimizer("nlopt", {{"algorithm", "crs2_lm"}, {"population", std::int64_t{3}}})->minimise(problem);
+  EXPECT_LT(problem.best, 1);
+}
+
 TEST(Nlopt, TakesTheValueAndTheGradientOfAPointAsOneEvaluation) {
   FunctionProblem problem(rosenbrock(2), {.remember = true});
   make_optimizer("nlopt", {{"algorithm", "slsqp"}, {"starts", std::int64_t{1}}})->minimise(problem);

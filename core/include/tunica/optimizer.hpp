@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,9 @@ class Optimizer {
     /// Compares or combines objectives of feasible and infeasible points (augmented Lagrangian, stochastic ranking).
     /// Without it evaluate() leaves out costly tests where a constraint is broken; linearise() never does.
     bool infeasible = false;
+    /// With its options it searches no more parameters than these (a small population spans no more); a run with more
+    /// is refused.
+    std::size_t most_parameters = std::numeric_limits<std::size_t>::max();
   };
   struct Outcome {
     bool converged = false;

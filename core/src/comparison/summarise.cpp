@@ -23,13 +23,27 @@ const execution::RealisationResult* best_of(const execution::RunResult& result) 
   return best;
 }
 
+/// The trace holds every improvement: where random numbers play a part, two are never the same.
+bool one_course(const execution::RunResult& result) {
+  const auto& all = result.realisations;
+  return all.size() > 1 && !all.front().trace.empty() &&
+         std::all_of(all.begin() + 1, all.end(), [&](const auto& other) {
+           return std::equal(other.trace.begin(), other.trace.end(), all.front().trace.begin(), all.front().trace.end(),
+                             [](const auto& a, const auto& b) {
+                               return a.evaluations == b.evaluations && a.objective == b.objective;
+                             });
+         });
+}
+
 void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::vector<double> objectives;
   calibration::Tally total;
   for (const auto& realisation : result.realisations) {
     total.add(realisation.tally);
     summary.seconds += realisation.seconds;
-    summary.given_up += realisation.stop_reason.starts_with("failure");
+    const bool fault = realisation.stop_reason == execution::optimizer_failure;
+    if (fault && summary.faults++ == 0) summary.first_fault = realisation.reason;
+    summary.given_up += !fault && realisation.stop_reason.starts_with("failure");
     if (realisation.best.feasible()) objectives.push_back(realisation.best.objective);
   }
   summary.evaluations = total.evaluations, summary.jacobians = total.jacobians;
@@ -38,6 +52,7 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::stable_sort(summary.failure_reasons.begin(), summary.failure_reasons.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
   summary.realisations = result.realisations.size();
+  summary.one_course = one_course(result);
   summary.objectives = sample_statistics(objectives);
 }
 

@@ -86,6 +86,9 @@ struct RunSummary {
   std::optional<StabilitySummary> stability;  ///< with a result
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::string first_failure;
+  std::uint64_t faults = 0;  ///< realisations that ended because the optimiser threw
+  std::string first_fault;
+  bool one_course = false;                                ///< all of several realisations improved by the same steps
   std::vector<calibration::FailureKind> failure_reasons;  ///< most frequent first
   std::uint64_t given_up = 0;                             ///< realisations that the failure policy ended
   bool converged = false;  ///< the search that found the best point had, in the optimiser's own word; what ended

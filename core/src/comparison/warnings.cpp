@@ -80,6 +80,14 @@ void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings)
       100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
   warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.3g} %); {}", run.label, run.failures,
                                  run.evaluations, share, reasons_text(run)));
+  if (run.faults > 0)
+    warnings.push_back(fmt::format("{}: {} of {} realisations ENDED BY AN ERROR of the optimiser: {}", run.label,
+                                   run.faults, run.realisations, run.first_fault));
+  if (run.one_course)
+    warnings.push_back(fmt::format(
+        "{}: all {} realisations improved by the same steps, for they begin at the same initial values: this is one "
+        "search, counted {} times. For a statistic over starting points set \"initial\": \"random\"",
+        run.label, run.realisations, run.realisations));
   if (run.given_up > 0)
     warnings.push_back(
         fmt::format("{}: {} of {} realisations were GIVEN UP by on_failure before their budget was spent", run.label,

@@ -81,6 +81,11 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
           fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
                       "row is held out. Set hold_out to false in a test, or take out the run",
                       run.label, stage.entry->name, stage.entry->type));
+    if (run.assembly->parameters().size() > needs.most_parameters)
+      throw InputError(fmt::format(
+          "run {}: the optimiser '{}' ({}) can search {} parameters at most with the population it is "
+          "given, and {} are free; enlarge it, or leave it out for a default that fits",
+          run.label, stage.entry->name, stage.entry->type, needs.most_parameters, run.assembly->parameters().size()));
     check_constraints(run, stage, needs);
     if (needs.gradient && !run.assembly->jacobian_is_exact())
       warnings.push_back(
@@ -91,7 +96,7 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
   if (run.assembly->blocks().empty())
     throw InputError(fmt::format(
         "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
-  if (!random && run.entry->realisations > 1)
+  if (!random && !run.entry->random_start && run.entry->realisations > 1)
     warnings.push_back(
         fmt::format("run {}: the optimiser uses no random numbers, so its {} realisations are all the same", run.label,
                     run.entry->realisations));

@@ -25,6 +25,14 @@ experiment::Stop stage_stop(const experiment::Stop& shared, const experiment::St
   return stop;
 }
 
+/// Uniform in the unit box; the same for every optimiser of the same seed.
+std::vector<double> random_start(std::uint64_t seed, std::size_t n) {
+  std::vector<double> x(n);
+  for (std::size_t j = 0; j < n; ++j)
+    x[j] = static_cast<double>(derive_seed(seed, fmt::format("initial {}", j)) >> 11) * 0x1p-53;
+  return x;
+}
+
 /// One line, as evaluations.csv stores it, so that a resumed run reports the same words.
 std::string one_line(std::string text) {
   for (char& character : text)
@@ -59,6 +67,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     settings.interrupted = surroundings.interrupted;
     settings.first_index = result.tally.evaluations;
     settings.elapsed_before = result.seconds;
+    if (run.entry->random_start) settings.start = random_start(seed, run.assembly->parameters().size());
     if (!result.best.parameters.empty()) {
       settings.start.resize(result.best.parameters.size());
       run.assembly->to_unit(result.best.parameters, settings.start);
@@ -66,7 +75,17 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
     settings.skip_costly = !optimizer->needs().infeasible;
     calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
-    const auto outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
+    Optimizer::Outcome outcome;
+    std::string fault;
+    try {
+      outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
+    } catch (const plugins::HostFault&) {
+      throw;
+    } catch (const InputError& problem_of_plugin) {
+      fault = problem_of_plugin.what();
+    } catch (const plugins::PluginFailure& problem_of_plugin) {
+      fault = problem_of_plugin.what();
+    }
 
     result.tally.add(problem.tally());
     const auto& best = problem.best();
@@ -74,6 +93,11 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     result.converged = outcome.converged;
     result.reason = one_line(outcome.reason);
     result.stop_reason = one_line(problem.stop_reason());
+    if (!fault.empty()) {  // of this realisation; what it has found stays, and the others go on
+      result.reason = one_line(fault);
+      result.stop_reason = optimizer_failure;
+      break;
+    }
     const bool spent = result.tally.evaluations >= shared.max_evaluations;
     const bool stage_ended =
         result.stop_reason.empty() || result.stop_reason == "stall" ||

@@ -15,6 +15,9 @@ struct Improvement {
   double objective;
 };
 
+/// RealisationResult::stop_reason where the optimiser threw; `reason` says what.
+constexpr const char* optimizer_failure = "failure of the optimiser";
+
 /// How one realisation of one run ended.
 struct RealisationResult {
   std::uint64_t realisation = 1;

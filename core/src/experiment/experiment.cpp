@@ -34,7 +34,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
     format.fail(fmt::format("found format {} where 1 is expected", format.json().dump()),
                 "This version of tunica reads format 1 only.");
   root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
-                   "stop", "runs", "on_failure", "analysis", "diagnosis"},
+                   "stop", "initial", "runs", "on_failure", "analysis", "diagnosis"},
                   "the experiment file");
   Experiment experiment;
   experiment.file = file;
@@ -58,6 +58,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   if (const auto node = root.find("objective")) defaults.objective = read_objective(*node);
   if (const auto node = root.find("constraints")) defaults.constraints = read_constraints(*node);
   if (const auto node = root.find("stop")) defaults.stop = read_stop(*node);
+  if (const auto node = root.find("initial")) defaults.random_start = read_initial(*node);
   if (const auto node = root.find("on_failure")) read_on_failure(*node, experiment);
   read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
   check_shared(shared);

@@ -103,6 +103,7 @@ struct OptimizerEntry {
 struct RunEntry {
   std::string model, optimizer;
   std::uint64_t realisations = 1;
+  bool random_start = false;       ///< every realisation begins at a random point, not at the initial values
   std::vector<std::string> tests;  ///< names, in file order; all unless overridden
   ObjectiveType objective = ObjectiveType::standardised_quadratic;
   std::vector<ConstraintEntry> constraints;

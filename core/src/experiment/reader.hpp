@@ -83,7 +83,10 @@ struct RunDefaults {
   ObjectiveType objective = ObjectiveType::standardised_quadratic;
   std::vector<ConstraintEntry> constraints;
   Stop stop;
+  bool random_start = false;
 };
+/// "given" or "random": true for random.
+bool read_initial(const Node& node);
 /// Tests that a run defines for itself are added to the experiment.
 void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
                std::vector<Shared>& shared, Experiment& experiment);

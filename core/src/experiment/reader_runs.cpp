@@ -134,6 +134,8 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
   return constraints;
 }
 
+bool read_initial(const Node& node) { return node.one_of({"given", "random"}, "start of a search") == "random"; }
+
 void read_on_failure(const Node& node, Experiment& experiment) {
   if (!node.is_object()) {
     experiment.on_failure = read_choice<OnFailure>(node, on_failure_names(), "failure policy");
@@ -155,14 +157,16 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
   const auto entries = node.elements("a list of runs, [ {\"model\": …, \"optimizer\": …}, … ],");
   if (entries.empty()) node.fail("no run is given", "Give at least one: {\"model\": …, \"optimizer\": …}.");
   for (const Node& entry : entries) {
-    entry.allow_only({"model", "optimizer", "realisations", "tests", "objective", "constraints", "stop"}, "a run");
+    entry.allow_only({"model", "optimizer", "realisations", "initial", "tests", "objective", "constraints", "stop"},
+                     "a run");
     RunEntry run;
     run.model = entry.require("model", "a run").one_of(entry_names(experiment.models), "model");
     run.optimizer = entry.require("optimizer", "a run").one_of(entry_names(experiment.optimizers), "optimizer");
     if (const auto child = entry.find("realisations"))
       run.realisations = child->count("a whole number of realisations from 1", 1);
     const auto tests = entry.find("tests"), objective = entry.find("objective"),
-               constraints = entry.find("constraints"), stop = entry.find("stop");
+               constraints = entry.find("constraints"), stop = entry.find("stop"), initial = entry.find("initial");
+    run.random_start = initial ? read_initial(*initial) : defaults.random_start;
     run.tests =
         tests ? read_test_list(*tests, experiment.file.parent_path(), catalogue, shared, experiment) : defaults.tests;
     run.objective = objective ? read_objective(*objective) : defaults.objective;

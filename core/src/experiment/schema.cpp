@@ -114,8 +114,8 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   Json range = list_schema("Stretches from, to: besides those that were measured.", {{"type", "number"}});
   range["minItems"] = 2, range["maxItems"] = 2;
   Json directions = {{"description", "Strips along which axes (default both)."}};
-  directions["anyOf"] = Json::array({{{"enum", {"circumferential", "axial"}}},
-                                     list_schema("Several.", {{"enum", {"circumferential", "axial"}}})});
+  directions["anyOf"] = Json::array(
+      {{{"enum", {"circumferential", "axial"}}}, list_schema("Several.", {{"enum", {"circumferential", "axial"}}})});
   Json either = {{"description", "A condition on the parameters."}};
   either["anyOf"] = Json::array(
       {object_schema("The transverse stretch λ3 falls as the strip is pulled: d ln λ3/d ln λ1 ≤ −(1 − h)/2.",
@@ -130,6 +130,12 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   definitions["constraints"] = list_schema("Conditions on the parameters.", std::move(either));
 }
 
+Json initial_schema() {
+  return choice_schema(
+      "Where a search begins: at the initial values (given, the default), or every realisation at a random point.",
+      {"given", "random"});
+}
+
 Json run_schema() {
   Json tests = {{"description", "The tests of this run: names, or tests of its own (default: all)."}};
   tests["anyOf"] =
@@ -138,6 +144,7 @@ Json run_schema() {
                        {{"model", text_schema("Name of a model.")},
                         {"optimizer", text_schema("Name of an optimizer.")},
                         {"realisations", count_schema("Repetitions with other seeds (default 1).", 1)},
+                        {"initial", initial_schema()},
                         {"tests", std::move(tests)},
                         {"objective", reference("objective")},
                         {"constraints", reference("constraints")},
@@ -214,6 +221,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["constraints"] = reference("constraints");
   properties["optimizers"] = named_entries("The optimizers to use, by name.", reference("optimizer"));
   properties["stop"] = reference("stop");
+  properties["initial"] = initial_schema();
   properties["runs"] = list_schema("What to calibrate; the runs are compared.", run_schema());
   properties["runs"]["minItems"] = 1;
   properties["on_failure"] = on_failure_schema();

@@ -131,6 +131,7 @@ Json written(const RunEntry& run) {
   json["model"] = run.model;
   json["optimizer"] = run.optimizer;
   json["realisations"] = run.realisations;
+  json["initial"] = run.random_start ? "random" : "given";
   json["tests"] = run.tests;
   json["objective"] = objective_names()[static_cast<std::size_t>(run.objective)];
   json["constraints"] = std::move(constraints);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tunica/plugin.hpp"
 
+#include <fmt/core.h>
+
 #include <limits>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/de1220.hpp>
@@ -66,8 +68,13 @@ std::vector<Option> with_common(std::vector<Option> own) {
   return own;
 }
 
-std::unique_ptr<Optimizer> make(const Options& given,
+/// `least`: individuals that pagmo insists on.
+std::unique_ptr<Optimizer> make(const Options& given, std::int64_t least,
                                 std::function<pagmo::algorithm(unsigned seed, Search& search)> algorithm) {
+  if (const std::int64_t population = given.integer("population"); population > 0 && population < least)
+    throw InputError(
+        fmt::format("a population of {} is too small, {} is the least; 0 leaves it to the number of parameters",
+                    population, least));
   return std::make_unique<PagmoOptimizer>(
       Settings{.algorithm = std::move(algorithm),
                .population = static_cast<std::size_t>(given.integer("population")),
@@ -92,7 +99,7 @@ OptimizerFactory differential_evolution() {
                                    .choices = {"sade", "de1220"}}}),
           .create = [](const Options& given) {
             const bool sade = given.text("variant") == "sade";
-            return make(given, [sade](unsigned seed, Search&) {
+            return make(given, 7, [sade](unsigned seed, Search&) {
               return sade ? pagmo::algorithm(pagmo::sade(generations, 2, 1, 0, 0, false, seed))
                           : pagmo::algorithm(pagmo::de1220(generations, pagmo::de1220_statics<void>::allowed_variants,
                                                            1, 0, 0, false, seed));
@@ -108,7 +115,7 @@ OptimizerFactory particle_swarm() {
               "IEEE Trans. Evol. Comput. 6 (2002) 58-73; F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
           .create = [](const Options& given) {
-            return make(given, [](unsigned seed, Search& search) {
+            return make(given, 2, [](unsigned seed, Search& search) {
               pagmo::pso_gen swarm(generations, 0.7298, 2.05, 2.05, 0.5, 5, 2, 4, false, seed);
               swarm.set_bfe(pagmo::bfe(Generation{&search}));
               return pagmo::algorithm(std::move(swarm));
@@ -124,7 +131,7 @@ OptimizerFactory genetic_algorithm() {
           .reference = "K. Deb, R. B. Agrawal, Complex Systems 9 (1995) 115-148; F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
           .create = [](const Options& given) {
-            return make(given, [](unsigned seed, Search&) {
+            return make(given, 2, [](unsigned seed, Search&) {
               return pagmo::algorithm(
                   pagmo::sga(generations, 0.9, 10, 0.1, 50, 2, "sbx", "polynomial", "tournament", seed));
             });
@@ -137,7 +144,7 @@ OptimizerFactory covariance_matrix_adaptation() {
           .reference = "N. Hansen, The CMA evolution strategy: a comparing review (2006); F. Biscani, D. Izzo (2020).",
           .options = with_common({}),
           .create = [](const Options& given) {
-            return make(given, [](unsigned seed, Search&) {
+            return make(given, 5, [](unsigned seed, Search&) {
               return pagmo::algorithm(pagmo::cmaes(generations, -1, -1, -1, -1, 0.3, 0, 0, false, true, seed));
             });
           }};
