@@ -72,6 +72,21 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("{}: no run searches for the parameter '{}' of the stability map. {}",
                                    analysis.place("map", name), name, data::suggestion(name, known)));
+  if (const auto& map = analysis.stability_map; !map.empty()) {
+    if (map[0] == map[1])
+      throw InputError(fmt::format("{}: '{}' is named twice in the stability map; a map has two parameters",
+                                   analysis.place("map", map[0]), map[0]));
+    const bool possible = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const auto& run) {
+      const auto& free = run.assembly->parameters();
+      return std::all_of(map.begin(), map.end(), [&](const auto& name) {
+        return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });
+      });
+    });
+    if (!possible)
+      throw InputError(fmt::format(
+          "{}: no run searches for both '{}' and '{}', the parameters of the stability map; free both in one",
+          analysis.place("map", map[0]), map[0], map[1]));
+  }
   if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }
 
@@ -98,6 +113,9 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       } else {
         auto made = calibration::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
         keep(made, own);
+        for (auto& sentence : own.uncertainty)  // of the linearised intervals: what it advises is done
+          if (const auto advice = sentence.find("; --profiles "); advice != std::string::npos && analysis.all_profiles)
+            sentence = sentence.substr(0, advice) + "; take the profile";
         add_profile_words(assembly, run.entry->objective, made, own);
         profiled.push_back({&assembly, own.label, std::move(made)});
       }
