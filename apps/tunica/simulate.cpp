@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "comparison/simulation.hpp"
+#include "comparison/snapshots.hpp"
 #include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 struct SimulateOptions {
   std::string file, model, parameters, run, directory;
+  std::vector<std::string> fields;
   double noise = 0;
   std::optional<std::uint64_t> seed;
 };
@@ -36,8 +38,13 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   fmt::print(stderr, "{}\n", comparison::hanging("", subject.origin));
   for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
   const auto tables = comparison::simulate(experiment, session.catalogue(), request, subject);
+  std::vector<comparison::FieldRequest> fields;
+  for (const auto& text : options.fields) fields.push_back(comparison::field_request(text));
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
   for (const auto& table : tables) fmt::print("{}\n", comparison::write_table(directory.path(), table).string());
+  for (const auto& request : fields)
+    for (const auto& path : comparison::write_snapshots(directory.path(), experiment, subject, request))
+      fmt::print("{}\n", path.string());
   return done;
 }
 
@@ -59,11 +66,15 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--seed", options->seed, "Seed of the noise instead of the experiment's")
       ->check(seed_number())
       ->type_name("S");
+  verb->add_option("--fields", options->fields,
+                   "Also write the fields of a simulated test, as VTK and through the wall: TEST or TEST:ROW,ROW,…")
+      ->type_name("TEST");
   verb->add_option("-o,--output", options->directory, "New folder")->required()->type_name("DIR");
   verb->footer(
       "Examples:\n"
       "  tunica simulate experiment.json --model gho -o predicted\n"
       "  tunica simulate experiment.json --model gho --parameters results/a/result.json -o predicted\n"
+      "  tunica simulate experiment.json --model gho --fields tube:1,35 -o fields\n"
       "  tunica simulate experiment.json --model gho --noise 0.02 --seed 3 -o synthetic");
   verb->callback([&global, &action, options] { action = [&global, options] { return simulate(global, *options); }; });
 }

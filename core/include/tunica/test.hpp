@@ -72,6 +72,33 @@ struct TestOutput {
   std::span<double> diagnostics;          ///< n_diagnostics·n
 };
 
+/// How far a test is from an independent solution of a problem that both can solve, at the same material.
+struct Agreement {
+  std::string with;       ///< "the semi-analytic long tube, ends sliding: outer diameter stretch"
+  double difference = 0;  ///< the largest, in `unit`
+  std::string unit;
+  double expected = 0;  ///< what discretisation explains; beyond it something is wrong
+};
+
+/// Fields over a simulated body at one row, on a mesh of quadrilaterals.
+struct Snapshot {
+  struct Field {
+    std::string name, unit;
+    std::size_t components = 1;
+    bool of_cells = false;       ///< one value a cell instead of one a point
+    std::vector<double> values;  ///< components of the first point, of the second, …
+  };
+  std::size_t row = 0;
+  std::vector<double> points;      ///< x, y, z of each, in the loaded state, mm
+  std::vector<std::size_t> cells;  ///< four points each, in turn around it
+  std::vector<Field> fields;
+  struct Column {
+    std::string name, unit;
+    std::vector<double> values;
+  };
+  std::vector<Column> section;  ///< a table along a line worth looking at, as through a wall; may be empty
+};
+
 /// Simulates one experiment with a model, at the rows it was made with.
 ///
 /// Required: describe, predict. Rows are in loading order; a model with history sees them so, with time where the
@@ -85,6 +112,17 @@ class Test {
   [[nodiscard]] virtual const TestDescription& describe() const = 0;
   [[nodiscard]] virtual const TestRows& rows() const = 0;
   virtual Status predict(const TestInput& input, const TestOutput& output) const = 0;
+  /// Checks of the simulation by other means, for `tunica check`; appends to `found`. Optional.
+  virtual Status agreement(const TestInput& input, std::vector<Agreement>& found) const {
+    static_cast<void>(input), static_cast<void>(found);
+    return {};
+  }
+  /// Fields at the given rows, one snapshot each; for `tunica simulate --fields`. Optional.
+  virtual Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
+                           std::vector<Snapshot>& found) const {
+    static_cast<void>(input), static_cast<void>(rows), static_cast<void>(found);
+    return Status::failed("this test has no fields to show");
+  }
 };
 
 }  // namespace tunica

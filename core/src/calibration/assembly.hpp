@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -90,6 +91,9 @@ class Assembly {
   /// at least a hundredth of the range).
   Status predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
                  Workspace& workspace) const;
+  /// Puts a question to one test at these parameters; what it throws becomes a failure.
+  Status ask(std::size_t test, std::span<const double> free,
+             const std::function<Status(const Test&, const TestInput&)>& question) const;
   /// Diagnostics of one test at these parameters, name → row values (transverse stretch, iterations).
   Status diagnostics(std::size_t test, std::span<const double> free,
                      std::vector<std::pair<std::string, std::vector<double>>>& rows) const;

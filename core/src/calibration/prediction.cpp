@@ -239,27 +239,32 @@ void Assembly::jacobian_to_unit(std::span<const double> free, std::span<double> 
   }
 }
 
+Status Assembly::ask(std::size_t number, std::span<const double> free,
+                     const std::function<Status(const Test&, const TestInput&)>& question) const {
+  const BoundTest& test = parts_->tests.at(number);
+  Workspace workspace(*parts_);
+  std::vector<double>& own = workspace.test_parameters[number];
+  for (const Link& link : parts_->model_parameters.links) workspace.model_parameters[link.position] = free[link.index];
+  for (const Link& link : test.own.links) own[link.position] = free[link.index];
+  try {
+    return question(*test.test, {*parts_->model, workspace.model_parameters, own});
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
+  } catch (...) {
+    return Status::failed(
+        fmt::format("test '{}': plugin '{}' threw something that is no std::exception", test.name, test.plugin));
+  }
+}
+
 Status Assembly::diagnostics(std::size_t number, std::span<const double> free,
                              std::vector<std::pair<std::string, std::vector<double>>>& rows) const {
   const BoundTest& test = parts_->tests.at(number);
   const auto& names = test.test->describe().diagnostics;
-  Workspace workspace(*parts_);
-  std::vector<double> values(names.size() * test.rows);
-  if (Status status =
-          parts_->call(test, free, std::span(workspace.predictions).subspan(test.offset, test.size()), {}, workspace);
-      !status.ok()) {
-    return status;
-  }
-  try {
-    const TestOutput output{std::span(workspace.predictions).subspan(test.offset, test.size()), {}, {}, values};
-    if (Status status =
-            test.test->predict({*parts_->model, workspace.model_parameters, workspace.test_parameters[number]}, output);
-        !status.ok()) {
-      return status;
-    }
-  } catch (const std::exception& problem) {
-    return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
-  }
+  std::vector<double> predictions(test.size()), values(names.size() * test.rows);
+  const Status status = ask(number, free, [&](const Test& asked, const TestInput& input) {
+    return asked.predict(input, {predictions, {}, {}, values});
+  });
+  if (!status.ok()) return status;
   rows.clear();
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(k * test.rows);

@@ -115,6 +115,26 @@ class AssemblyOf final : public Assembly {
     return {};
   }
 
+  Status points(const Material& material, const State& state, std::vector<Point>& found) override {
+    found.clear();
+    for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      gather(state, row);
+      if (Status status = evaluate(material, row, false); !status.ok()) return status;
+      for (std::size_t e = 0; e < n_; ++e)
+        for (std::size_t g = 0; g < ng; ++g) {
+          Point at;
+          at.R = radius_[g * n_ + e];
+          at.Z = mesh_.layer[row * Order] + height(row) * (1 + element_.eta[g]) / 2;
+          for (std::size_t k = 0; k < 5; ++k) at.f[k] = f_[(k * ng + g) * n_ + e];
+          for (std::size_t k = 0; k < (material.sees_shear() ? 4 : 3); ++k)
+            at.energy[k] = first_[(k * ng + g) * n_ + e];
+          for (std::size_t m = 0; m < np; ++m) at.q += element_.mode[g][m] * q_[m * n_ + e];
+          found.push_back(at);
+        }
+    }
+    return {};
+  }
+
  private:
   [[nodiscard]] std::size_t node(std::size_t a, std::size_t e, std::size_t row) const {
     return mesh_.node(e * Order + a % E::side, row * Order + a / E::side);
@@ -450,6 +470,14 @@ class AssemblyOf final : public Assembly {
 };
 
 }  // namespace
+
+std::array<double, 4> Point::stress() const {
+  const auto [f0, f1, f2, f3, f4] = f;
+  const double wt = 2 * energy[0], wz = 2 * energy[1], wr = 2 * energy[2], ws = energy[3];
+  return {f0 * (wr * f0 + ws * f1) + f1 * (wz * f1 + ws * f0) - q,
+          f2 * (wr * f2 + ws * f3) + f3 * (wz * f3 + ws * f2) - q, wt * f4 * f4 - q,
+          f0 * (wr * f2 + ws * f3) + f1 * (wz * f3 + ws * f2)};
+}
 
 std::unique_ptr<Assembly> Assembly::make(const Mesh& mesh) {
   if (mesh.order == 1) return std::make_unique<AssemblyOf<1>>(mesh);

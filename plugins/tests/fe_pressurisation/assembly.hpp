@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,6 +28,17 @@ struct System {
   double gamma = 0;              ///< kPa
   double largest_dilation = 0;   ///< max |c| over the element's volume
   double stiffness = 0;          ///< the largest diagonal entry of ∂²w/∂F², kPa
+};
+
+/// A Gauss point of a solution.
+struct Point {
+  double R = 0, Z = 0;             ///< mm
+  std::array<double, 5> f{};       ///< r_R, r_Z, z_R, z_Z, r/R
+  std::array<double, 4> energy{};  ///< first derivatives of W, as Material gives them
+  double q = 0;                    ///< kPa
+
+  /// Cauchy stress rr, zz, tt, rz: 2 F (∂W/∂C) Fᵀ − q.
+  [[nodiscard]] std::array<double, 4> stress() const;
 };
 
 /// The discrete potential of a tube, half its length by symmetry,
@@ -58,6 +70,8 @@ class Assembly {
   /// Volume of the lumen (mm³) and energy of the wall (kPa mm³ = µJ) of half the tube.
   virtual Status energies(const Material& material, const State& state, double& lumen, double& stored) = 0;
   [[nodiscard]] virtual std::size_t pressure_count() const = 0;
+  /// Every Gauss point, row of elements by row, element by element.
+  virtual Status points(const Material& material, const State& state, std::vector<Point>& found) = 0;
 
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
 };

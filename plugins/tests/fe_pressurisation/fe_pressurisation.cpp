@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "../tube_rows/tube_rows.hpp"
+#include "agreement.hpp"
+#include "fields.hpp"
 #include "simulation.hpp"
 #include "tunica/plugin.hpp"
 
@@ -70,17 +72,9 @@ class FePressurisation final : public Test {
     const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
     if (derivatives && !model.parameter_derivatives)
       return Status::failed("fe_pressurisation: the model has no parameter derivatives");
-    Tube plan = plan_;
-    plan.inner = plan.outer - (plan.outer - plan.inner) * (1 + input.test_parameters[thickness_error]);
-    if (!(plan.inner > 0 && plan.inner < plan.outer))
-      return Status::failed("fe_pressurisation: the thickness error leaves no wall or no lumen");
-    thread_local std::vector<double> pressure, stretch;
-    if (Status status = tube_.prescribed(input, input.test_parameters[axial_stretch_error], pressure, stretch);
-        !status.ok())
-      return status;
-    thread_local std::vector<Load> loads;
-    loads.resize(pressure.size());
-    for (std::size_t i = 0; i < loads.size(); ++i) loads[i] = {stretch[i], pressure[i]};
+    Tube plan;
+    std::vector<Load> loads;
+    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
 
     thread_local std::unique_ptr<Simulation> simulation;  // its memory serves the next call
     if (!simulation || simulation->tube() != plan) simulation = std::make_unique<Simulation>(plan);
@@ -89,14 +83,43 @@ class FePressurisation final : public Test {
     std::size_t failed_at = 0;
     const Status status = simulation->run(material, loads, derivatives, samples, failed_at);
     if (!status.ok())
-      return Status::failed(fmt::format("fe_pressurisation: not beyond {}: {}",
-                                        TubeRows::row_name(failed_at, pressure[failed_at], stretch[failed_at]),
-                                        status.reason()));
+      return Status::failed(fmt::format(
+          "fe_pressurisation: not beyond {}: {}",
+          TubeRows::row_name(failed_at, loads[failed_at].pressure, loads[failed_at].stretch), status.reason()));
     return write(plan, samples, input.model_parameters.size(), output);
+  }
+
+  Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
+    Tube plan;
+    std::vector<Load> loads;
+    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
+    return check_agreement(plan, Material(input.model, input.model_parameters), loads, found);
+  }
+
+  Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
+                   std::vector<Snapshot>& found) const override {
+    Tube plan;
+    std::vector<Load> loads;
+    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
+    return snapshots_of(plan, input.model, input.model_parameters, loads, rows, found);
   }
 
  private:
   using Channel = TubeRows::Channel;
+
+  /// The tube with its imperfections, and what is prescribed at each row.
+  Status prepare(const TestInput& input, Tube& plan, std::vector<Load>& loads) const {
+    plan = plan_;
+    plan.inner = plan.outer - (plan.outer - plan.inner) * (1 + input.test_parameters[thickness_error]);
+    if (!(plan.inner > 0 && plan.inner < plan.outer))
+      return Status::failed("fe_pressurisation: the thickness error leaves no wall or no lumen");
+    std::vector<double> pressure, stretch;
+    if (Status status = tube_.prescribed(input, input.test_parameters[axial_stretch_error], pressure, stretch);
+        !status.ok())
+      return status;
+    for (std::size_t i = 0; i < pressure.size(); ++i) loads.push_back({stretch[i], pressure[i]});
+    return {};
+  }
 
   /// A channel, or its derivative, of what is observed.
   static double channel(Channel channel, const Tube& plan, const Observed& at) {

@@ -69,6 +69,7 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, bo
       return status;
     if (hold_later) sensitivity_.begin(material);
   }
+  last_ = path.state();
   return {};
 }
 

@@ -36,6 +36,8 @@ class Simulation {
   Status run(const Material& material, std::span<const Load> loads, bool derivatives, std::vector<Sample>& samples,
              std::size_t& failed_at);
   [[nodiscard]] std::size_t solutions() const { return solutions_; }
+  /// The state that the last run ended with.
+  [[nodiscard]] const State& last() const { return last_; }
 
  private:
   Status line(Path& path, const Path::Mark& trunk, std::span<const Load> loads, std::span<const std::size_t> rows,
@@ -49,6 +51,7 @@ class Simulation {
   Solver solver_;
   Sensitivity sensitivity_;
   std::size_t solutions_ = 0;
+  State last_;
 };
 
 }  // namespace tunica::fe

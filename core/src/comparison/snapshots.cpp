@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "comparison/snapshots.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "tunica/error.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::comparison {
+namespace {
+
+std::size_t row_number(const std::string& word, const std::string& text) {
+  std::size_t row = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row);
+  if (error != std::errc() || end != word.data() + word.size() || row == 0)
+    throw InputError(
+        fmt::format("--fields {}: '{}' is no row; rows are counted from 1, for example tube:1,18,35", text, word));
+  return row - 1;
+}
+
+void write_array(fmt::ostream& out, const std::string& name, const std::string& unit, std::size_t components,
+                 const std::vector<double>& values) {
+  const std::string title = unit == "1" || unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+  out.print("        <DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", title,
+            components);
+  for (std::size_t i = 0; i < values.size(); ++i) out.print("{}{}", values[i], (i + 1) % components == 0 ? '\n' : ' ');
+  out.print("        </DataArray>\n");
+}
+
+void write_fields(fmt::ostream& out, const char* place, const Snapshot& snapshot, bool of_cells) {
+  out.print("      <{}>\n", place);
+  for (const auto& field : snapshot.fields)
+    if (field.of_cells == of_cells) write_array(out, field.name, field.unit, field.components, field.values);
+  out.print("      </{}>\n", place);
+}
+
+void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
+  constexpr int quadrilateral = 9;  // VTK_QUAD
+  const std::size_t cells = snapshot.cells.size() / 4;
+  fmt::ostream out = fmt::output_file(file.string());
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n");
+  out.print("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+            snapshot.points.size() / 3, cells);
+  out.print("      <Points>\n");
+  write_array(out, "points", "mm", 3, snapshot.points);
+  out.print("      </Points>\n      <Cells>\n");
+  out.print("        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
+  for (std::size_t i = 0; i < snapshot.cells.size(); ++i) out.print("{}{}", snapshot.cells[i], i % 4 == 3 ? '\n' : ' ');
+  out.print("        </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n");
+  for (std::size_t i = 1; i <= cells; ++i) out.print("{}\n", 4 * i);
+  out.print("        </DataArray>\n        <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
+  for (std::size_t i = 0; i < cells; ++i) out.print("{}\n", quadrilateral);
+  out.print("        </DataArray>\n      </Cells>\n");
+  write_fields(out, "PointData", snapshot, false);
+  write_fields(out, "CellData", snapshot, true);
+  out.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
+}
+
+}  // namespace
+
+FieldRequest field_request(const std::string& text) {
+  FieldRequest request;
+  const auto colon = text.rfind(':');
+  request.test = text.substr(0, colon);
+  if (colon == std::string::npos) return request;
+  std::string rest = text.substr(colon + 1) + ',';
+  for (std::size_t begin = 0, end = rest.find(','); end != std::string::npos;
+       begin = end + 1, end = rest.find(',', begin))
+    request.rows.push_back(row_number(rest.substr(begin, end - begin), text));
+  return request;
+}
+
+std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory,
+                                                   const experiment::Experiment& experiment, const Subject& subject,
+                                                   const FieldRequest& request) {
+  const auto test = std::ranges::find(experiment.tests, request.test, &experiment::TestEntry::name);
+  if (test == experiment.tests.end())
+    throw InputError(fmt::format("--fields {}: the experiment has no test of that name", request.test));
+  const auto& channels = subject.assembly->channels();
+  const auto channel = std::ranges::find(channels, request.test, &calibration::ChannelView::test);
+  const std::size_t count = channel == channels.end() ? 0 : channel->count;
+  std::vector<std::size_t> rows = request.rows;
+  if (rows.empty() && count > 0) rows = {0, count / 2, count - 1};
+  for (const std::size_t row : rows)
+    if (row >= count)
+      throw InputError(fmt::format("--fields {}: there is no row {}; the test has {}", request.test, row + 1, count));
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+
+  std::vector<Snapshot> snapshots;
+  const auto number = static_cast<std::size_t>(test - experiment.tests.begin());
+  const Status status = subject.assembly->ask(number, subject.free, [&](const Test& asked, const TestInput& input) {
+    return asked.snapshots(input, rows, snapshots);
+  });
+  if (!status.ok()) throw InputError(fmt::format("--fields {}: {}", request.test, status.reason()));
+
+  std::vector<std::filesystem::path> files;
+  std::string collection;
+  for (const Snapshot& snapshot : snapshots) {
+    const std::string stem = fmt::format("{}_{}", request.test, snapshot.row + 1);
+    files.push_back(directory / (stem + ".vtu"));
+    write_grid(files.back(), snapshot);
+    collection += fmt::format("    <DataSet timestep=\"{}\" file=\"{}.vtu\"/>\n", snapshot.row + 1, stem);
+    if (snapshot.section.empty()) continue;
+    SimulatedTable table{stem + "_section", {}, {}};
+    for (const auto& column : snapshot.section) {
+      table.headers.push_back(fmt::format("{} [{}]", column.name, column.unit));
+      table.columns.push_back(column.values);
+    }
+    files.push_back(write_table(directory, table));
+  }
+  files.push_back(directory / (request.test + ".pvd"));
+  fmt::ostream out = fmt::output_file(files.back().string());
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
+      "<Collection>\n{}  </Collection>\n</VTKFile>\n",
+      collection);
+  return files;
+}
+
+}  // namespace tunica::comparison

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "comparison/simulation.hpp"
+
+namespace tunica::comparison {
+
+/// "tube" or "tube:1,18,35": a test of the experiment and rows of its data, counted from 1; without rows the first, the
+/// middle and the last one.
+struct FieldRequest {
+  std::string test;
+  std::vector<std::size_t> rows;  ///< counted from 0; empty = not given
+};
+FieldRequest field_request(const std::string& text);
+
+/// Asks the test for its fields and writes, for ParaView and others, directory/<test>_<row>.vtu (VTK's XML format for
+/// unstructured grids, ASCII, quadrilaterals) with directory/<test>.pvd as the collection of them all, and tables
+/// directory/<test>_<row>_section.csv. Returns the files. Throws InputError where the experiment has no such test or
+/// row, or the test no fields. Source: docs.vtk.org, "VTK XML Formats".
+std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory,
+                                                   const experiment::Experiment& experiment, const Subject& subject,
+                                                   const FieldRequest& request);
+
+}  // namespace tunica::comparison
