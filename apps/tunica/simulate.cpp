@@ -42,8 +42,8 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   for (const auto& text : options.fields) fields.push_back(comparison::field_request(text));
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
   for (const auto& table : tables) fmt::print("{}\n", comparison::write_table(directory.path(), table).string());
-  for (const auto& request : fields)
-    for (const auto& path : comparison::write_snapshots(directory.path(), experiment, subject, request))
+  for (const auto& field : fields)
+    for (const auto& path : comparison::write_snapshots(directory.path(), experiment, subject, field))
       fmt::print("{}\n", path.string());
   return done;
 }
