@@ -77,18 +77,32 @@ class AssemblyOf final : public Assembly {
     return {};
   }
 
-  void pressures(const System& system, std::span<const double> dx, bool with_dilation,
+  void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,
                  std::span<double> dq) const override {
     for (std::size_t row = 0; row < mesh_.axial; ++row)
       for (std::size_t e = 0; e < n_; ++e)
         for (std::size_t m = 0; m < np; ++m) {
           const std::size_t at = (row * n_ + e) * np + m;
-          double sum = with_dilation ? system.dilation[at] : 0;
+          double sum = dilation.empty() ? 0 : dilation[at];
           for (std::size_t a = 0; a < nn; ++a) {
             const std::size_t dof = 2 * node(a, e, row);
             sum += system.coupling[at * dofs + 2 * a] * dx[dof] + system.coupling[at * dofs + 2 * a + 1] * dx[dof + 1];
           }
           dq[at] = -system.gamma * sum / mass(m, e, row);
+        }
+  }
+
+  void spread(const System& system, std::span<const double> dq, std::span<double> force) const override {
+    std::fill(force.begin(), force.end(), 0.0);
+    for (std::size_t row = 0; row < mesh_.axial; ++row)
+      for (std::size_t e = 0; e < n_; ++e)
+        for (std::size_t m = 0; m < np; ++m) {
+          const std::size_t at = (row * n_ + e) * np + m;
+          for (std::size_t a = 0; a < nn; ++a) {
+            const std::size_t dof = 2 * node(a, e, row);
+            force[dof] += system.coupling[at * dofs + 2 * a] * dq[at];
+            force[dof + 1] += system.coupling[at * dofs + 2 * a + 1] * dq[at];
+          }
         }
   }
 

@@ -64,9 +64,11 @@ class Assembly {
                           System& system) = 0;
   /// ∂force/∂p_j at a fixed state for every material parameter: 2 nodes each.
   virtual Status by_parameters(const Material& material, const State& state, std::span<double> forces) = 0;
-  /// dq for a solved dx; `with_dilation` includes −γ M⁻¹ c.
-  virtual void pressures(const System& system, std::span<const double> dx, bool with_dilation,
+  /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero.
+  virtual void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,
                          std::span<double> dq) const = 0;
+  /// G dq.
+  virtual void spread(const System& system, std::span<const double> dq, std::span<double> force) const = 0;
   /// Volume of the lumen (mm³) and energy of the wall (kPa mm³ = µJ) of half the tube.
   virtual Status energies(const Material& material, const State& state, double& lumen, double& stored) = 0;
   [[nodiscard]] virtual std::size_t pressure_count() const = 0;

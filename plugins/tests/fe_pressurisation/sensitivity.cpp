@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensitivity.hpp"
 
+#include <numeric>
+
 namespace tunica::fe {
 namespace {
 
@@ -39,29 +41,28 @@ void Sensitivity::move_ends(std::size_t direction, std::vector<double>& moved) c
   }
 }
 
-Status Sensitivity::solve(const Path& path, std::size_t direction, State& derivative, std::span<const double>& right) {
+Status Sensitivity::equations(const Path& path, std::size_t direction) {
   const std::size_t count = material_->parameter_count(), size = solver_.rest().x.size();
-  right = {};
+  right_.clear(), dilation_.clear();
   if (direction < count) {
     right_.resize(size);
     for (std::size_t i = 0; i < size; ++i) right_[i] = -forces_[direction * size + i];
-    right = right_;
   } else if (direction == count + pressure) {
-    right = solver_.by_pressure();
+    right_.assign(solver_.by_pressure().begin(), solver_.by_pressure().end());
   } else if (direction == count + thickness) {
     // The condensed right-hand side of another mesh at the same positions, with the coupling of this one.
     const State& state = path.state();
     probe_.coupling = solver_.system().coupling, probe_.gamma = solver_.system().gamma;
     if (Status status = thicker_->assemble(*material_, state, path.load().pressure, false, probe_); !status.ok())
       return status;
-    right_ = probe_.right;
+    right_ = probe_.right, dilation_ = probe_.dilation;
     if (Status status = thinner_->assemble(*material_, state, path.load().pressure, false, probe_); !status.ok())
       return status;
     for (std::size_t i = 0; i < size; ++i) right_[i] = (right_[i] - probe_.right[i]) / (2 * difference);
-    right = right_;
+    for (std::size_t i = 0; i < dilation_.size(); ++i)
+      dilation_[i] = (dilation_[i] - probe_.dilation[i]) / (2 * difference);
   }
   move_ends(direction, moved_);
-  solver_.derive(right, moved_, derivative);
   return {};
 }
 
@@ -72,10 +73,11 @@ Status Sensitivity::hold(const Path& path) {
   end_.clear();
   Status status = solver_.assembly().by_parameters(*material_, path.state(), forces_);
   for (std::size_t j = 0; j < count && status.ok(); ++j) {
-    std::span<const double> right;
     moved[j].assign(mesh.across(), 0);
     if (j == material_->parameter_count() + pressure) continue;  // held before the pressure comes
-    status = solve(path, j, derivative_, right);
+    status = equations(path, j);
+    solver_.derive(right_, moved_, derivative_);
+    solver_.refine(dilation_, derivative_);
     for (std::size_t i = 0; i < mesh.across(); ++i) moved[j][i] = derivative_.x[2 * mesh.node(i, mesh.planes() - 1)];
   }
   end_ = std::move(moved);
@@ -85,13 +87,19 @@ Status Sensitivity::hold(const Path& path) {
 Status Sensitivity::sample(const Path& path, Sample& sample) {
   const std::size_t count = material_->parameter_count() + own;
   sample.value = path.observed();
-  sample.by.resize(count);
+  sample.by.assign(count, {});
+  using enum Solver::Observable;
+  for (const auto what : {outer_radius, inner_radius, axial_force})
+    solver_.weigh(what, weights_[static_cast<std::size_t>(what)]);
+  const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {  // b may be empty
+    return std::inner_product(b.begin(), b.end(), a.begin(), 0.0);
+  };
   Status status = solver_.assembly().by_parameters(*material_, path.state(), forces_);
   for (std::size_t j = 0; j < count && status.ok(); ++j) {
-    std::span<const double> right;
-    status = solve(path, j, derivative_, right);
-    sample.by[j] = {solver_.outer_radius(derivative_), solver_.inner_radius(derivative_),
-                    solver_.axial_force_by(derivative_, right)};
+    status = equations(path, j);
+    for (std::size_t k = 0; k < weights_.size(); ++k)
+      sample.by[j][k] =
+          dot(weights_[k].right, right_) + dot(weights_[k].dilation, dilation_) + dot(weights_[k].moved, moved_);
   }
   return status;
 }

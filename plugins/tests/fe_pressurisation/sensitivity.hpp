@@ -15,8 +15,9 @@ struct Sample {
   std::vector<Observed> by;
 };
 
-/// Direct differentiation: at an equilibrium R(x; p) = 0 is K dx/dp = −∂R/∂p, one solution with the factor at hand a
-/// parameter. By the thickness only ∂R/∂p is a central difference, of residuals at fixed positions: 1e-9 of it.
+/// At an equilibrium R(x; p) = 0 is dx/dp = −K⁻¹ ∂R/∂p, exactly. Of the three observables a · x it is Kᵀ z = a that is
+/// solved with the factor at hand, whatever the number of parameters: then d(a · x)/dp = −z · ∂R/∂p. By the thickness
+/// only ∂R/∂p is a central difference, of residuals at fixed positions: 1e-9 of it.
 class Sensitivity {
  public:
   /// `radius` and `thickness` describe the mesh of the solver.
@@ -31,15 +32,17 @@ class Sensitivity {
 
  private:
   enum Direction : std::size_t { stretch, thickness, pressure, own };  ///< after the model's parameters
-  Status solve(const Path& path, std::size_t direction, State& derivative, std::span<const double>& right);
+  /// right_, dilation_ and moved_ of a direction; empty = nothing.
+  Status equations(const Path& path, std::size_t direction);
   void move_ends(std::size_t direction, std::vector<double>& moved) const;
 
   Solver& solver_;
   const Material* material_ = nullptr;
   std::unique_ptr<Assembly> thinner_, thicker_;
-  std::vector<double> forces_, right_, moved_;
+  std::vector<double> forces_, right_, dilation_, moved_;
   std::vector<std::vector<double>> end_;  ///< ∂r/∂p of the held end, by direction; empty = not held after stretching
   State derivative_;
+  std::array<Solver::Weights, 3> weights_;
   System probe_;
 };
 

@@ -133,7 +133,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
       system_.gamma = incompressibility * system_.stiffness;
       continue;
     }
-    assembly_->pressures(system_, dx_, true, dq_);
+    assembly_->pressures(system_, dx_, system_.dilation, dq_);
     for (std::size_t i = 0; i < dx_.size(); ++i) state.x[i] += dx_[i];
     for (std::size_t i = 0; i < dq_.size(); ++i) state.q[i] += dq_[i];
     note_force();
@@ -160,7 +160,49 @@ void Solver::derive(std::span<const double> right, std::span<const double> moved
   factor_.solve(derivative.x);
   prescribe(derivative.x);
   for (std::size_t i = 0; i < moved.size(); ++i) derivative.x[i] += moved[i];
-  assembly_->pressures(system_, derivative.x, false, derivative.q);
+  assembly_->pressures(system_, derivative.x, {}, derivative.q);
+}
+
+/// The incompressible equations K dx − G dq = r, Gᵀ dx = −c of a derivative are solved up to Gᵀ dx + c = −M dq/γ. What
+/// is left is solved with the same factor: (K + γ G M⁻¹ Gᵀ) δx = G dq.
+void Solver::refine(std::span<const double> dilation, State& derivative) {
+  assembly_->pressures(system_, derivative.x, dilation, derivative.q);
+  assembly_->spread(system_, derivative.q, product_);
+  prescribe(product_);
+  factor_.solve(product_);
+  prescribe(product_);
+  for (std::size_t i = 0; i < product_.size(); ++i) derivative.x[i] += product_[i];
+}
+
+/// derive and refine, transposed. With a · dx + b · right the observable, b and a = −K̂ b for the axial force, K̂ the
+/// condensed matrix: z = K̂⁻¹ a, h = −γ M⁻¹ Gᵀ (z + b), y = G h, w = K̂⁻¹ y; then right = z + w + b, dilation = h,
+/// moved = a + y − K̂ (z + w).
+void Solver::weigh(Observable what, Weights& weights) {
+  const std::size_t size = dx_.size();
+  weights.right.assign(size, 0), weights.dilation.resize(dq_.size()), weights.moved.assign(size, 0);
+  std::vector<double>&z = weights.right, &a = weights.moved;
+  const double own = what == Observable::axial_force ? 2 * std::numbers::pi : 0;  // b, over the plane of symmetry
+  if (what == Observable::axial_force) {
+    for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
+  } else {
+    a[what == Observable::outer_radius ? 2 * (mesh_.across() - 1) : 0] = 1;
+  }
+  const auto add_own = [&](double sign) {
+    for (std::size_t i = 0; i < mesh_.across(); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
+  };
+  const auto solve_free = [&](std::vector<double>& x) { prescribe(x), factor_.solve(x), prescribe(x); };
+  z = a;
+  solve_free(z);
+  add_own(1);
+  assembly_->pressures(system_, z, {}, weights.dilation);
+  add_own(-1);
+  assembly_->spread(system_, weights.dilation, product_);
+  for (std::size_t i = 0; i < size; ++i) a[i] += product_[i];
+  solve_free(product_);
+  for (std::size_t i = 0; i < size; ++i) z[i] += product_[i];
+  system_.matrix.multiply(z, product_);
+  for (std::size_t i = 0; i < size; ++i) a[i] -= product_[i];
+  add_own(1);
 }
 
 /// To first order after a step: ∂Π/∂x + K dx − G dq = −right + (K + γ G M⁻¹ Gᵀ) dx.
@@ -168,13 +210,6 @@ void Solver::note_force() {
   middle_force_ = 0;
   for (std::size_t j = 0; j < middle_.size(); ++j) middle_force_ += middle_[j] * dx_[j];
   for (std::size_t i = 0; i < mesh_.across(); ++i) middle_force_ -= system_.right[2 * mesh_.node(i, 0) + 1];
-}
-
-double Solver::axial_force_by(const State& derivative, std::span<const double> right) const {
-  double sum = 0;
-  for (std::size_t j = 0; j < middle_.size(); ++j) sum += middle_[j] * derivative.x[j];
-  for (std::size_t i = 0; i < (right.empty() ? 0 : mesh_.across()); ++i) sum -= right[2 * mesh_.node(i, 0) + 1];
-  return -2 * std::numbers::pi * sum;
 }
 
 }  // namespace tunica::fe

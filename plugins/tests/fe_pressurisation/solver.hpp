@@ -54,16 +54,27 @@ class Solver {
   [[nodiscard]] const System& system() const { return system_; }
 
   /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (condensed as System::right; empty
-  /// = nothing) and moves the prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all). As
-  /// accurate as the factor.
+  /// = nothing) and moves the prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all), up to
+  /// the compressibility 1/γ of the matrix: 1e-5 of it.
   void derive(std::span<const double> right, std::span<const double> moved, State& derivative);
   /// `right` by the pressure, ∂V/∂x; `moved` by the axial stretch.
   [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
   [[nodiscard]] std::span<const double> by_stretch() const { return end_moved_; }
 
+  /// Takes 1/γ out of a derivative, to 1e-10: one step of iterative refinement of the incompressible equations. In
+  /// them c changes by `dilation` at a fixed state (empty = not at all).
+  void refine(std::span<const double> dilation, State& derivative);
+
+  /// How an observable depends on the equations of the solution: it changes by right · `right` + dilation · `dilation`
+  /// + moved · `moved`, the three as in derive and refine, and by no more than 1e-10 of it otherwise.
+  struct Weights {
+    std::vector<double> right, dilation, moved;
+  };
+  enum class Observable { outer_radius, inner_radius, axial_force };
+  void weigh(Observable what, Weights& weights);
+
   /// Reduced axial force in mN: −2π Σ ∂Π/∂z over the plane of symmetry, the derivative of Π by its position.
   [[nodiscard]] double axial_force() const { return -2 * std::numbers::pi * middle_force_; }
-  [[nodiscard]] double axial_force_by(const State& derivative, std::span<const double> right) const;
   [[nodiscard]] double outer_radius(const State& state) const { return state.x[2 * (mesh_.across() - 1)]; }
   [[nodiscard]] double inner_radius(const State& state) const { return state.x[0]; }
 
