@@ -68,7 +68,7 @@ TEST_P(FiniteElementAssembly, TheMatrixIsTheDerivativeOfTheForce) {
   const fe::System system = assembled(state, pressure, *assembly);
   fe::State direction = disturbed(solver, 1, 0, 3), up = state, down = state;
   for (std::size_t i = 0; i < state.x.size(); ++i) direction.x[i] -= solver.rest().x[i];
-  assembly->pressures(system, direction.x, false, direction.q);
+  assembly->pressures(system, direction.x, {}, direction.q);
   constexpr double h = 1e-7;
   for (std::size_t i = 0; i < state.x.size(); ++i) up.x[i] += h * direction.x[i], down.x[i] -= h * direction.x[i];
   for (std::size_t i = 0; i < state.q.size(); ++i) up.q[i] += h * direction.q[i], down.q[i] -= h * direction.q[i];

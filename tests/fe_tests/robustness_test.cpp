@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "support/fe_tube.hpp"
@@ -92,7 +93,12 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
   std::printf("  failed %zu, compared %zu, worst %.1e, longest %.0f ms\n", failed, compared, worst, 1e3 * longest);
   EXPECT_EQ(finer_failed, 0u);
   EXPECT_GT(compared, 150u);
-  EXPECT_LT(failed, 200u);
+  // Soft walls that balloon, or stiffen so late that the step would have to be tiny: a quarter of the box at most.
+  EXPECT_LT(failed, 250u);
+  for (const char* known : {"the state jumps", "Newton's method diverges",
+                            "Newton's method did not converge in 14 iterations", "Newton's method runs away",
+                            "the stiffness is singular", "the stress overflows, or an element is turned inside out"})
+    EXPECT_GT(reasons[known], 0) << known;
 }
 
 }  // namespace
