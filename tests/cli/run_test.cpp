@@ -172,6 +172,27 @@ TEST(Run, MakesProfilesAndBootstrapOnDemandAlsoOfAFinishedRun) {
   EXPECT_EQ(bench.text("one/profile_mu.csv"), bench.text("out/profile_mu.csv"));
 }
 
+TEST(Run, RefusesNamesOfProfilesThatAreNone) {
+  trial::Bench bench;
+  for (const auto& words : {std::vector<std::string>{"--profiles", ",", "--quiet"}, {"--profiles", "mu,,k1"}}) {
+    std::vector<std::string> command{"run", "experiment.json", "-o", "never"};
+    command.insert(command.end(), words.begin(), words.end());
+    const auto refused = bench.tunica(command);
+    EXPECT_EQ(refused.code, 2) << refused.out;
+    EXPECT_THAT(refused.err, HasSubstr("is not the name of a parameter; expected names separated by commas"));
+  }
+}
+
+TEST(Run, LeavesTheThresholdOfSuccessEmptyWhereNothingIsFeasible) {
+  trial::Bench bench;
+  bench.experiment["constraints"] = {{{"type", "transverse_stability"}, {"h", 0}}};
+  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0}};
+  bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "es"}, {"stop", {{"max_evaluations", 200}}}}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(bench.result("out")["runs"][0]["best"]["status"], "infeasible") << ended.err;
+  EXPECT_THAT(bench.text("out/ranking.csv"), ::testing::Not(HasSubstr("inf,")));
+}
+
 TEST(Run, WritesAResultThatItsSchemaAccepts) {
   trial::Bench bench;
   bench.experiment["tests"]["axial"]["hold_out"] = true;

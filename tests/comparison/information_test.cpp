@@ -76,4 +76,14 @@ TEST(Information, ComparesDifferentModelsOfAGroupOnly) {
   EXPECT_EQ(ranking[0].delta_aicc, 4);
   EXPECT_EQ(ranking[1].delta_aicc, 0);
   EXPECT_FALSE(ranking[2].delta_aicc);
+  // A point that breaks a constraint fits better for it, and sets no standard.
+  runs[1].status = Status::infeasible("unstable", 1);
+  runs[2].model = "c", runs[2].information = Information{-9, 0, Information::Noise::stated};
+  ranking = comparison::rank(runs);
+  comparison::compare_information(runs, ranking);
+  std::vector<std::optional<double>> delta(3);
+  for (const auto& entry : ranking) delta[entry.run] = entry.delta_aicc;
+  EXPECT_EQ(delta[0], 0);
+  EXPECT_EQ(delta[1], std::nullopt);
+  EXPECT_EQ(delta[2], 1);
 }

@@ -72,14 +72,16 @@ void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked
   std::map<std::string, std::set<std::string>> models;
   std::map<std::string, double> least;
   for (const auto& run : runs) {
-    if (!run.has_result || !run.information || !run.information->aicc) continue;
+    if (!run.has_result || !run.status.ok() || !run.information || !run.information->aicc) continue;
     models[run.group].insert(run.model);
     const double aicc = *run.information->aicc;
     least[run.group] = std::min(least.emplace(run.group, aicc).first->second, aicc);
   }
   for (auto& entry : ranking) {
     const auto& run = runs[entry.run];
-    if (!run.has_result || !run.information || !run.information->aicc || models[run.group].size() < 2) continue;
+    if (!run.has_result || !run.status.ok() || !run.information || !run.information->aicc ||
+        models[run.group].size() < 2)
+      continue;
     entry.delta_aicc = *run.information->aicc - least[run.group];
   }
 }

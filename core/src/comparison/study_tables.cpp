@@ -107,7 +107,7 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                   fmt::format("{}", run.success_rate),
                   fmt::format("{}", run.success_ci95.first),
                   fmt::format("{}", run.success_ci95.second),
-                  some(run.threshold),
+                  std::isfinite(run.threshold) ? some(run.threshold) : "",
                   to_target ? fmt::format("{}", to_target->median) : "",
                   cell(run.expected_running_time),
                   fmt::format("{}", run.evaluations),
