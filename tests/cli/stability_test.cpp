@@ -188,16 +188,4 @@ TEST(Stability, IsJudgedFurtherAndMappedWhereTheExperimentAsks) {
   bench.experiment["models"]["other"] = {{"type", "gho"}, {"parameters", {{"k2", {{"fixed", 1}}}}}};
   bench.experiment["runs"].push_back({{"model", "other"}, {"optimizer", "lm"}});
   EXPECT_THAT(never({"kappa", "k2"}), HasSubstr("no run searches for both 'kappa' and 'k2'"));
-  const auto never = [&](const nlohmann::json& map) {
-    bench.experiment["analysis"]["stability"]["map"] = map;
-    const auto ended_at_once = bench.tunica({"run", "experiment.json", "-o", "never"});
-    EXPECT_EQ(ended_at_once.code, 2);
-    EXPECT_FALSE(std::filesystem::exists(bench.path("never")));
-    return ended_at_once.err;
-  };
-  EXPECT_THAT(never({"k2", "k2"}), HasSubstr("'k2' is named twice in the stability map"));
-  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0.1}};
-  bench.experiment["models"]["other"] = {{"type", "gho"}, {"parameters", {{"k2", {{"fixed", 1}}}}}};
-  bench.experiment["runs"].push_back({{"model", "other"}, {"optimizer", "lm"}});
-  EXPECT_THAT(never({"kappa", "k2"}), HasSubstr("no run searches for both 'kappa' and 'k2'"));
 }

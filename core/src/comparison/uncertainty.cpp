@@ -87,21 +87,6 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
           "{}: no run searches for both '{}' and '{}', the parameters of the stability map; free both in one",
           analysis.place("map", map[0]), map[0], map[1]));
   }
-  if (const auto& map = analysis.stability_map; !map.empty()) {
-    if (map[0] == map[1])
-      throw InputError(fmt::format("{}: '{}' is named twice in the stability map; a map has two parameters",
-                                   analysis.place("map", map[0]), map[0]));
-    const bool possible = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const auto& run) {
-      const auto& free = run.assembly->parameters();
-      return std::all_of(map.begin(), map.end(), [&](const auto& name) {
-        return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });
-      });
-    });
-    if (!possible)
-      throw InputError(fmt::format(
-          "{}: no run searches for both '{}' and '{}', the parameters of the stability map; free both in one",
-          analysis.place("map", map[0]), map[0], map[1]));
-  }
   if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }
 
