@@ -50,8 +50,6 @@ NloptOptimizer::NloptOptimizer(const Settings& settings) : settings_(settings) {
             .infeasible = algorithm != Algorithm::crs2_lm};
   // A simplex of n + 1 points is drawn from the population.
   if (algorithm == Algorithm::crs2_lm && settings.population > 0) needs_.most_parameters = settings.population - 1;
-  // A simplex of n + 1 points is drawn from the population.
-  if (algorithm == Algorithm::crs2_lm && settings.population > 0) needs_.most_parameters = settings.population - 1;
 }
 
 Optimizer::Outcome NloptOptimizer::minimise(Problem& problem) {
