@@ -176,8 +176,8 @@ TEST(Stability, IsJudgedFurtherAndMappedWhereTheExperimentAsks) {
   EXPECT_THAT(refused.err, HasSubstr("experiment.json (/analysis/stability/map/1, line "));
   EXPECT_THAT(refused.err,
               HasSubstr("no run searches for the parameter 'k3' of the stability map. Did you mean 'k1'?"));
-  const auto never = [&](const nlohmann::json& map) {
-    bench.experiment["analysis"]["stability"]["map"] = map;
+  const auto never = [&](const nlohmann::json& names) {
+    bench.experiment["analysis"]["stability"]["map"] = names;
     const auto ended_at_once = bench.tunica({"run", "experiment.json", "-o", "never"});
     EXPECT_EQ(ended_at_once.code, 2);
     EXPECT_FALSE(std::filesystem::exists(bench.path("never")));

@@ -65,9 +65,8 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   summary.runs = {good, broken};
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
   const auto text = ranking_table(summary);
-  EXPECT_THAT(text,
-              HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                        1.2346e-21   19/20 "
-                        "1234567 1.23e+08   34567      0 123456      0\n"));
+  EXPECT_THAT(text, HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                 1.2346e-21   19/20 "
+                              "1234567 1.23e+08   34567      0 123456      0\n"));
   EXPECT_THAT(text, HasSubstr("12.3\n     NO FEASIBLE POINT, least violation 0.3: unstable at stretch 1.2\n"));
   EXPECT_THAT(text, HasSubstr("ΔAICc"));
   EXPECT_THAT(text, HasSubstr("  optimum: no better neighbour\n"));

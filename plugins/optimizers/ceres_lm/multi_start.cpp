@@ -120,7 +120,8 @@ Optimizer::Outcome MultiStart::minimise(Problem& problem) {
   return {
       best.end == Descent::End::converged && !infeasible,
       fmt::format(
-          "{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
+          "{}{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
+          problem.should_stop() ? "stopped; " : "",
           infeasible ? fmt::format("no feasible point was found, the least violation was {:g}; ", best.violation) : "",
           evaluated,
           cut_short ? fmt::format("the {} starts (of {}) made until then", made, settings_.starts)

@@ -118,12 +118,13 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
   const auto number = best - searches.begin() + 1;
   const auto made = std::ranges::count_if(searches, [](const Search& search) { return search.evaluated > 0; });
   const bool cut_short = static_cast<std::size_t>(made) < settings_.starts;
-  return {best->converged(),
-          fmt::format("{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
-                      infeasibility(best->best), settings_.starts - which.size(),
-                      cut_short ? fmt::format("the {} starts (of {}) made until then", made, settings_.starts)
-                                : fmt::format("{} starts", settings_.starts),
-                      agree, number, best->words())};
+  return {
+      best->converged(),
+      fmt::format("{}{}{} of {} could be evaluated, {} came to the best objective; the best was start {}: {}",
+                  problem.should_stop() ? "stopped; " : "", infeasibility(best->best), settings_.starts - which.size(),
+                  cut_short ? fmt::format("the {} starts (of {}) made until then", made, settings_.starts)
+                            : fmt::format("{} starts", settings_.starts),
+                  agree, number, best->words())};
 }
 
 }  // namespace tunica::nlopt_plugin
