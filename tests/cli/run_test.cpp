@@ -174,19 +174,17 @@ TEST(Run, MakesProfilesAndBootstrapOnDemandAlsoOfAFinishedRun) {
 
 TEST(Run, RefusesNamesOfProfilesThatAreNone) {
   trial::Bench bench;
-  for (const auto& words : {std::vector<std::string>{"--profiles", ",", "--quiet"}, {"--profiles", "mu,,k1"}}) {
-    std::vector<std::string> command{"run", "experiment.json", "-o", "never"};
-    command.insert(command.end(), words.begin(), words.end());
-    const auto refused = bench.tunica(command);
-    EXPECT_EQ(refused.code, 2) << refused.out;
-    EXPECT_THAT(refused.err, HasSubstr("is not the name of a parameter; expected names separated by commas"));
-  }
+  const auto refused = bench.tunica({"run", "experiment.json", "-o", "never", "--profiles", ",", "--quiet"});
+  EXPECT_EQ(refused.code, 2) << refused.out;
+  EXPECT_THAT(refused.err, HasSubstr("is not the name of a parameter; expected names separated by commas"));
 }
 
 TEST(Run, LeavesTheThresholdOfSuccessEmptyWhereNothingIsFeasible) {
   trial::Bench bench;
   bench.experiment["constraints"] = {{{"type", "transverse_stability"}, {"h", 0}}};
-  bench.experiment["models"]["gho"]["parameters"]["kappa"] = {{"fixed", 0}};
+  // Oblique fibres without dispersion always thicken the strip at the end: Ψ ≡ 1 is out of reach.
+  auto& parameters = bench.experiment["models"]["gho"]["parameters"];
+  parameters["kappa"] = {{"fixed", 0}}, parameters["theta"] = {{"fixed", 45}}, parameters["k1"] = {{"fixed", 20}};
   bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "es"}, {"stop", {{"max_evaluations", 200}}}}};
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   EXPECT_EQ(bench.result("out")["runs"][0]["best"]["status"], "infeasible") << ended.err;
