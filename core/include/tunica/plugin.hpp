@@ -51,6 +51,7 @@ struct TestFactory {
   /// Every parameter a test of this type can have, as TestDescription declares it: files are checked against it
   /// before there are data to make a test from.
   std::vector<Parameter> parameters = {};
+  bool layered = false;  ///< takes a wall of layers with models of their own, see TestSetup::layers
 };
 
 struct OptimizerFactory {

@@ -40,6 +40,9 @@ struct TestSetup {
   Options options;
   TestRows rows;
   std::string stress_measure;  ///< "cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"
+  /// Thickness in mm of each layer from inside, positive, where the type takes layers (TestFactory::layered) and the
+  /// file gives them; empty = one model.
+  std::vector<double> layers = {};
 };
 
 struct TestDescription {
@@ -56,11 +59,14 @@ struct TestDescription {
 };
 
 struct TestInput {
-  const Model& model;
-  std::span<const double> model_parameters;
+  const Model& model;                        ///< of the first layer, where there are several
+  std::span<const double> model_parameters;  ///< of all layers, one after the other
   std::span<const double> test_parameters;
   /// Abscissae instead of the bound ones (a mechanism corrects them): one span per mapped abscissa, or empty.
   std::span<const std::span<const double>> abscissae = {};
+  /// The model of each layer of TestSetup::layers, one model perhaps in several of them; empty = `model` alone. A layer
+  /// that shares its model has its own copy of the parameters, and own rows of the Jacobian: the host adds them up.
+  std::span<const Model* const> layers = {};
 };
 
 /// Predictions into memory of the caller; with c channels and n rows, channel k of row i at [k·n + i].
