@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <random>
@@ -93,12 +94,12 @@ Carried carried_pressure(const Model& model, const std::vector<double>& p, doubl
 }
 
 /// A thousand tubes over the whole box of the gho (seed 11, deterministic: no false alarm).
-TEST(TubeRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
+TEST(TubeRobustness, AnyTubeOfDispersedFibresConverges) {
   const auto model = make_model("gho");
   std::mt19937_64 engine(11);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto between = [&](double low, double high) { return low + (high - low) * unit(engine); };
-  std::size_t failed = 0, limits = 0, overflows = 0, sharp = 0;
+  std::size_t sharp = 0;
   double worst = 0;
   for (int draw = 0; draw < 1000; ++draw) {
     std::vector<double> p;
@@ -114,18 +115,7 @@ TEST(TubeRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
     const auto tube = make_tube(evenly(0, top, draw % 3 == 0 ? 4 : 30),
                                 {.axial_stretch = lz, .inner_radius = Ri, .thickness = thickness});
     const Inflated out = inflate(*tube, *model, p, own);
-    if (!out.status.ok()) {
-      ++failed;
-      EXPECT_EQ(out.status.kind(), Status::Kind::failed);
-      const bool limit = out.status.reason().find("limit pressure") != std::string::npos;
-      const bool overflow = out.status.reason().find("overflow") != std::string::npos;
-      limits += limit, overflows += overflow;
-      EXPECT_TRUE(limit || overflow || out.status.reason().find("leave no wall") != std::string::npos ||
-                  out.status.reason().find("no stress-free sector") != std::string::npos)
-          << out.status.reason();
-      EXPECT_NE(out.status.reason().find("row "), std::string::npos) << out.status.reason();
-      continue;
-    }
+    ASSERT_TRUE(out.status.ok()) << draw << ": " << out.status.reason();
     for (const double value : out.values) ASSERT_TRUE(std::isfinite(value)) << draw;
     if (own != bare_tube) continue;
     const std::size_t n = tube->rows().count;
@@ -140,10 +130,31 @@ TEST(TubeRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
   }
   EXPECT_LT(worst, 1e-9);
   EXPECT_GT(sharp, 400u);  // so many of the 500 bare tubes were held to the full 1e-9
-  EXPECT_GT(limits, 10u);
-  EXPECT_LT(failed, 100u);
-  std::printf("failed %zu (limit %zu, overflow %zu), sharp %zu, worst error of the stretch %.2e\n", failed, limits,
-              overflows, sharp, worst);
+  std::printf("sharp %zu, worst error of the stretch %.2e\n", sharp, worst);
+}
+
+/// Tubes of steep fibres in a soft matrix, whose stiffness changes a hundredfold where they are left or taken up (seed
+/// 5, deterministic: no false alarm). Measured files often begin at the highest pressure.
+TEST(TubeRobustness, RowsOfFallingPressureFindTheStatesOfRisingOnes) {
+  const auto model = make_model("gho");
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto between = [&](double low, double high) { return low + (high - low) * unit(engine); };
+  for (int draw = 0; draw < 200; ++draw) {
+    const std::vector<double> p{between(2, 30), draw % 2 == 0 ? 0 : between(0, 0.1), between(50, 1000),
+                                between(10, 100), between(60, 90)};
+    std::vector<double> own = bare_tube;
+    own[opening_angle] = between(0, 150);
+    const TubeSetup setup{.axial_stretch = between(1.02, 1.3), .inner_radius = 1.531, .thickness = 0.77};
+    std::vector<double> pressure = evenly(0, between(1, 3.3), draw % 3 == 0 ? 2 : 12);
+    const Inflated up = inflate(*make_tube(pressure, setup), *model, p, own);
+    std::reverse(pressure.begin(), pressure.end());
+    const Inflated down = inflate(*make_tube(pressure, setup), *model, p, own);
+    ASSERT_TRUE(up.status.ok()) << draw << ": " << up.status.reason();
+    ASSERT_TRUE(down.status.ok()) << draw << ": " << down.status.reason();
+    for (std::size_t i = 0, n = pressure.size(); i < n; ++i)
+      EXPECT_NEAR(up.values[i], down.values[n - 1 - i], 1e-9) << draw;
+  }
 }
 
 }  // namespace

@@ -11,9 +11,9 @@ namespace {
 constexpr double largest_step = 0.1, largest_after_success = 0.5;  ///< of y = ln ri
 constexpr double largest_axial_step = 0.1;                         ///< of ln λz
 constexpr double smallest_step = 1e-9;
-constexpr double farthest = 4.6;  ///< the inner radius may grow a hundredfold
-constexpr double good_enough = 1e-3;
-constexpr int budget = 1000;  ///< evaluations for one segment
+constexpr double farthest = 4.6;                                        ///< the inner radius may grow a hundredfold
+constexpr double good_enough = 1e-3, settled_to = 1e-6, nearby = 0.05;  ///< of y
+constexpr int budget = 1000;                                            ///< evaluations for one segment
 
 }  // namespace
 
@@ -27,29 +27,51 @@ Status Path::begin(Equilibrium& at) {
   return Status::failed(at.p_y <= 0 ? "the unloaded tube is not stable" : "the energy overflows in the unloaded tube");
 }
 
-/// Newton's method at the trial's axial stretch and pressure from its y, until the next correction is small; the last
-/// one is applied without being evaluated again. `step` is what the predictor moved.
+/// Newton's correction of y towards the trial's own pressure, and the slopes there.
+Path::Trouble Path::evaluate(Equilibrium& trial, double support_free, double& correction) {
+  const Section section{trial.axial_stretch, trial.y};
+  if (!sections_.evaluate({&section, 1}, false).ok()) return Trouble::overflow;
+  const WallForces forces = sections_.forces(0);
+  double p = forces.p;
+  trial.p_y = forces.p_y, trial.p_axial = forces.p_axial;
+  if (trial.supported) {
+    p += support(wall_, trial.y, trial.axial_stretch, support_free);
+    trial.p_y += support_slope(wall_, trial.y, trial.axial_stretch);
+  }
+  if (!std::isfinite(p) || !std::isfinite(trial.p_y)) return Trouble::overflow;
+  if (!(trial.p_y > 0)) return Trouble::falling;
+  correction = (trial.p - p) / trial.p_y;
+  return Trouble::none;
+}
+
+/// Newton's method at the trial's axial stretch and pressure from its y, until the next correction is small, and half
+/// as long as the move before; it is applied without being evaluated again. `step` is what the predictor moved.
 Path::Trouble Path::correct(Equilibrium& trial, double support_free, double step) {
-  double allowed = 0.5 * std::abs(step) + good_enough;
+  double before = std::abs(step), correction = 0;
   for (int iteration = 0; iteration < 5; ++iteration) {
-    const Section section{trial.axial_stretch, trial.y};
-    if (!sections_.evaluate({&section, 1}, false).ok()) return Trouble::overflow;
-    const WallForces forces = sections_.forces(0);
-    double p = forces.p;
-    trial.p_y = forces.p_y, trial.p_axial = forces.p_axial;
-    if (trial.supported) {
-      p += support(wall_, trial.y, trial.axial_stretch, support_free);
-      trial.p_y += support_slope(wall_, trial.y, trial.axial_stretch);
-    }
-    if (!std::isfinite(p) || !std::isfinite(trial.p_y)) return Trouble::overflow;
-    if (!(trial.p_y > 0)) return Trouble::falling;
-    const double correction = (trial.p - p) / trial.p_y;
-    if (!(std::abs(correction) <= allowed)) return Trouble::not_contracting;
+    if (const Trouble found = evaluate(trial, support_free, correction); found != Trouble::none) return found;
+    const double size = std::abs(correction);
+    if (!(size <= 0.5 * before + good_enough)) return Trouble::not_contracting;
     trial.y += correction;
-    if (std::abs(correction) <= good_enough) return Trouble::none;
-    allowed = 0.5 * std::abs(correction) + good_enough;
+    if (size <= settled_to || (size <= good_enough && size <= 0.5 * before)) return Trouble::none;
+    before = size;
   }
   return Trouble::not_contracting;
+}
+
+/// Where fibres are just left or taken up, p_y changes a hundredfold within 1e-3, and a correction that looked small
+/// was short. The next step must not begin at such a state, however small it is: plain Newton's method brings it to its
+/// own pressure, near by and on a rising branch, or leaves it as it is.
+void Path::settle(Equilibrium& at, double support_free) {
+  at.settled = true;
+  Equilibrium exact = at;
+  double correction = 1;
+  for (int iteration = 0; iteration < 20 && std::abs(correction) > settled_to; ++iteration) {
+    if (evaluate(exact, support_free, correction) != Trouble::none) return;
+    exact.y += correction;
+    if (!(std::abs(exact.y - at.y) <= nearby)) return;
+  }
+  if (std::abs(correction) <= settled_to) at = exact;
 }
 
 Status Path::follow(Equilibrium& at, double axial_stretch, double p, double support_free) {
@@ -92,11 +114,15 @@ Status Path::follow(Equilibrium& at, double axial_stretch, double p, double supp
       if (!(mean > 0) || u * u + v * v > 16) last = Trouble::not_contracting;
     }
     if (last != Trouble::none) {
+      if (!at.settled) {
+        settle(at, support_free);
+        continue;
+      }
       share = 0.5 * (end - done), cap = largest_step;
       if (std::abs(step) < smallest_step || share < 1e-12) break;
       continue;
     }
-    next.has_before = same_axial, next.before_p = at.p, next.before_u = 1 / at.p_y;
+    next.settled = false, next.has_before = same_axial, next.before_p = at.p, next.before_u = 1 / at.p_y;
     at = next, done = end;
     share = std::min(2 * share, largest_share);
     cap = std::min(1.5 * cap, largest_after_success);

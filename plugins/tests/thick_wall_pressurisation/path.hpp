@@ -15,6 +15,7 @@ struct Equilibrium {
   double before_p = 0, before_u = 0;  ///< p and 1/p_y of the state before, at the same axial stretch
   bool has_before = false;
   bool supported = false;  ///< p and p_y have the support in them
+  bool settled = true;     ///< y belongs to p to 1e-6, or nothing better was found
 };
 
 /// Follows the tube from rest: straight segments in the plane of axial stretch and pressure, Newton's method with the
@@ -34,7 +35,9 @@ class Path {
 
  private:
   enum class Trouble { none, overflow, falling, not_contracting };
+  Trouble evaluate(Equilibrium& trial, double support_free, double& correction);
   Trouble correct(Equilibrium& trial, double support_free, double step);
+  void settle(Equilibrium& at, double support_free);
   [[nodiscard]] std::string words(const Equilibrium& at, Trouble trouble, double p) const;
 
   Sections& sections_;
