@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <limits>
+#include <random>
+
 #include "optimizers/functions.hpp"
 #include "optimizers/lamb_aorta.hpp"
 #include "optimizers/plugin_under_test.hpp"
@@ -24,6 +28,53 @@ TEST(CeresLm, TakesTheJacobianAlongWithEveryEvaluationAndAsksForNoPointTwice) {
   EXPECT_EQ(problem.jacobians, problem.evaluations());
   for (std::size_t i = 2; i + 1 < problem.asked.size(); i += 2) {
     EXPECT_FALSE(problem.asked[i] == problem.asked[i - 2] && problem.asked[i + 1] == problem.asked[i - 1]) << i / 2;
+  }
+}
+
+/// Least of |A (x − c)|² over the unit box, face by face.
+double least_in_box(const Eigen::Matrix4d& A, const Eigen::Vector4d& c) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int face = 0; face < 81; ++face) {
+    Eigen::Vector4d x = Eigen::Vector4d::Zero();
+    std::vector<int> free;
+    for (int j = 0, code = face; j < 4; ++j, code /= 3) {
+      if (code % 3 == 0) free.push_back(j);
+      if (code % 3 == 2) x[j] = 1;
+    }
+    if (!free.empty()) {
+      const Eigen::VectorXd inside = A(Eigen::all, free).colPivHouseholderQr().solve(A * (c - x));
+      for (std::size_t k = 0; k < free.size(); ++k) x[free[k]] = inside[static_cast<Eigen::Index>(k)];
+    }
+    if ((x.array() < 0).any() || (x.array() > 1).any()) continue;
+    least = std::min(least, (A * (x - c)).squaredNorm());
+  }
+  return least;
+}
+
+/// Valleys that lead out of the box (seed 3, deterministic: no false alarm).
+TEST(CeresLm, EndsAtTheOptimumWhereBoundsAreActive) {
+  std::mt19937_64 engine(3);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(-0.5, 1.5);
+  for (int draw = 0; draw < 50; ++draw) {
+    const Eigen::Matrix4d random = Eigen::Matrix4d::NullaryExpr([&] { return normal(engine); });
+    const Eigen::JacobiSVD<Eigen::Matrix4d> parts(random, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::Vector4d narrow{1, 0.1, 0.01, 0.003};
+    const Eigen::Matrix4d A = parts.matrixU() * narrow.asDiagonal() * parts.matrixV().transpose();
+    const Eigen::Vector4d c = Eigen::Vector4d::NullaryExpr([&] { return unit(engine); });
+    const double least = least_in_box(A, c);
+    Function function{.name = "valley", .dimension = 4, .residual_count = 4, .start = {0.5, 0.5, 0.5, 0.5}};
+    function.blocks = {{0, 4, 1, ResidualBlock::Loss::quadratic}};
+    function.residuals = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {
+      const Eigen::Vector4d value = A * (Eigen::Map<const Eigen::Vector4d>(x.data()) - c);
+      std::ranges::copy(value, r.begin());
+      for (std::size_t i = 0; i < jacobian.size(); ++i)
+        jacobian[i] = A(static_cast<int>(i) / 4, static_cast<int>(i) % 4);
+      return true;
+    };
+    FunctionProblem problem(function, {});
+    make_optimizer("ceres_lm", one_start())->minimise(problem);
+    EXPECT_LE(problem.best, least * (1 + 1e-6) + 1e-12) << draw;
   }
 }
 

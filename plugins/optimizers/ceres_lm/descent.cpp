@@ -93,17 +93,34 @@ class BlockLoss : public ceres::LossFunction {
   const bool root_;
 };
 
+/// Ends a minimisation when the problem stops, or when its best point has stayed at bounds for some iterations.
 class Observer : public ceres::IterationCallback {
  public:
-  explicit Observer(const Problem& problem) : problem_(problem) {}
+  Observer(const Problem& problem, const Descent& descent, const std::vector<int>& held)
+      : problem_(problem), descent_(descent), held_(held) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     iterations = iteration.iteration;
-    return problem_.should_stop() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    if (problem_.should_stop()) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    at_bounds_ = at_new_bounds() ? at_bounds_ + 1 : 0;
+    lingers = at_bounds_ >= 10;
+    return lingers ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
   int iterations = 0;
+  bool lingers = false;
 
  private:
+  [[nodiscard]] bool at_new_bounds() const {
+    for (std::size_t j = 0; j < descent_.x.size(); ++j)
+      if ((descent_.x[j] <= 0 || descent_.x[j] >= 1) &&
+          std::find(held_.begin(), held_.end(), static_cast<int>(j)) == held_.end())
+        return true;
+    return false;
+  }
+
   const Problem& problem_;
+  const Descent& descent_;
+  const std::vector<int>& held_;
+  int at_bounds_ = 0;
 };
 
 ceres::Solver::Options solver_options(int max_iterations, const Settings& settings) {
@@ -130,29 +147,68 @@ Descent::End end_of(const ceres::Solver::Summary& summary, const Problem& proble
   return descent.evaluated ? Descent::End::blocked : Descent::End::not_started;
 }
 
+/// The coordinates whose bound the objective pushes against at the descent's point, by the sign of its derivative.
+std::vector<int> held_by_bounds(const Problem& problem, LastPoint& last, const Descent& descent) {
+  const bool inside = std::ranges::all_of(descent.x, [](double value) { return value > 0 && value < 1; });
+  if (inside || !last.move_to(descent.x)) return {};
+  const std::size_t n = problem.dimension();
+  std::vector<double> gradient(n, 0.0);
+  for (const ResidualBlock& block : problem.blocks()) {
+    double squares = 0;
+    for (std::size_t i = block.offset; i < block.offset + block.size; ++i)
+      squares += last.residuals()[i] * last.residuals()[i];
+    double rho[3];
+    BlockLoss(block).Evaluate(squares, rho);
+    for (std::size_t i = block.offset; i < block.offset + block.size; ++i)
+      for (std::size_t j = 0; j < n; ++j) gradient[j] += rho[1] * last.residuals()[i] * last.jacobian()[i * n + j];
+  }
+  std::vector<int> held;
+  for (std::size_t j = 0; j < n; ++j)
+    if ((descent.x[j] <= 0 && gradient[j] > 0) || (descent.x[j] >= 1 && gradient[j] < 0))
+      held.push_back(static_cast<int>(j));
+  return held;
+}
+
 /// Within bounds alone. `iterations` is lowered by those made.
+///
+/// Ceres cuts a step off at the bounds after solving for it, so that a coordinate at its bound goes on bending the step
+/// of the others; along a valley the rest is no descent, the trust region shrinks, and the search ends short of the
+/// optimum. It is therefore continued with the coordinates that push against their bounds held, as long as that leads
+/// on; whoever pushes no more is set free.
 Descent descend_in_box(Problem& problem, std::span<const double> x, int& iterations, const Settings& settings) {
   const std::size_t n = problem.dimension();
   Descent descent{.x = {x.begin(), x.end()}};
   if (problem.should_stop()) return descent;
   LastPoint last(problem, descent);
-  std::vector<double> point(x.begin(), x.end());
-  ceres::Problem least_squares;
-  for (const ResidualBlock& block : problem.blocks()) {
-    if (block.size == 0) continue;
-    least_squares.AddResidualBlock(new BlockCost(last, block, n), new BlockLoss(block), point.data());
+  std::vector<int> held;
+  for (int round = 0; round < 20 && iterations > 0; ++round) {
+    const double before = descent.objective;
+    std::vector<double> point(descent.x);
+    ceres::Problem least_squares;
+    for (const ResidualBlock& block : problem.blocks()) {
+      if (block.size == 0) continue;
+      least_squares.AddResidualBlock(new BlockCost(last, block, n), new BlockLoss(block), point.data());
+    }
+    for (int j = 0; j < static_cast<int>(n); ++j) {
+      least_squares.SetParameterLowerBound(point.data(), j, 0);
+      least_squares.SetParameterUpperBound(point.data(), j, 1);
+    }
+    if (!held.empty()) least_squares.SetManifold(point.data(), new ceres::SubsetManifold(static_cast<int>(n), held));
+    Observer observer(problem, descent, held);
+    ceres::Solver::Options options = solver_options(iterations, settings);
+    options.callbacks.push_back(&observer);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &least_squares, &summary);
+    descent.end = end_of(summary, problem, descent);
+    iterations -= std::max(1, observer.iterations);
+    if (descent.end != Descent::End::converged && !observer.lingers) break;
+    const bool stuck = round > 0 && before - descent.objective <= settings.function_tolerance * std::abs(before);
+    std::vector<int> holding = held_by_bounds(problem, last, descent);
+    const bool settled = holding.size() == n || (holding == held && (stuck || !observer.lingers));
+    descent.end = settled ? Descent::End::converged : Descent::End::out_of_iterations;
+    if (settled) break;
+    held = std::move(holding);
   }
-  for (int j = 0; j < static_cast<int>(n); ++j) {
-    least_squares.SetParameterLowerBound(point.data(), j, 0);
-    least_squares.SetParameterUpperBound(point.data(), j, 1);
-  }
-  Observer observer(problem);
-  ceres::Solver::Options options = solver_options(iterations, settings);
-  options.callbacks.push_back(&observer);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &least_squares, &summary);
-  descent.end = end_of(summary, problem, descent);
-  iterations -= std::max(1, observer.iterations);
   return descent;
 }
 
