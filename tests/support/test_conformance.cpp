@@ -24,7 +24,7 @@ Values values_at(const Simulation& s, const Values& p, const Values& q, const Va
     abscissae[k] = other;
   }
   Values values(size_of(s));
-  const Status status = s.test.predict({s.model, p, q, abscissae}, {values, {}, {}, {}});
+  const Status status = s.test.predict({s.model, p, q, abscissae, s.layers}, {values, {}, {}, {}});
   if (!status.ok()) throw std::runtime_error(status.reason());
   return values;
 }
@@ -42,7 +42,7 @@ double scale_at(const Simulation& s, std::span<const double> column, std::size_t
 std::string jacobian_matches_differences(const Simulation& s) {
   const std::size_t rows = size_of(s), models = s.model_parameters.size(), all = models + s.test_parameters.size();
   Values values(rows), jacobian(all * rows);
-  const Status status = s.test.predict({s.model, s.model_parameters, s.test_parameters}, {values, jacobian, {}, {}});
+  const Status status = s.test.predict(s.input(), {values, jacobian, {}, {}});
   if (!status.ok()) return status.reason();
   for (std::size_t j = 0; j < all; ++j) {
     Values p_up = s.model_parameters, p_down = p_up, q_up = s.test_parameters, q_down = q_up;
@@ -66,7 +66,7 @@ std::string jacobian_matches_differences(const Simulation& s) {
 std::string abscissa_derivative_matches_differences(const Simulation& s) {
   const std::size_t rows = size_of(s), n = s.test.rows().count, count = s.test.rows().abscissae.size();
   Values derivative(count * rows);
-  const Status status = s.test.predict({s.model, s.model_parameters, s.test_parameters}, {{}, {}, derivative, {}});
+  const Status status = s.test.predict(s.input(), {{}, {}, derivative, {}});
   if (!status.ok()) return status.reason();
   constexpr double h = 1e-5;
   for (std::size_t k = 0; k < count; ++k) {
@@ -88,7 +88,7 @@ std::string values_do_not_depend_on_the_other_outputs(const Simulation& s) {
   const std::size_t rows = size_of(s), all = s.model_parameters.size() + s.test_parameters.size();
   const Values alone = values_at(s, s.model_parameters, s.test_parameters);
   Values values(rows), jacobian(all * rows), diagnostics(s.test.describe().diagnostics.size() * s.test.rows().count);
-  const TestInput input{s.model, s.model_parameters, s.test_parameters};
+  const TestInput input = s.input();
   if (const Status status = s.test.predict(input, {values, jacobian, {}, diagnostics}); !status.ok())
     return status.reason();
   for (std::size_t i = 0; i < rows; ++i)
@@ -127,7 +127,7 @@ std::string concurrent_predictions_agree(const Simulation& s) {
 
 std::string overflow_is_a_status(const Simulation& s) {
   Values values(size_of(s));
-  const Status status = s.test.predict({s.model, s.model_parameters, s.test_parameters}, {values, {}, {}, {}});
+  const Status status = s.test.predict(s.input(), {values, {}, {}, {}});
   if (status.kind() != Status::Kind::failed) return fmt::format("the status is '{}'", name(status.kind()));
   if (status.reason().find("row ") == std::string::npos) return "the reason names no row: " + status.reason();
   return {};

@@ -14,6 +14,9 @@ struct Simulation {
   const Test& test;
   const Model& model;
   std::vector<double> model_parameters, test_parameters;
+  std::vector<const Model*> layers = {};
+
+  [[nodiscard]] TestInput input() const { return {model, model_parameters, test_parameters, {}, layers}; }
 };
 
 /// The Jacobian by model and test parameters against central differences, 1e-6 relative to the largest entry of the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct TubeSetup {
   double inner_radius = 3.71, thickness = 2.06;
   std::vector<double> time = {};
   Options options = {};  ///< beyond those above
+  std::vector<double> layers = {};
 };
 
 inline std::unique_ptr<Test> make_tube(const std::vector<double>& pressure, const TubeSetup& tube = {}) {
@@ -37,6 +39,7 @@ inline std::unique_ptr<Test> make_tube(const std::vector<double>& pressure, cons
   if (!tube.axial_stretches.empty()) setup.rows.abscissae.push_back({"axial_stretch", tube.axial_stretches});
   setup.rows.channels = tube.channels;
   setup.rows.time = tube.time;
+  setup.layers = tube.layers;
   return plugins::create(entry, setup);
 }
 
@@ -46,12 +49,12 @@ struct Inflated {
 };
 
 inline Inflated inflate(const Test& test, const Model& model, const std::vector<double>& p,
-                        const std::vector<double>& own = bare_tube) {
+                        const std::vector<double>& own = bare_tube, std::span<const Model* const> layers = {}) {
   const std::size_t n = test.rows().count;
   Inflated out;
   out.values.resize(n * test.rows().channels.size());
   out.diagnostics.resize(n * test.describe().diagnostics.size());
-  out.status = test.predict({model, p, own}, {out.values, {}, {}, out.diagnostics});
+  out.status = test.predict({model, p, own, {}, layers}, {out.values, {}, {}, out.diagnostics});
   return out;
 }
 

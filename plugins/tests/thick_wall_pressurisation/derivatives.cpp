@@ -89,7 +89,7 @@ class RowDerivative {
 };
 
 std::vector<Direction> directions(const Wall& wall, const SectorDerivative& sector, std::size_t model_parameters) {
-  std::vector<Direction> all(model_parameters + own_count);
+  std::vector<Direction> all(model_parameters + (wall.layered ? layer_ratio : own_count));
   for (std::size_t j = 0; j < model_parameters; ++j) {
     all[j].model = true, all[j].parameter = j;
     all[j].by[ln_sector] = sector.by_parameter[j];
@@ -101,6 +101,7 @@ std::vector<Direction> directions(const Wall& wall, const SectorDerivative& sect
   own[tethering].tether = 1;
   own[thickness_error].by[area] = wall.area_by_error;
   own[thickness_error].by[ln_sector] = sector.by_area * wall.area_by_error;
+  if (wall.layered) return all;
   own[layer_ratio].ratio = true;
   own[layer_ratio].by[ln_sector] = sector.by_ratio;
   return all;

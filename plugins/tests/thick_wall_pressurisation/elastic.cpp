@@ -193,13 +193,13 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
   const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
   const bool parameters = !output.jacobian.empty();
   Wall wall(tube, input.test_parameters);
-  const Material material(input.model, input.model_parameters);
+  const Layers layers(input);
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
   const auto solve = [&](const Rule& with) {
     wall = Wall(tube, input.test_parameters);
-    Status status = close_sector(tube, material, with, sections, wall, parameters ? &sector : nullptr);
+    Status status = close_sector(tube, layers, with, sections, wall, parameters ? &sector : nullptr);
     if (!status.ok()) return status;
-    sections.begin(material, wall, with);
+    sections.begin(layers, wall, with);
     return solve_rows(pressure, axial_stretch, parameters, sections, wall, solution);
   };
   if (rule != nullptr) {

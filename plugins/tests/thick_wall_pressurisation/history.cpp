@@ -36,13 +36,13 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
   thread_local Sections sections;
   std::vector<double> pressure, axial_stretch;
   Wall wall(tube, input.test_parameters);
-  const Material material(input.model, input.model_parameters);
+  const Layers layers(input);
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
-  if (Status status = close_sector(tube, material, rule, sections, wall, nullptr); !status.ok()) return status;
-  sections.begin(material, wall, rule);
+  if (Status status = close_sector(tube, layers, rule, sections, wall, nullptr); !status.ok()) return status;
+  sections.begin(layers, wall, rule);
 
   const std::size_t n = pressure.size(), points = sections.points_per_section();
-  const std::size_t history = points * input.model.describe().history_size;
+  const std::size_t history = layers.history_size(points / layers.size());
   std::vector<double> old_state(history), new_state(history), time_step(points);
   std::vector<Row> rows(n);
   Row free{.axial_stretch = 1, .y = std::log(wall.Ri)};

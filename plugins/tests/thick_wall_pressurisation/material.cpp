@@ -13,7 +13,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}
 
 }  // namespace
 
-Material::Material(const Model& model, std::span<const double> parameters) : model_(model), parameters_(parameters) {
+Material::Material(const Model& model, std::span<const double> parameters) : model_(&model), parameters_(parameters) {
   const ModelDescription& description = model.describe();
   axes_ = description.principal_axes && description.history_size == 0;
   if (description.history_size > 0) return;  // its points are material points and stay where they are
@@ -33,7 +33,7 @@ Material::Material(const Model& model, std::span<const double> parameters) : mod
 Status Material::evaluate(std::size_t n, std::span<const double> c, std::span<double> gradient,
                           std::span<double> hessian, std::span<double> gradient_dp, const Memory& memory) const {
   if (!axes_) return on_tensors(n, c, gradient, hessian, gradient_dp, memory);
-  return model_.evaluate_axes({n, c, parameters_}, {{}, gradient, hessian, gradient_dp});
+  return model_->evaluate_axes({n, c, parameters_}, {{}, gradient, hessian, gradient_dp});
 }
 
 Status Material::on_tensors(std::size_t n, std::span<const double> c, std::span<double> gradient,
@@ -42,8 +42,8 @@ Status Material::on_tensors(std::size_t n, std::span<const double> c, std::span<
   const std::size_t parameters = gradient_dp.empty() ? 0 : parameters_.size();
   tensors.assign(6 * n, 0), stress.resize(6 * n), tangent.resize(36 * n), stress_dp.resize(6 * parameters * n);
   std::copy_n(c.begin(), 3 * n, tensors.begin());
-  Status status = model_.evaluate({n, tensors, parameters_, memory.time_step, memory.old_state},
-                                  {{}, stress, tangent, stress_dp, memory.new_state});
+  Status status = model_->evaluate({n, tensors, parameters_, memory.time_step, memory.old_state},
+                                   {{}, stress, tangent, stress_dp, memory.new_state});
   if (!status.ok()) return status;
   for (std::size_t k = 0; k < 3 * n; ++k) gradient[k] = stress[k] / 2;
   for (std::size_t k = 0; k < hessian.size() / n; ++k)

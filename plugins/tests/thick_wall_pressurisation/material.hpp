@@ -27,6 +27,7 @@ class Material {
   Material(const Model& model, std::span<const double> parameters);
 
   [[nodiscard]] std::size_t parameter_count() const { return parameters_.size(); }
+  [[nodiscard]] std::size_t history_size() const { return model_->describe().history_size; }
   [[nodiscard]] std::span<const Switch> switches() const { return switches_; }
 
   /// n points; layouts of AxisPoints and AxisResponse. An empty span means "not wanted".
@@ -36,7 +37,7 @@ class Material {
  private:
   Status on_tensors(std::size_t n, std::span<const double> c, std::span<double> gradient, std::span<double> hessian,
                     std::span<double> gradient_dp, const Memory& memory) const;
-  const Model& model_;
+  const Model* model_;
   std::span<const double> parameters_;
   bool axes_;
   std::vector<Switch> switches_;

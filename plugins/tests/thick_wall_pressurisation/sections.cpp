@@ -30,56 +30,66 @@ std::span<const Rule> rules() {
   return all;
 }
 
-void Sections::begin(const Material& material, const Wall& wall, const Rule& rule) {
-  material_ = &material, wall_ = &wall, rule_ = &rule;
-  const Shape<double> at = shape(wall, 0, 1);
-  edges_[0] = at.inner_edge, edges_[1] = at.interface, edges_[2] = at.outer_edge;
+void Sections::begin(const Layers& layers, const Wall& wall, const Rule& rule) {
+  layers_ = &layers, wall_ = &wall, rule_ = &rule;
+  wall.edges(edges_);
+  cuts_.resize(wall.layer_count());
   w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
-  for (const bool outer : {false, true}) add_piece(edges_[outer], edges_[outer + 1], outer, true, true);
+  for (std::size_t layer = 0; layer < wall.layer_count(); ++layer)
+    add_piece(edges_[layer].a, edges_[layer + 1].a, layer, true, true);
   base_weight_ = w_, base_s_ = s_, base_inverse_ = inverse_;
 }
 
-void Sections::add_piece(double from, double to, bool outer, bool begins, bool ends) {
-  pieces_.push_back({w_.size(), to - from, outer, begins, ends});
+void Sections::add_piece(double from, double to, std::size_t layer, bool begins, bool ends) {
+  pieces_.push_back({w_.size(), to - from, layer, begins, ends});
   for (std::size_t k = 0; k < rule_->node.size(); ++k) {
     const double s = std::exp(2 * (from + rule_->node[k] * (to - from)));
-    w_.push_back(rule_->weight[k] * (to - from) * factor(outer)), s_.push_back(s), inverse_.push_back(1 / s);
+    w_.push_back(rule_->weight[k] * (to - from) * wall_->factor(layer)), s_.push_back(s), inverse_.push_back(1 / s);
   }
+}
+
+void Sections::find_cuts(std::size_t layer, const Shape<double>& at, std::vector<double>& cuts) const {
+  // R of a kink from c = b + a/R²
+  thread_local std::vector<double> kinks;
+  kinks.clear(), cuts.clear();
+  if (at.a != 0)
+    for (const Switch& change : layers_->of(layer).switches()) roots(change, at.cz, kinks);
+  for (const double c : kinks) {
+    const double s = at.a / (c - at.b);
+    if (!(s > 0 && std::isfinite(s))) continue;
+    const double x = 0.5 * std::log(s);
+    if (x > edges_[layer].a + smallest_piece && x < edges_[layer + 1].a - smallest_piece) cuts.push_back(x);
+  }
+  std::sort(cuts.begin(), cuts.end());
 }
 
 /// Points of one section behind those of the sections before it.
 void Sections::lay_points(const Section& section) {
   const Shape<double> at = shape(*wall_, section.y, section.axial_stretch);
-  // R of a kink from c = b + a/R²
-  thread_local std::vector<double> kinks;
-  kinks.clear(), cuts_.clear();
-  if (at.a != 0)
-    for (const Switch& change : material_->switches()) roots(change, at.cz, kinks);
-  for (const double c : kinks) {
-    const double s = at.a / (c - at.b);
-    if (s > 0 && std::isfinite(s)) cuts_.push_back(0.5 * std::log(s));
-  }
-  std::sort(cuts_.begin(), cuts_.end());
+  const std::size_t layers = wall_->layer_count();
   bool cut = false;
-  for (const double x : cuts_) cut |= x > edges_[0] + smallest_piece && x < edges_[2] - smallest_piece;
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    find_cuts(layer, at, cuts_[layer]);
+    cut |= !cuts_[layer].empty();
+  }
   if (!cut) {
-    const std::size_t half = rule_->node.size();
-    for (const std::size_t outer : {0u, 1u})
-      pieces_.push_back({w_.size() + outer * half, edges_[outer + 1] - edges_[outer], outer == 1, true, true});
+    for (std::size_t layer = 0; layer < layers; ++layer)
+      pieces_.push_back(
+          {w_.size() + layer * rule_->node.size(), edges_[layer + 1].a - edges_[layer].a, layer, true, true});
     w_.insert(w_.end(), base_weight_.begin(), base_weight_.end());
     s_.insert(s_.end(), base_s_.begin(), base_s_.end());
     inverse_.insert(inverse_.end(), base_inverse_.begin(), base_inverse_.end());
     return;
   }
-  for (const bool outer : {false, true}) {
-    double from = edges_[outer];
+  for (std::size_t layer = 0; layer < layers; ++layer) {
+    double from = edges_[layer].a;
     bool begins = true;
-    for (const double x : cuts_) {
-      if (!(x > from + smallest_piece && x < edges_[outer + 1] - smallest_piece)) continue;
-      add_piece(from, x, outer, begins, false);
+    for (const double x : cuts_[layer]) {
+      if (!(x > from + smallest_piece)) continue;
+      add_piece(from, x, layer, begins, false);
       from = x, begins = false;
     }
-    add_piece(from, edges_[outer + 1], outer, begins, true);
+    add_piece(from, edges_[layer + 1].a, layer, begins, true);
   }
 }
 
@@ -97,8 +107,6 @@ Status Sections::evaluate(std::span<const Section> sections, bool parameters, co
     c_.resize(3 * n_), gradient_.resize(3 * n_), hessian_.resize(6 * n_);
     for (auto* v : {&h_, &h_c_, &h_z_, &q_, &q_c_, &q_z_}) v->resize(n_);
   }
-  const std::size_t of_parameters = parameters ? 3 * n_ * material_->parameter_count() : 0;
-  if (gradient_dp_.size() < of_parameters) gradient_dp_.resize(of_parameters);
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const Shape<double> at = shape(*wall_, sections[i].y, sections[i].axial_stretch);
     double* const ct = c_.data();
@@ -108,16 +116,29 @@ Status Sections::evaluate(std::span<const Section> sections, bool parameters, co
       ct[2 * n_ + k] = 1 / (ct[k] * at.cz);
     }
   }
-  Status status = material_->evaluate(n_, {c_.data(), 3 * n_}, {gradient_.data(), 3 * n_}, {hessian_.data(), 6 * n_},
-                                      {gradient_dp_.data(), of_parameters}, memory);
   rest_ = rest;
-  if (status.ok()) form();
-  return status;
+  if (Status status = respond(parameters, memory); !status.ok()) return status;
+  if (rest == nullptr) {
+    form(0, n_, 0);
+    return {};
+  }
+  for (const Piece& piece : pieces_)
+    form(piece.first, piece.first + rule_->node.size(), rest->value[layers_->size() == 1 ? 0 : piece.layer]);
+  return {};
+}
+
+Status Sections::respond(bool parameters, const Memory& memory) {
+  runs_.clear();
+  if (layers_->size() > 1)
+    for (const Piece& piece : pieces_) runs_.push_back({piece.layer, piece.first, rule_->node.size()});
+  const std::size_t of_parameters = parameters ? 3 * n_ * layers_->parameter_count() : 0;
+  if (gradient_dp_.size() < of_parameters) gradient_dp_.resize(of_parameters);
+  return layers_->evaluate(n_, runs_, {c_.data(), 3 * n_}, {gradient_.data(), 3 * n_}, {hessian_.data(), 6 * n_},
+                           {gradient_dp_.data(), of_parameters}, memory);
 }
 
 /// h = T/c and q = 2Z − T with their derivatives by c at fixed c_z and by c_z at fixed c, where c_r = 1/(c c_z).
-void Sections::form() {
-  const double at_rest = rest_ == nullptr ? 0 : rest_->value;
+void Sections::form(std::size_t first, std::size_t last, double at_rest) {
   const double* __restrict c = c_.data();
   const double* __restrict cz = c + n_;
   const double* __restrict cr = c + 2 * n_;
@@ -130,7 +151,7 @@ void Sections::form() {
   double* __restrict q_c = q_c_.data();
   double* __restrict q_z = q_z_.data();
   const std::size_t n = n_;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = first; k < last; ++k) {
     const double gt = g[k], gz = g[n + k], gr = g[2 * n + k];
     const double Htt = H[k], Hzz = H[n + k], Hrr = H[2 * n + k];
     const double Htz = H[3 * n + k], Hzr = H[4 * n + k], Htr = H[5 * n + k];
@@ -172,7 +193,7 @@ WallForces Sections::forces(std::size_t i) const {
 double Sections::pressure_error(std::size_t i) const {
   double sum = 0;
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p)
-    sum += pieces_[p].length * factor(pieces_[p].outer) * rule_->error(h_.data() + pieces_[p].first);
+    sum += pieces_[p].length * wall_->factor(pieces_[p].layer) * rule_->error(h_.data() + pieces_[p].first);
   return wall_->K / sections_[i].axial_stretch * sum;
 }
 
@@ -203,11 +224,11 @@ WallForcesJet Sections::forces_jet(std::size_t i) const {
     Jet piece_I = S_a * form.a + S_b * form.b + S_z * form.cz, piece_J = R_a * form.a + R_b * form.b + R_z * form.cz;
     // The integrand is continuous at a cut: moving one changes nothing.
     if (piece.begins) {
-      const Jet& edge = piece.outer ? form.interface : form.inner_edge;
+      const Jet& edge = edges_[piece.layer];
       piece_I += (S_left - S / piece.length) * edge, piece_J += (R_left - R / piece.length) * edge;
     }
     if (piece.ends) {
-      const Jet& edge = piece.outer ? form.outer_edge : form.interface;
+      const Jet& edge = edges_[piece.layer + 1];
       piece_I += (S_right + S / piece.length) * edge, piece_J += (R_right + R / piece.length) * edge;
     }
     piece_I.a = S, piece_J.a = R;
@@ -217,13 +238,24 @@ WallForcesJet Sections::forces_jet(std::size_t i) const {
   return {form.b * I, std::numbers::pi * form.b / (K * K) * J};
 }
 
+std::pair<std::size_t, std::size_t> Sections::points_of(std::size_t i, std::size_t material) const {
+  if (layers_->size() == 1) return {first_point_[i], first_point_[i + 1]};
+  std::size_t first = n_, last = 0;
+  for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
+    if (pieces_[p].layer != material) continue;
+    first = std::min(first, pieces_[p].first), last = pieces_[p].first + rule_->node.size();
+  }
+  return {first, last};
+}
+
 Sections::Change Sections::by_parameter(std::size_t i, std::size_t j) const {
   const double* const gt = gradient_dp_.data() + 3 * j * n_;
   const double* const gz = gt + n_;
   const double* const gr = gz + n_;
   const double at_rest = rest_ == nullptr ? 0 : rest_->by_parameter[j];
+  const auto [first, last] = points_of(i, layers_->material_of(j));
   double I = 0, J = 0;
-  for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
+  for (std::size_t k = first; k < last; ++k) {
     const double normal = c_[2 * n_ + k] * gr[k], T = 2 * (c_[k] * gt[k] - normal) - at_rest;
     I += w_[k] * T / c_[k];
     J += w_[k] * s_[k] * (4 * (c_[n_ + k] * gz[k] - normal) - T);
@@ -236,7 +268,8 @@ Sections::Change Sections::by_ratio(std::size_t i) const {
   double I = 0, J = 0;
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
     const Piece& piece = pieces_[p];
-    const double change = (piece.outer ? wall_->outer_by_ratio : wall_->inner_by_ratio) / factor(piece.outer);
+    const double change =
+        (piece.layer == 0 ? wall_->inner_by_ratio : wall_->outer_by_ratio) / wall_->factor(piece.layer);
     for (std::size_t k = piece.first; k < piece.first + rule_->node.size(); ++k) {
       I += change * w_[k] * h_[k];
       J += change * w_[k] * s_[k] * q_[k];

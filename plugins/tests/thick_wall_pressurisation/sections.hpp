@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "material.hpp"
+#include "layers.hpp"
 #include "rule.hpp"
 #include "wall.hpp"
 
@@ -25,9 +25,9 @@ struct WallForcesJet {
   Jet p, F;
 };
 
-/// σt − σr that the material has before anything deforms: 0 in a passive one. The closing of the sector leaves it out.
+/// σt − σr that each material has before anything deforms: 0 in a passive one. The closing of the sector leaves it out.
 struct RestStress {
-  double value = 0;
+  std::vector<double> value;  ///< of each material
   std::vector<double> by_parameter;
 };
 
@@ -36,13 +36,13 @@ struct RestStress {
 ///
 ///   p = b ∫ T/c dx,   F = π b/K² ∫ (2Z − T) R² dx.
 ///
-/// Gauss–Legendre in the inner and in the outer layer, and in the pieces into which kinks of the material cut them;
+/// Gauss–Legendre in every layer, and in the pieces into which kinks of the material cut them;
 /// in ln R, because there a thick wall is as smooth as a thin one. One object a thread: its memory grows to the
 /// largest batch seen, then nothing is allocated.
 class Sections {
  public:
   /// To be called first, and again whenever the wall has changed; all three have to outlive what follows.
-  void begin(const Material& material, const Wall& wall, const Rule& rule);
+  void begin(const Layers& layers, const Wall& wall, const Rule& rule);
   /// Evaluates the batch. Not finite where the energy overflows or is undefined; the caller looks at the results.
   Status evaluate(std::span<const Section> sections, bool parameters, const Memory& memory = {},
                   const RestStress* rest = nullptr);
@@ -53,7 +53,7 @@ class Sections {
   /// Estimate of the error that quadrature leaves in the pressure.
   [[nodiscard]] double pressure_error(std::size_t i) const;
   [[nodiscard]] WallForcesJet forces_jet(std::size_t i) const;
-  /// ∂p and ∂F at a fixed shape, by model parameter j or by the ratio of the layers.
+  /// ∂p and ∂F at a fixed shape, by model parameter j or by the ratio of two layers of one model.
   struct Change {
     double p = 0, F = 0;
   };
@@ -65,25 +65,30 @@ class Sections {
   struct Piece {
     std::size_t first;
     double length;
-    bool outer;         ///< of the two layers
+    std::size_t layer;
     bool begins, ends;  ///< at the edges of its layer
   };
   void lay_points(const Section& section);
-  void add_piece(double from, double to, bool outer, bool begins, bool ends);
-  void form();
-  [[nodiscard]] double factor(bool outer) const { return outer ? wall_->outer : wall_->inner; }
+  void add_piece(double from, double to, std::size_t layer, bool begins, bool ends);
+  /// Where kinks of the layer's material cut it under this section.
+  void find_cuts(std::size_t layer, const Shape<double>& at, std::vector<double>& cuts) const;
+  Status respond(bool parameters, const Memory& memory);
+  void form(std::size_t first, std::size_t last, double at_rest);
+  /// Points of section i in the material of a parameter.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> points_of(std::size_t i, std::size_t material) const;
 
-  const Material* material_ = nullptr;
+  const Layers* layers_ = nullptr;
   const Wall* wall_ = nullptr;
   const Rule* rule_ = nullptr;
 
-  double edges_[3] = {};  ///< ln R of inner edge, interface, outer edge
+  std::vector<Jet> edges_;  ///< ln R where layers begin and end
   std::vector<double> base_weight_, base_s_, base_inverse_;
-  std::vector<double> cuts_;
+  std::vector<std::vector<double>> cuts_;  ///< by layer
 
   std::vector<Section> sections_;
   std::vector<std::size_t> first_piece_, first_point_;  ///< of each section, one more at the end
   std::vector<Piece> pieces_;
+  std::vector<Layers::Run> runs_;
   // Of each point: weight · length of the piece · factor of the layer, R², 1/R²; 3 squared stretches; the responses.
   std::vector<double> w_, s_, inverse_, c_, gradient_, hessian_, gradient_dp_;
   std::vector<double> h_, h_c_, h_z_, q_, q_c_, q_z_;  ///< T/c and 2Z − T, with their derivatives by c and c_z

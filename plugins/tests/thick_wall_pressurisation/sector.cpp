@@ -11,27 +11,28 @@ namespace {
 
 /// A passive material has no stress at rest; what there is (active tone) plays no part in closing the sector, since
 /// diameters refer to the unloaded, passive tube.
-Status rest_stress(const Material& material, RestStress& rest) {
+Status rest_stress(const Layers& layers, bool parameters, RestStress& rest) {
   constexpr std::array<double, 3> unit{1, 1, 1};
   std::array<double, 3> g;
   std::array<double, 6> hessian;
-  std::vector<double> g_p(3 * material.parameter_count());
-  const bool parameters = !rest.by_parameter.empty();
-  Status status = material.evaluate(1, unit, g, hessian, {g_p.data(), parameters ? g_p.size() : 0});
-  rest.value = 2 * (g[0] - g[2]);
-  for (std::size_t j = 0; j < rest.by_parameter.size(); ++j) rest.by_parameter[j] = 2 * (g_p[3 * j] - g_p[3 * j + 2]);
-  return status;
+  for (std::size_t m = 0; m < layers.size(); ++m) {
+    const std::size_t count = parameters ? layers.of(m).parameter_count() : 0;
+    std::vector<double> g_p(3 * count);
+    if (Status status = layers.of(m).evaluate(1, unit, g, hessian, g_p); !status.ok()) return status;
+    rest.value.push_back(2 * (g[0] - g[2]));
+    for (std::size_t j = 0; j < count; ++j) rest.by_parameter.push_back(2 * (g_p[3 * j] - g_p[3 * j + 2]));
+  }
+  return {};
 }
 
 /// ι for an opened sector (K ≠ 1) in equilibrium when closed.
-Status solve(const Material& material, const Rule& rule, Sections& sections, Wall& wall, SectorDerivative* derivative) {
+Status solve(const Layers& layers, const Rule& rule, Sections& sections, Wall& wall, SectorDerivative* derivative) {
   RestStress rest;
-  if (derivative != nullptr) rest.by_parameter.resize(material.parameter_count());
-  if (Status status = rest_stress(material, rest); !status.ok()) return status;
+  if (Status status = rest_stress(layers, derivative != nullptr, rest); !status.ok()) return status;
   const Section closed{1, std::log(wall.Ri)};
   const auto evaluate = [&](double iota, bool parameters) {
     wall.iota = iota;
-    sections.begin(material, wall, rule);
+    sections.begin(layers, wall, rule);
     return sections.evaluate({&closed, 1}, parameters, {}, &rest);
   };
   // A larger sector is compressed by closing it: −p rises with ι.
@@ -50,8 +51,8 @@ Status solve(const Material& material, const Rule& rule, Sections& sections, Wal
   derivative->by_closing = -p.v[closing] / p.v[ln_sector];
   // The measured outer radius stays: 2 Ri² dy = −dV.
   derivative->by_area = -(p.v[area] - p.v[ln_inner] / (2 * wall.Ri * wall.Ri)) / p.v[ln_sector];
-  derivative->by_ratio = -sections.by_ratio(0).p / p.v[ln_sector];
-  for (std::size_t j = 0; j < material.parameter_count(); ++j)
+  if (!wall.layered) derivative->by_ratio = -sections.by_ratio(0).p / p.v[ln_sector];
+  for (std::size_t j = 0; j < layers.parameter_count(); ++j)
     derivative->by_parameter[j] = -sections.by_parameter(0, j).p / p.v[ln_sector];
   return {};
 }
@@ -65,17 +66,17 @@ void as_thick_as_the_wall(const Wall& wall, SectorDerivative& derivative) {
 
 }  // namespace
 
-Status close_sector(const Tube& tube, const Material& material, const Rule& rule, Sections& sections, Wall& wall,
+Status close_sector(const Tube& tube, const Layers& layers, const Rule& rule, Sections& sections, Wall& wall,
                     SectorDerivative* derivative) {
   if (!(wall.Ri > 0) || !std::isfinite(wall.iota))
     return Status::failed("thick_wall_pressurisation: thickness error and opening angle leave no wall, at row 1");
   if (derivative != nullptr) {
     *derivative = {};
-    derivative->by_parameter.assign(material.parameter_count(), 0);
+    derivative->by_parameter.assign(layers.parameter_count(), 0);
     as_thick_as_the_wall(wall, *derivative);
   }
   if (tube.same_thickness) return {};
-  if (wall.K != 1) return solve(material, rule, sections, wall, derivative);
+  if (wall.K != 1) return solve(layers, rule, sections, wall, derivative);
   if (derivative == nullptr) return {};
   // A sector of ±1e-4 degrees: what the mean of both sides leaves out is of that order squared.
   double mean = 0;
@@ -84,8 +85,8 @@ Status close_sector(const Tube& tube, const Material& material, const Rule& rule
     opened.K = 360 / (360 - angle);
     opened.iota = std::log(0.5 * (opened.K * (wall.Ro + wall.Ri) - (wall.Ro - wall.Ri)));
     SectorDerivative side;
-    side.by_parameter.assign(material.parameter_count(), 0);
-    if (Status status = solve(material, rule, sections, opened, &side); !status.ok()) return status;
+    side.by_parameter.assign(layers.parameter_count(), 0);
+    if (Status status = solve(layers, rule, sections, opened, &side); !status.ok()) return status;
     mean += 0.5 * side.by_closing;
   }
   derivative->by_closing = mean;

@@ -10,7 +10,7 @@ namespace tunica::thick_wall {
 /// How the radius of the stress-free sector moves, ι = ln R_i.
 struct SectorDerivative {
   double by_closing = 0, by_area = 0, by_ratio = 0;
-  std::vector<double> by_parameter;  ///< of the model
+  std::vector<double> by_parameter;  ///< of the models
 };
 
 /// Closes the stress-free sector: sets wall.iota, and with `derivative` how it depends on everything.
@@ -20,7 +20,7 @@ struct SectorDerivative {
 /// Fibres switch on at rest, half of the wall being on either side; the derivative at α = 0 is then different for
 /// either sign of α, and the mean of both is given.
 /// `same_thickness`: a sector as thick as the wall instead, whatever the material.
-Status close_sector(const Tube& tube, const Material& material, const Rule& rule, Sections& sections, Wall& wall,
+Status close_sector(const Tube& tube, const Layers& layers, const Rule& rule, Sections& sections, Wall& wall,
                     SectorDerivative* derivative);
 
 }  // namespace tunica::thick_wall

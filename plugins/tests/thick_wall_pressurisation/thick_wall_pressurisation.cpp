@@ -13,8 +13,8 @@ class ThickWallPressurisation final : public Test {
  public:
   explicit ThickWallPressurisation(const TestSetup& setup)
       : tube_(bind(setup)), fixed_(tube_.gauss_points > 0), rule_(fixed_ ? static_cast<int>(tube_.gauss_points) : 12) {
-    description_.parameters = own_parameters();
-    description_.nulls = own_nulls();
+    description_.parameters = own_parameters(tube_.layered);
+    description_.nulls = own_nulls(tube_.layered);
     description_.diagnostics = {"inner_radius_stretch", "mean_circumferential_stress", "mean_axial_stress"};
     description_.diagnostic_units = {"1", "kPa", "kPa"};
     rows_.count = tube_.count();
@@ -28,14 +28,19 @@ class ThickWallPressurisation final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    const ModelDescription& model = input.model.describe();
     const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
-    if (model.history_size > 0 && derivatives)
-      return Status::failed("thick_wall_pressurisation: no exact Jacobian along the path of a model with history");
-    if (!model.parameter_derivatives && !output.jacobian.empty())
-      return Status::failed("thick_wall_pressurisation: the model has no parameter derivatives");
-    return model.history_size > 0 ? predict_with_history(tube_, rule_, input, output)
-                                  : predict_elastic(tube_, fixed_ ? &rule_ : nullptr, input, output);
+    const Model* const throughout = &input.model;
+    bool history = false;
+    for (const Model* layer : input.layers.empty() ? std::span(&throughout, 1) : input.layers) {
+      const ModelDescription& model = layer->describe();
+      history |= model.history_size > 0;
+      if (model.history_size > 0 && derivatives)
+        return Status::failed("thick_wall_pressurisation: no exact Jacobian along the path of a model with history");
+      if (!model.parameter_derivatives && !output.jacobian.empty())
+        return Status::failed("thick_wall_pressurisation: the model has no parameter derivatives");
+    }
+    return history ? predict_with_history(tube_, rule_, input, output)
+                   : predict_elastic(tube_, fixed_ ? &rule_ : nullptr, input, output);
   }
 
  private:
@@ -57,14 +62,15 @@ std::vector<Option> options() {
        .choices = {"equilibrium", "same_thickness"}},
       {.name = "layer_interface",
        .kind = Option::Kind::number,
-       .fallback = 0.5,
-       .doc = "Where layer_ratio parts the wall: fraction of the thickness from inside.",
+       .fallback = default_interface,
+       .doc = "Where layer_ratio parts the wall of one model: fraction of the thickness from inside.",
        .min = 0.05,
        .max = 0.95},
       {.name = "gauss_points",
        .kind = Option::Kind::integer,
        .fallback = std::int64_t{0},
-       .doc = "Gauss points in each of the two layers, and in each piece into which fibre switches cut them; 0 takes "
+       .doc = "Gauss points in each layer (of one model: of the two of layer_ratio), and in each piece into which "
+              "fibre switches cut them; 0 takes "
               "as many as the estimated error asks for (12 for a model with history).",
        .min = 0,
        .max = 150}};
@@ -80,7 +86,8 @@ TestFactory factory() {
       options(),
       tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<ThickWallPressurisation>(setup); },
-      own_parameters()};
+      own_parameters(false),
+      true};
 }
 
 }  // namespace

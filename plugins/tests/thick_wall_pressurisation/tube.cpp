@@ -2,23 +2,40 @@
 #include "tube.hpp"
 
 namespace tunica::thick_wall {
-std::vector<Parameter> own_parameters() {
-  return {{"opening_angle", "deg", 0, -90, 330, Scale::linear,
-           "Residual stress: the whole missing arc of the stress-free sector (twice Fung's angle).",
-           "Chuong, Fung, J. Biomech. Eng. 108:189 (1986)"},
-          axial_stretch_error_parameter(),
-          {"tethering", "kPa", 0, 0, 100, Scale::linear,
-           "Support from outside: pressure per outer diameter stretch gained since zero pressure.", ""},
-          thickness_error_parameter(),
-          {"layer_ratio", "1", 1, 0.1, 10, Scale::log,
-           "Stiffness of the inner layer over that of the outer one, their mean over the thickness being kept.", ""}};
+
+std::vector<Parameter> own_parameters(bool layered) {
+  std::vector<Parameter> all = {
+      {"opening_angle", "deg", 0, -90, 330, Scale::linear,
+       "Residual stress: the whole missing arc of the stress-free sector (twice Fung's angle).",
+       "Chuong, Fung, J. Biomech. Eng. 108:189 (1986)"},
+      axial_stretch_error_parameter(),
+      {"tethering", "kPa", 0, 0, 100, Scale::linear,
+       "Support from outside: pressure per outer diameter stretch gained since zero pressure.", ""},
+      thickness_error_parameter(),
+      {"layer_ratio", "1", 1, 0.1, 10, Scale::log,
+       "Stiffness of the inner layer over that of the outer one, their mean over the thickness being kept.", ""}};
+  if (layered) all.pop_back();
+  return all;
 }
 
-std::vector<double> own_nulls() { return {0, 0, 0, 0, 1}; }
+std::vector<double> own_nulls(bool layered) {
+  return layered ? std::vector<double>{0, 0, 0, 0} : std::vector<double>{0, 0, 0, 0, 1};
+}
 
 Tube bind(const TestSetup& setup) {
-  Tube tube{TubeRows(setup, "thick_wall_pressurisation"), 0.5, false, 0};
-  tube.layer_interface = setup.options.number("layer_interface");
+  Tube tube{TubeRows(setup, "thick_wall_pressurisation"), !setup.layers.empty(), {}, false, 0};
+  const double interface = setup.options.number("layer_interface");
+  if (tube.layered && interface != default_interface)
+    throw InputError(
+        "thick_wall_pressurisation: \"layer_interface\" says where layer_ratio parts a wall of one model, and "
+        "\"layers\" "
+        "are given too; leave one of them out");
+  if (!tube.layered) tube.interfaces = {interface};
+  double inside = 0;
+  for (std::size_t k = 0; k + 1 < setup.layers.size(); ++k) {
+    inside += setup.layers[k];
+    tube.interfaces.push_back(inside / (tube.outer_radius - tube.inner_radius));
+  }
   tube.same_thickness = setup.options.text("sector") == "same_thickness";
   tube.gauss_points = static_cast<std::size_t>(setup.options.integer("gauss_points"));
   if (tube.gauss_points == 1)

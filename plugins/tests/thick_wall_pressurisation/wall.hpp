@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "tube.hpp"
 
@@ -27,45 +28,45 @@ using Jet = ceres::Jet<double, variable_count>;
 
 /// The wall of one prediction: what does not change along the rows.
 struct Wall {
-  double Ri, Ro, V;                        ///< unloaded; Ri with the thickness error in it
-  double K = 1, iota = 0;                  ///< closing factor, ln R_i
-  double interface = 0.5;                  ///< fraction of the sector's thickness
-  double tether = 0;                       ///< kPa
-  double inner = 1, outer = 1;             ///< factors of W in the two layers
-  double inner_by_ratio, outer_by_ratio;   ///< their derivatives
-  double closing_by_angle, area_by_error;  ///< dK/dα [1/deg], dV/dg [mm²]
+  double Ri, Ro, V;                               ///< unloaded; Ri with the thickness error in it
+  double K = 1, iota = 0;                         ///< closing factor, ln R_i
+  std::span<const double> interfaces;             ///< of the tube, which lives longer
+  bool layered;                                   ///< interfaces in the unloaded wall, instead of in the sector
+  double tether = 0;                              ///< kPa
+  double inner = 1, outer = 1;                    ///< factors of W in the two layers of layer_ratio
+  double inner_by_ratio = 0, outer_by_ratio = 0;  ///< their derivatives
+  double closing_by_angle, area_by_error;         ///< dK/dα [1/deg], dV/dg [mm²]
 
   /// The sector is not closed yet: `iota` is that of a sector as thick as the wall. Ri ≤ 0 where the thickness error
   /// leaves no lumen, K ≤ 0 where the opening angle leaves no sector.
   Wall(const Tube& tube, std::span<const double> own);
+
+  [[nodiscard]] std::size_t layer_count() const { return interfaces.size() + 1; }
+  [[nodiscard]] double factor(std::size_t layer) const { return layered ? 1 : layer == 0 ? inner : outer; }
+  /// ln R in the sector where layers begin and end, from inside; as many as layers and one.
+  void edges(std::vector<Jet>& all) const;
 };
 
 /// Geometry of a section, for numbers or for jets over the variables.
 template <class T>
 struct Shape {
   T ri2, ro2, a, b, cz;
-  T inner_edge, interface, outer_edge;  ///< ln R
 
-  Shape(const T& y, const T& lambda_z, const T& K, const T& V, const T& iota, double fraction) {
-    using std::exp, std::log, std::sqrt;
+  Shape(const T& y, const T& lambda_z, const T& K, const T& V, const T& iota) {
+    using std::exp;
     ri2 = exp(2.0 * y);
     ro2 = ri2 + V / lambda_z;
     b = K / lambda_z;
-    const T Ri2 = exp(2.0 * iota), Ro2 = Ri2 + K * V;
-    a = K * K * ri2 - b * Ri2;
+    a = K * K * ri2 - b * exp(2.0 * iota);
     cz = lambda_z * lambda_z;
-    inner_edge = iota;
-    outer_edge = 0.5 * log(Ro2);
-    interface = log((1 - fraction) * exp(iota) + fraction * sqrt(Ro2));
   }
 };
 
 inline Shape<double> shape(const Wall& wall, double y, double lambda_z) {
-  return {y, lambda_z, wall.K, wall.V, wall.iota, wall.interface};
+  return {y, lambda_z, wall.K, wall.V, wall.iota};
 }
 inline Shape<Jet> shape_jet(const Wall& wall, double y, double lambda_z) {
-  return {Jet(y, ln_inner),  Jet(lambda_z, axial),      Jet(wall.K, closing),
-          Jet(wall.V, area), Jet(wall.iota, ln_sector), wall.interface};
+  return {Jet(y, ln_inner), Jet(lambda_z, axial), Jet(wall.K, closing), Jet(wall.V, area), Jet(wall.iota, ln_sector)};
 }
 
 }  // namespace tunica::thick_wall

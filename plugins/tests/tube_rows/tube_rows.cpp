@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "tunica/error.hpp"
@@ -22,10 +24,12 @@ Channel channel(const std::string& name) {
   return Channel::axial_force;
 }
 
-/// Two of inner radius, outer radius and thickness make the third; 0 stands for "not given".
-void set_radii(const Options& options, TubeRows& tube) {
+/// Two of inner radius, outer radius and thickness make the third; 0 stands for "not given". Layers make a thickness.
+void set_radii(const Options& options, std::span<const double> layers, TubeRows& tube) {
   const double inner = options.number("inner_radius"), outer = options.number("outer_radius"),
-               thickness = options.number("thickness");
+               together = std::accumulate(layers.begin(), layers.end(), 0.0);
+  double thickness = options.number("thickness");
+  if (thickness == 0 && (inner > 0) + (outer > 0) == 1) thickness = together;
   if ((inner > 0) + (outer > 0) + (thickness > 0) != 2)
     throw InputError(tube.test +
                      ": give two of \"inner_radius\", \"outer_radius\" and \"thickness\" of the unloaded tube, for "
@@ -37,6 +41,13 @@ void set_radii(const Options& options, TubeRows& tube) {
         fmt::format("{}: an inner radius of {:g} mm and an outer one of {:g} mm leave no wall; radii are positive and "
                     "the outer one is larger",
                     tube.test, tube.inner_radius, tube.outer_radius));
+  const double wall = tube.outer_radius - tube.inner_radius;
+  constexpr double rounding = 1e-6;
+  if (!layers.empty() && std::abs(together - wall) > rounding * wall)
+    throw InputError(
+        fmt::format("{}: the layers are {:.6g} mm thick together, and the wall is {:.6g} mm; make them agree, or leave "
+                    "\"thickness\" out, which then follows from the layers",
+                    tube.test, together, wall));
 }
 
 void check_rows(const TubeRows& tube) {
@@ -63,7 +74,7 @@ Option radius(const char* name, const char* doc) {
 }  // namespace
 
 TubeRows::TubeRows(const TestSetup& setup, std::string name) : test(std::move(name)) {
-  set_radii(setup.options, *this);
+  set_radii(setup.options, setup.layers, *this);
   bool pressure = false;
   for (const TestRows::Column& column : setup.rows.abscissae) {
     if (column.observable == "pressure") pressure = true, pressure_column = columns.size();
