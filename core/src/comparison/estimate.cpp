@@ -7,6 +7,7 @@
 
 #include "calibration/identifiability.hpp"
 #include "calibration/quality.hpp"
+#include "comparison/hold_out.hpp"
 
 namespace tunica::comparison {
 
@@ -111,6 +112,9 @@ void estimate(const calibration::Assembly& assembly, const execution::Realisatio
   add_parameters(assembly, best, all, summary);
   add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
+  if (!summary.status.ok()) return;
+  if (std::string text = transfer_warning(summary.label, summary.quality); !text.empty())
+    warnings.push_back(std::move(text));
 }
 
 }  // namespace tunica::comparison

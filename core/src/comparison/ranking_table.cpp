@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "comparison/hold_out.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/text.hpp"
@@ -131,7 +132,7 @@ std::string quality_text(const Quality& quality) {
   std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, unit_text(quality.unit));
   text += measure.r2 ? fmt::format(", R² {:.5f}", *measure.r2) : std::string(", R² undefined (constant data)");
   if (measure.nmad) text += fmt::format(", NMAD {:.3g} %", *measure.nmad);
-  return text + (quality.held_out ? ", HELD OUT" : "");
+  return text;
 }
 
 /// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.
@@ -169,7 +170,10 @@ std::string run_lines(const RunSummary& run) {
       text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }
   if (run.objectives.count > 1) text += hanging("  over realisations: ", spread_text(run)) + '\n';
+  const std::string side_by_side = hold_out_table(run.quality);
+  text += side_by_side;
   for (const auto& quality : run.quality) {
+    if (!side_by_side.empty()) break;
     const std::string name = fmt::format("  {}, {}: ", quality.test, quality.channel);
     text += hanging(columns(name) < 40 ? name : name + "\n    ", quality_text(quality)) + '\n';
   }
