@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "kernel.hpp"
 
@@ -81,26 +83,44 @@ TEST_P(FiniteElementAssembly, TheMatrixIsTheDerivativeOfTheForce) {
     EXPECT_NEAR(product[i], (above.force[i] - below.force[i]) / (2 * h), 1e-6 * scale) << i;
 }
 
-TEST_P(FiniteElementAssembly, TheForceByParametersMatchesDifferences) {
+/// −right · ∂force/∂p + dilation · ∂c/∂p of arbitrary weights, at a state far from equilibrium.
+TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferences) {
   const fe::State state = disturbed(solver, 0.1, 20, 4);
-  const std::size_t size = state.x.size();
-  std::vector<double> forces(is.parameters.size() * size);
-  ASSERT_TRUE(assembly->by_parameters(material, state, forces).ok());
-  for (std::size_t j = 0; j < is.parameters.size(); ++j) {
-    const double h = 1e-5 * is.parameters[j];
-    const auto force = [&](double by) {
-      std::vector<double> moved = is.parameters;
-      moved[j] += by;
-      fe::System system;
-      EXPECT_TRUE(assembly->assemble(fe::Material(*model, moved), state, pressure, true, system).ok());
-      return system.force;
-    };
-    const auto above = force(h), below = force(-h);
-    double scale = 0;
-    for (std::size_t i = 0; i < size; ++i) scale = std::max(scale, std::abs(forces[j * size + i]));
-    ASSERT_GT(scale, 0);
-    for (std::size_t i = 0; i < size; ++i)
-      EXPECT_NEAR(forces[j * size + i], (above[i] - below[i]) / (2 * h), 1e-7 * scale) << j << ", " << i;
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  std::vector<fe::Weights> weights(2);
+  for (fe::Weights& weight : weights) {
+    weight.right.resize(state.x.size()), weight.dilation.resize(state.q.size());
+    for (double& value : weight.right) value = any(generator);
+    for (double& value : weight.dilation) value = any(generator);
+  }
+  const std::size_t count = is.parameters.size();
+  std::vector<double> by((count + 1) * weights.size());
+  ASSERT_TRUE(assembly->contract(material, state, weights, by).ok());
+  const auto contracted = [&](const fe::Material& at, fe::Assembly& on, const fe::Weights& weight) {
+    fe::System system;
+    EXPECT_TRUE(on.assemble(at, state, pressure, true, system).ok());
+    return std::inner_product(weight.dilation.begin(), weight.dilation.end(), system.dilation.begin(), 0.0) -
+           std::inner_product(weight.right.begin(), weight.right.end(), system.force.begin(), 0.0);
+  };
+  const auto thicker = [&](double by_part) {
+    fe::Mesh other = solver.mesh();
+    other.inner = other.outer - (1 + by_part) * (other.outer - other.inner);
+    return fe::Assembly::make(other);
+  };
+  for (std::size_t j = 0; j <= count; ++j) {
+    const double h = j < count ? 1e-4 * is.parameters[j] : 1e-4;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const auto at = [&](double steps) {
+        if (j == count) return contracted(material, *thicker(steps * h), weights[k]);
+        std::vector<double> moved = is.parameters;
+        moved[j] += steps * h;
+        return contracted(fe::Material(*model, moved), *assembly, weights[k]);
+      };
+      const double expected = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+      ASSERT_NE(expected, 0);
+      EXPECT_NEAR(by[j * weights.size() + k], expected, 1e-8 * std::abs(expected)) << j << ", " << k;
+    }
   }
 }
 

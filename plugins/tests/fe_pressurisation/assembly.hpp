@@ -7,15 +7,9 @@
 #include <vector>
 
 #include "banded.hpp"
-#include "material.hpp"
-#include "mesh.hpp"
+#include "row.hpp"
 
 namespace tunica::fe {
-
-/// Positions r, z of every node (2 · node, 2 · node + 1) in mm, and the pressure modes of every element in kPa.
-struct State {
-  std::vector<double> x, q;
-};
 
 /// The system of one Newton step at a state, before anything is prescribed, all divided by 2π.
 struct System {
@@ -28,6 +22,12 @@ struct System {
   double gamma = 0;              ///< kPa
   double largest_dilation = 0;   ///< max |c| over the element's volume
   double stiffness = 0;          ///< the largest diagonal entry of ∂²w/∂F², kPa
+};
+
+/// How an observable depends on the equations of a solution: it changes by right · (what −∂Π/∂x does at a fixed state),
+/// by dilation · (what c does there) and by moved · (what the prescribed positions do; zero elsewhere).
+struct Weights {
+  std::vector<double> right, dilation, moved;
 };
 
 /// A Gauss point of a solution.
@@ -52,8 +52,7 @@ struct Point {
 ///   | K   −G   | |dx|   |−∂Π/∂x|
 ///   | −Gᵀ −M/γ | |dq| = |  c   |     so that  dq = −γ M⁻¹ (c + Gᵀ dx),  (K + γ G M⁻¹ Gᵀ) dx = −∂Π/∂x − γ G M⁻¹ c.
 ///
-/// M/γ stands in the matrix alone: the state it converges to is incompressible for any γ. Elements are worked through
-/// by rows along R, one lane an element.
+/// M/γ stands in the matrix alone: the state it converges to is incompressible for any γ.
 class Assembly {
  public:
   virtual ~Assembly() = default;
@@ -62,8 +61,10 @@ class Assembly {
   /// evaluated.
   virtual Status assemble(const Material& material, const State& state, double pressure, bool tangent,
                           System& system) = 0;
-  /// ∂force/∂p_j at a fixed state for every material parameter: 2 nodes each.
-  virtual Status by_parameters(const Material& material, const State& state, std::span<double> forces) = 0;
+  /// By every parameter of the material and by the relative thickness (x and Ro fixed), for every weight w:
+  /// `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation · ∂c/∂p_j.
+  virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
+                          std::span<double> by) = 0;
   /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero.
   virtual void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,
                          std::span<double> dq) const = 0;

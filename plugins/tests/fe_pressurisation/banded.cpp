@@ -18,6 +18,13 @@ void Banded::multiply(std::span<const double> x, std::span<double> y) const {
   }
 }
 
+double Banded::row_times(std::size_t i, std::span<const double> x) const {
+  double sum = 0;
+  for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) sum += column(j)[i - j] * x[j];
+  for (std::size_t j = i; j < std::min(size_, i + width_ + 1); ++j) sum += column(i)[j - i] * x[j];
+  return sum;
+}
+
 void Banded::fix(std::size_t i, double diagonal) {
   std::fill_n(column(i), width_ + 1, 0.0);
   for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) a_[j * stride_ + i - j] = 0;
@@ -64,26 +71,41 @@ std::size_t Banded::factorise() {
 
 void Banded::solve(std::span<double> x) const {
   thread_local std::vector<double> padded;
-  padded.assign(size_ + width_ + block, 0.0);
+  padded.assign(size_ + width_ + 2 * block, 0.0);
   std::copy(x.begin(), x.end(), padded.begin());
-  double* const y = padded.data();
-  for (std::size_t j = 0; j < size_; ++j) {
-    const double* const l = column(j);
-    const double v = y[j];
-    for (std::size_t i = 1; i <= width_; ++i) y[j + i] -= l[i] * v;
+  const std::size_t blocks = (size_ + block - 1) / block;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double* const l0 = column(block * b);
+    const double* const l1 = column(block * b + 1);
+    const double* const l2 = column(block * b + 2);
+    const double* const l3 = column(block * b + 3);
+    double* __restrict__ const y = padded.data() + block * b;
+    y[1] -= l0[1] * y[0];
+    y[2] -= l0[2] * y[0] + l1[1] * y[1];
+    y[3] -= l0[3] * y[0] + l1[2] * y[1] + l2[1] * y[2];
+    const double y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3];
+    for (std::size_t i = block; i < width_ + block; ++i)
+      y[i] -= (l0[i] * y0 + l1[i - 1] * y1) + (l2[i - 2] * y2 + l3[i - 3] * y3);
   }
-  for (std::size_t j = 0; j < size_; ++j) y[j] /= *column(j);
-  for (std::size_t j = size_; j-- > 0;) {
-    const double* const l = column(j);
-    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-    std::size_t i = 1;
-    for (; i + 3 <= width_; i += 4)
-      s0 += l[i] * y[j + i], s1 += l[i + 1] * y[j + i + 1], s2 += l[i + 2] * y[j + i + 2],
-          s3 += l[i + 3] * y[j + i + 3];
-    for (; i <= width_; ++i) s0 += l[i] * y[j + i];
-    y[j] -= (s0 + s1) + (s2 + s3);
+  for (std::size_t j = 0; j < size_; ++j) padded[j] /= *column(j);
+  for (std::size_t b = blocks; b-- > 0;) {
+    const double* const l0 = column(block * b);
+    const double* const l1 = column(block * b + 1);
+    const double* const l2 = column(block * b + 2);
+    const double* const l3 = column(block * b + 3);
+    double* const y = padded.data() + block * b;
+    double s0[2] = {}, s1[2] = {}, s2[2] = {}, s3[2] = {};
+    for (std::size_t i = block; i < width_ + block; i += 2)
+      for (std::size_t k = 0; k < 2; ++k) {  // beyond the band both L and y are zero, or belong to nobody
+        s0[k] += l0[i + k] * y[i + k], s1[k] += l1[i + k - 1] * y[i + k];
+        s2[k] += l2[i + k - 2] * y[i + k], s3[k] += l3[i + k - 3] * y[i + k];
+      }
+    y[3] -= s3[0] + s3[1];
+    y[2] -= s2[0] + s2[1] + l2[1] * y[3];
+    y[1] -= s1[0] + s1[1] + l1[1] * y[2] + l1[2] * y[3];
+    y[0] -= s0[0] + s0[1] + l0[1] * y[1] + l0[2] * y[2] + l0[3] * y[3];
   }
-  std::copy_n(y, size_, x.begin());
+  std::copy_n(padded.data(), size_, x.begin());
 }
 
 }  // namespace tunica::fe

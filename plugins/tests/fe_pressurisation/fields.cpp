@@ -108,7 +108,7 @@ Status snapshots_of(const Tube& tube, const Model& model, std::span<const double
   for (const std::size_t row : rows) {
     std::size_t failed_at = 0;
     const std::array<Load, 1> load{loads[row]};
-    if (Status status = simulation.run(material, load, false, samples, failed_at); !status.ok()) return status;
+    if (Status status = simulation.run(material, load, {}, samples, failed_at); !status.ok()) return status;
     if (Status status = simulation.solver().assembly().points(material, simulation.last(), points); !status.ok())
       return status;
     found.push_back(snapshot_of(simulation.solver().mesh(), simulation.last(), points, angle));

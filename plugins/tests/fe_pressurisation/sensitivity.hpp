@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "path.hpp"
@@ -15,16 +16,19 @@ struct Sample {
   std::vector<Observed> by;
 };
 
+/// Which observables' derivatives are worth their price: outer radius, inner radius, axial force.
+using Wanted = std::array<bool, 3>;
+
 /// At an equilibrium R(x; p) = 0 is dx/dp = −K⁻¹ ∂R/∂p, exactly. Of the three observables a · x it is Kᵀ z = a that is
-/// solved with the factor at hand, whatever the number of parameters: then d(a · x)/dp = −z · ∂R/∂p. By the thickness
-/// only ∂R/∂p is a central difference, of residuals at fixed positions: 1e-9 of it.
+/// solved with the factor at hand, whatever the number of parameters: then d(a · x)/dp = −z · ∂R/∂p, which is summed up
+/// element by element and never stands as a vector.
 class Sensitivity {
  public:
-  /// `radius` and `thickness` describe the mesh of the solver.
-  explicit Sensitivity(Solver& solver);
+  explicit Sensitivity(Solver& solver) : solver_(solver) {}
 
-  /// Begins with a material; held ends do not move with the parameters.
-  void begin(const Material& material);
+  /// Begins with a material; held ends do not move with the parameters. Of observables not `wanted` the derivatives
+  /// stay zero.
+  void begin(const Material& material, const Wanted& wanted);
   /// The ends are held from now on where they are at this free equilibrium.
   Status hold(const Path& path);
   /// Of the equilibrium the path is at; the solver's factor has to be exact.
@@ -32,18 +36,16 @@ class Sensitivity {
 
  private:
   enum Direction : std::size_t { stretch, thickness, pressure, own };  ///< after the model's parameters
-  /// right_, dilation_ and moved_ of a direction; empty = nothing.
-  Status equations(const Path& path, std::size_t direction);
+  /// Of State::x at `positions` and, last, of the axial force: `by`[direction · weights + observable].
+  Status derive(const Path& path, std::span<const std::size_t> positions, bool axial_force, std::vector<double>& by);
   void move_ends(std::size_t direction, std::vector<double>& moved) const;
 
   Solver& solver_;
   const Material* material_ = nullptr;
-  std::unique_ptr<Assembly> thinner_, thicker_;
-  std::vector<double> forces_, right_, dilation_, moved_;
+  Wanted wanted_{};
   std::vector<std::vector<double>> end_;  ///< ∂r/∂p of the held end, by direction; empty = not held after stretching
-  State derivative_;
-  std::array<Solver::Weights, 3> weights_;
-  System probe_;
+  std::vector<Weights> weights_;
+  std::vector<double> by_, contracted_, moved_;
 };
 
 }  // namespace tunica::fe

@@ -19,17 +19,18 @@ Mesh mesh_of(const Tube& tube) {
 
 Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
 
-Status Simulation::take(Path& path, const Load& load, bool derivatives, Sample& sample) {
-  if (Status status = path.go(load, derivatives); !status.ok()) return status;
+Status Simulation::take(Path& path, const Load& load, Sample& sample) {
+  if (Status status = path.go(load, derivatives_); !status.ok()) return status;
   ++solutions_;
-  if (derivatives) return sensitivity_.sample(path, sample);
+  if (derivatives_) return sensitivity_.sample(path, sample);
   sample.value = path.observed();
   return {};
 }
 
-Status Simulation::run(const Material& material, std::span<const Load> loads, bool derivatives,
+Status Simulation::run(const Material& material, std::span<const Load> loads, const Wanted& derivatives,
                        std::vector<Sample>& samples, std::size_t& failed_at) {
   samples.resize(loads.size());
+  wanted_ = derivatives, derivatives_ = std::ranges::count(derivatives, true) > 0;
   solutions_ = 0, failed_at = 0;
   // Lines by axial stretch, those beyond 1 in ascending, those below in descending order.
   std::map<double, std::vector<std::size_t>> lines;
@@ -45,7 +46,7 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, bo
   using std::chrono::duration, std::chrono::steady_clock;
   solver_.set_deadline(steady_clock::now() +
                        std::chrono::duration_cast<steady_clock::duration>(duration<double>(tube_.time_limit)));
-  sensitivity_.begin(material);
+  sensitivity_.begin(material, wanted_);
   Path path(solver_, {tube_.steps});
   if (Status status = path.begin(); !status.ok()) return status;
   const Path::Mark rest = path.mark();
@@ -57,32 +58,30 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, bo
     solver_.hold_ends(tube_.ends == Ends::clamped);
     if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later)
       if (Status status = path.return_to(trunk); !status.ok()) return status;
-    if (Status status = path.go({stretch, 0}, derivatives && hold_later); !status.ok()) return status;
+    if (Status status = path.go({stretch, 0}, derivatives_ && hold_later); !status.ok()) return status;
     trunk = path.mark();
     if (hold_later) {
-      if (derivatives)
+      if (derivatives_)
         if (Status status = sensitivity_.hold(path); !status.ok()) return status;
       solver_.hold_at(path.state()), solver_.hold_ends(true);
       if (Status status = path.return_to(trunk); !status.ok()) return status;
     }
-    if (Status status = line(path, trunk, loads, lines[stretch], derivatives, samples, failed_at); !status.ok())
-      return status;
-    if (hold_later) sensitivity_.begin(material);
+    if (Status status = line(path, trunk, loads, lines[stretch], samples, failed_at); !status.ok()) return status;
+    if (hold_later) sensitivity_.begin(material, wanted_);
   }
   last_ = path.state();
   return {};
 }
 
 Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
-                        std::span<const std::size_t> rows, bool derivatives, std::vector<Sample>& samples,
-                        std::size_t& failed_at) {
+                        std::span<const std::size_t> rows, std::vector<Sample>& samples, std::size_t& failed_at) {
   std::set<double> pressures;
   for (const std::size_t i : rows) pressures.insert(loads[i].pressure);
   // Worth it where it saves three rows in ten.
   for (std::size_t points = first_points; points <= most_points && 10 * points < 7 * pressures.size();
        points = 2 * points - 1) {
     bool accurate = false;
-    const Status status = interpolated(path, trunk, loads, rows, derivatives, points, samples, failed_at, accurate);
+    const Status status = interpolated(path, trunk, loads, rows, points, samples, failed_at, accurate);
     if (!status.ok() || accurate) return status;
     if (Status back = path.return_to(trunk); !back.ok()) return back;
   }
@@ -101,21 +100,21 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
     }
     if (pressure(order[k]) < 0 && (k == 0 || pressure(order[k - 1]) >= 0))
       if (Status status = path.return_to(trunk); !status.ok()) return status;
-    if (Status status = take(path, loads[order[k]], derivatives, samples[order[k]]); !status.ok()) return status;
+    if (Status status = take(path, loads[order[k]], samples[order[k]]); !status.ok()) return status;
   }
   return {};
 }
 
 Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
-                                std::span<const std::size_t> rows, bool derivatives, std::size_t points,
-                                std::vector<Sample>& samples, std::size_t& failed_at, bool& accurate) {
+                                std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& samples,
+                                std::size_t& failed_at, bool& accurate) {
   const auto [low, high] = std::ranges::minmax_element(
       rows, [&](std::size_t i, std::size_t j) { return loads[i].pressure < loads[j].pressure; });
   const Chebyshev curve(loads[*low].pressure, loads[*high].pressure, points);
   const std::span<const double> at = curve.points();
   std::vector<Sample> nodes(points);
   const auto solve = [&](std::size_t k) {
-    const Status status = take(path, {trunk.load.stretch, at[k]}, derivatives, nodes[k]);
+    const Status status = take(path, {trunk.load.stretch, at[k]}, nodes[k]);
     if (status.ok()) return status;
     for (const std::size_t i : rows)  // the first row that was not reached
       if (std::abs(loads[i].pressure) > std::abs(path.load().pressure)) {

@@ -32,24 +32,27 @@ class Simulation {
   [[nodiscard]] const Tube& tube() const { return tube_; }
   [[nodiscard]] Solver& solver() { return solver_; }
 
-  /// `samples` has one entry a load. `failed_at` is the first load not reached, in the order of the line.
-  Status run(const Material& material, std::span<const Load> loads, bool derivatives, std::vector<Sample>& samples,
-             std::size_t& failed_at);
+  /// `samples` has one entry a load, with the `derivatives` asked for. `failed_at` is the first load not reached, in
+  /// the order of the line.
+  Status run(const Material& material, std::span<const Load> loads, const Wanted& derivatives,
+             std::vector<Sample>& samples, std::size_t& failed_at);
   [[nodiscard]] std::size_t solutions() const { return solutions_; }
   /// The state that the last run ended with.
   [[nodiscard]] const State& last() const { return last_; }
 
  private:
   Status line(Path& path, const Path::Mark& trunk, std::span<const Load> loads, std::span<const std::size_t> rows,
-              bool derivatives, std::vector<Sample>& samples, std::size_t& failed_at);
+              std::vector<Sample>& samples, std::size_t& failed_at);
   Status interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
-                      std::span<const std::size_t> rows, bool derivatives, std::size_t points,
-                      std::vector<Sample>& samples, std::size_t& failed_at, bool& accurate);
-  Status take(Path& path, const Load& load, bool derivatives, Sample& sample);
+                      std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& samples,
+                      std::size_t& failed_at, bool& accurate);
+  Status take(Path& path, const Load& load, Sample& sample);
 
   Tube tube_;
   Solver solver_;
   Sensitivity sensitivity_;
+  Wanted wanted_{};
+  bool derivatives_ = false;
   std::size_t solutions_ = 0;
   State last_;
 };

@@ -14,7 +14,7 @@ constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
 constexpr double slow = 0.1;               ///< a step of a frozen factor this times the last one is too long
 constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
-constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e9 behave alike
+constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
 /// Not finite where an entry is not.
 double largest(std::span<const double> x) {
@@ -110,6 +110,7 @@ Status Solver::solve(const Load& load, State& state, bool full_steps) {
 Status Solver::iterate(const Load& load, State& state, bool full_steps) {
   impose(load, state);
   effort_.steps.clear();
+  mixes_ = false;
   double last = std::numeric_limits<double>::infinity();
   // Near the last solution its factor comes close before a new one makes it exact.
   bool full = !(full_steps && has_factor_);
@@ -134,9 +135,8 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
       continue;
     }
     assembly_->pressures(system_, dx_, system_.dilation, dq_);
-    for (std::size_t i = 0; i < dx_.size(); ++i) state.x[i] += dx_[i];
-    for (std::size_t i = 0; i < dq_.size(); ++i) state.q[i] += dq_[i];
     note_force();
+    move(state, !full && full_steps);
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
     const double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
     if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
@@ -146,6 +146,31 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     if (full) system_.gamma = incompressibility * system_.stiffness;
   }
   return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));
+}
+
+/// Steps of a frozen factor shrink by a nearly constant matrix. What the last two say of it goes into this one, by
+/// Anderson's mixing of depth 1: with steps s, s₋ and the movement m₋ that s₋ led to, m = s − β (m₋ + s − s₋), where β
+/// makes s − β (s − s₋) smallest.
+/// Source: D. G. M. Anderson, J. ACM 12 (1965) 547–560; H. F. Walker, P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715–1735.
+void Solver::move(State& state, bool mixed) {
+  double along = 0, squared = 0;
+  if (mixed && mixes_)
+    for (std::size_t i = 0; i < dx_.size(); ++i) {
+      const double change = dx_[i] - step_.x[i];
+      along += dx_[i] * change, squared += change * change;
+    }
+  const double beta = squared > 0 ? along / squared : 0;
+  const auto apply = [&](std::vector<double>& x, const std::vector<double>& step, std::vector<double>& last,
+                         std::vector<double>& moved) {
+    last.resize(step.size()), moved.resize(step.size());
+    for (std::size_t i = 0; i < step.size(); ++i) {
+      moved[i] = step[i] - beta * (moved[i] + step[i] - last[i]);
+      last[i] = step[i], x[i] += moved[i];
+    }
+  };
+  apply(state.x, dx_, step_.x, moved_.x);
+  apply(state.q, dq_, step_.q, moved_.q);
+  mixes_ = mixed;
 }
 
 void Solver::derive(std::span<const double> right, std::span<const double> moved, State& derivative) {
@@ -163,46 +188,39 @@ void Solver::derive(std::span<const double> right, std::span<const double> moved
   assembly_->pressures(system_, derivative.x, {}, derivative.q);
 }
 
-/// The incompressible equations K dx − G dq = r, Gᵀ dx = −c of a derivative are solved up to Gᵀ dx + c = −M dq/γ. What
-/// is left is solved with the same factor: (K + γ G M⁻¹ Gᵀ) δx = G dq.
-void Solver::refine(std::span<const double> dilation, State& derivative) {
-  assembly_->pressures(system_, derivative.x, dilation, derivative.q);
-  assembly_->spread(system_, derivative.q, product_);
-  prescribe(product_);
-  factor_.solve(product_);
-  prescribe(product_);
-  for (std::size_t i = 0; i < product_.size(); ++i) derivative.x[i] += product_[i];
-}
-
-/// derive and refine, transposed. With a · dx + b · right the observable, b and a = −K̂ b for the axial force, K̂ the
-/// condensed matrix: z = K̂⁻¹ a, h = −γ M⁻¹ Gᵀ (z + b), y = G h, w = K̂⁻¹ y; then right = z + w + b, dilation = h,
-/// moved = a + y − K̂ (z + w).
-void Solver::weigh(Observable what, Weights& weights) {
-  const std::size_t size = dx_.size();
-  weights.right.assign(size, 0), weights.dilation.resize(dq_.size()), weights.moved.assign(size, 0);
-  std::vector<double>&z = weights.right, &a = weights.moved;
-  const double own = what == Observable::axial_force ? 2 * std::numbers::pi : 0;  // b, over the plane of symmetry
-  if (what == Observable::axial_force) {
-    for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
-  } else {
-    a[what == Observable::outer_radius ? 2 * (mesh_.across() - 1) : 0] = 1;
-  }
-  const auto add_own = [&](double sign) {
-    for (std::size_t i = 0; i < mesh_.across(); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
-  };
+/// Let b · right + a · dx be the observable (b and a = −K̂ b for the axial force, K̂ the condensed matrix), with
+/// dx = K̂⁻¹ (right − γ G M⁻¹ dilation − K̂ moved) + moved. With z = K̂⁻¹ a its weights are z + b, h = −γ M⁻¹ Gᵀ (z + b)
+/// and a − K̂ z, but for the compressibility of the matrix: Gᵀ (z + b) should be nothing. With the forces of the
+/// pressures h one more solution takes that out to second order in 1/γ: z becomes z + K̂⁻¹ G h, a becomes a + G h, and
+/// what Gᵀ (z + b) is then adds to h.
+void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights) {
+  const std::size_t size = dx_.size(), end = 2 * mesh_.node(0, mesh_.planes() - 1);
+  const double own = 2 * std::numbers::pi;  // b, over the plane of symmetry
+  weights.resize(positions.size() + (axial_force ? 1 : 0));
   const auto solve_free = [&](std::vector<double>& x) { prescribe(x), factor_.solve(x), prescribe(x); };
-  z = a;
-  solve_free(z);
-  add_own(1);
-  assembly_->pressures(system_, z, {}, weights.dilation);
-  add_own(-1);
-  assembly_->spread(system_, weights.dilation, product_);
-  for (std::size_t i = 0; i < size; ++i) a[i] += product_[i];
-  solve_free(product_);
-  for (std::size_t i = 0; i < size; ++i) z[i] += product_[i];
-  system_.matrix.multiply(z, product_);
-  for (std::size_t i = 0; i < size; ++i) a[i] -= product_[i];
-  add_own(1);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const bool is_force = k == positions.size();
+    std::vector<double>&z = weights[k].right, &a = weights[k].moved;
+    a.assign(size, 0), weights[k].dilation.resize(dq_.size());
+    if (!is_force) a[positions[k]] = 1;
+    for (std::size_t i = 0; i < (is_force ? middle_.size() : 0); ++i) a[i] = -own * middle_[i];
+    const auto add_own = [&](double sign) {
+      for (std::size_t i = 0; i < (is_force ? mesh_.across() : 0); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
+    };
+    z = a;
+    solve_free(z);
+    add_own(1);
+    assembly_->pressures(system_, z, {}, weights[k].dilation);
+    add_own(-1);
+    assembly_->spread(system_, weights[k].dilation, product_);
+    for (std::size_t i = end; i < size; ++i) a[i] += product_[i];
+    solve_free(product_);
+    for (std::size_t i = 0; i < size; ++i) z[i] += product_[i];
+    for (std::size_t i = end; i < size; ++i) a[i] -= system_.matrix.row_times(i, z);  // only the end is ever moved
+    add_own(1);
+    assembly_->pressures(system_, z, {}, dq_);
+    for (std::size_t i = 0; i < dq_.size(); ++i) weights[k].dilation[i] += dq_[i];
+  }
 }
 
 /// To first order after a step: ∂Π/∂x + K dx − G dq = −right + (K + γ G M⁻¹ Gᵀ) dx.

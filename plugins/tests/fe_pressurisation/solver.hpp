@@ -53,35 +53,30 @@ class Solver {
   [[nodiscard]] const Effort& effort() const { return effort_; }
   [[nodiscard]] const System& system() const { return system_; }
 
-  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (condensed as System::right; empty
-  /// = nothing) and moves the prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all), up to
-  /// the compressibility 1/γ of the matrix: 1e-5 of it.
+  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (empty = nothing) and moves the
+  /// prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all).
   void derive(std::span<const double> right, std::span<const double> moved, State& derivative);
   /// `right` by the pressure, ∂V/∂x; `moved` by the axial stretch.
   [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
   [[nodiscard]] std::span<const double> by_stretch() const { return end_moved_; }
 
-  /// Takes 1/γ out of a derivative, to 1e-10: one step of iterative refinement of the incompressible equations. In
-  /// them c changes by `dilation` at a fixed state (empty = not at all).
-  void refine(std::span<const double> dilation, State& derivative);
-
-  /// How an observable depends on the equations of the solution: it changes by right · `right` + dilation · `dilation`
-  /// + moved · `moved`, the three as in derive and refine, and by no more than 1e-10 of it otherwise.
-  struct Weights {
-    std::vector<double> right, dilation, moved;
-  };
-  enum class Observable { outer_radius, inner_radius, axial_force };
-  void weigh(Observable what, Weights& weights);
+  /// The weights of some entries of State::x and, on demand, last of all of the axial force, by the adjoint of the
+  /// equations: whatever the number of parameters. Needs the factor of the solution itself. `moved` counts at the end
+  /// alone.
+  void weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights);
+  [[nodiscard]] std::size_t outer() const { return 2 * (mesh_.across() - 1); }  ///< r there at mid-length, in State::x
+  [[nodiscard]] std::size_t inner() const { return 0; }
 
   /// Reduced axial force in mN: −2π Σ ∂Π/∂z over the plane of symmetry, the derivative of Π by its position.
   [[nodiscard]] double axial_force() const { return -2 * std::numbers::pi * middle_force_; }
-  [[nodiscard]] double outer_radius(const State& state) const { return state.x[2 * (mesh_.across() - 1)]; }
-  [[nodiscard]] double inner_radius(const State& state) const { return state.x[0]; }
+  [[nodiscard]] double outer_radius(const State& state) const { return state.x[outer()]; }
+  [[nodiscard]] double inner_radius(const State& state) const { return state.x[inner()]; }
 
  private:
   void impose(const Load& load, State& state) const;
   Status iterate(const Load& load, State& state, bool full_steps);
   void factorise();
+  void move(State& state, bool mixed);
   void note_force();
   /// Sets prescribed entries to zero.
   void prescribe(std::span<double> dx) const;
@@ -96,6 +91,8 @@ class Solver {
   Banded factor_;
   std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
   double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
+  State step_, moved_;                              ///< the last step and what it came to
+  bool mixes_ = false;
   std::size_t negative_ = 0;
   bool held_ = true, has_factor_ = false;
   std::chrono::steady_clock::time_point deadline_ = std::chrono::steady_clock::time_point::max();

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "element.hpp"
+#include "material.hpp"
+#include "mesh.hpp"
+
+namespace tunica::fe {
+
+/// Positions r, z of every node (2 · node, 2 · node + 1) in mm, and the pressure modes of every element in kPa.
+struct State {
+  std::vector<double> x, q;
+};
+
+/// Place of (i, j) and of (j, i) in an upper triangle by columns.
+constexpr std::size_t upper(std::size_t i, std::size_t j) { return i <= j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j; }
+
+/// The elements of a mesh with the same Z, worked through together, one lane an element: what each of them adds to the
+/// derivatives of Π (see Assembly). Every array has the lanes last.
+///
+/// At a Gauss point the energy is a function w(f) = W(C) − q (J − 1) of f = (r_R, r_Z, z_R, z_Z, r/R), which is linear
+/// in the positions of the nodes: with p = ∂w/∂f and A = ∂²w/∂f² the force is ∫ pᵀ ∂f/∂x dV and the stiffness
+/// ∫ (∂f/∂x)ᵀ A ∂f/∂x dV.
+template <std::size_t Order>
+class Row {
+ public:
+  using E = Element<Order>;
+  static constexpr std::size_t nn = E::nodes, ng = E::points, np = E::modes, dofs = 2 * nn;
+
+  explicit Row(const Mesh& mesh);
+
+  [[nodiscard]] std::size_t lanes() const { return n_; }
+  [[nodiscard]] const E& element() const { return element_; }
+  [[nodiscard]] double radius(std::size_t g, std::size_t e) const { return radius_[g * n_ + e]; }
+  /// Of the elements of row `row`, along Z.
+  [[nodiscard]] double height(std::size_t row) const {
+    return mesh_.layer[(row + 1) * Order] - mesh_.layer[row * Order];
+  }
+  [[nodiscard]] std::size_t node(std::size_t a, std::size_t e, std::size_t row) const {
+    return mesh_.node(e * Order + a % E::side, row * Order + a / E::side);
+  }
+  /// Weight of a Gauss point over its R: dV = area R.
+  [[nodiscard]] double area(std::size_t g) const { return element_.weight[g] * h_ * height(row_) / 4; }
+
+  /// Takes row `row` of the state: f and C at its points.
+  void take(const State& state, std::size_t row);
+  /// First derivatives of W there, and the second and those by parameters where wanted.
+  Status evaluate(const Material& material, bool tangent, bool parameters);
+  /// force and c; with `tangent` also k and coupling, and the largest modulus into `stiffness`.
+  void integrate(bool sees_shear, bool tangent, double& stiffness);
+
+  /// `by`[(j · directions + k) · lanes + e] = d(z_k · force)/dp_j for every parameter of the material, then by the
+  /// relative thickness at fixed Ro and x; the z_k are fields of nodes, as State::x. Needs second derivatives and those
+  /// by parameters.
+  void contract(const Material& material, std::span<const std::span<const double>> directions, std::span<double> by);
+  /// dc/d(relative thickness) at fixed x: `c`[m · lanes + e].
+  void dilate(std::span<double> c);
+
+  std::vector<double> f, C, first, second, first_dp;  ///< component-major over points · lanes
+  std::vector<double> force, k, coupling, c;          ///< component · lane; coupling: mode · dofs + dof; k as upper
+  std::vector<double> scratch;                        ///< 10 lanes, of no meaning between calls
+
+ private:
+  void interpolate(std::size_t g, std::span<const double> nodes, std::span<double> f) const;
+  void stress(std::size_t g, bool sees_shear);
+  void moduli(std::size_t g, bool sees_shear, double& stiffness);
+  void add_shear(std::size_t g);
+  void thicken(std::size_t g, bool sees_shear, double& unused);
+  void add_force(std::size_t g);
+  void add_stiffness(std::size_t g);
+  void add_coupling(std::size_t g, bool tangent);
+
+  const Mesh mesh_;
+  const std::size_t n_;  ///< lanes: elements along R
+  const double h_;       ///< their length
+  const E element_;
+  std::size_t row_ = 0;
+  std::vector<double> radius_, over_radius_;  ///< R and N/R: point · (node ·) lane
+  std::vector<double> x_, q_, p_, a_;         ///< component · lane
+  std::vector<double> z_, phi_, thickened_;   ///< a direction at the nodes, its f; point · 5 · lane
+};
+
+extern template class Row<1>;
+extern template class Row<2>;
+
+}  // namespace tunica::fe
