@@ -154,7 +154,8 @@ int check(const GlobalOptions& global, const std::string& file) {
   std::set<std::string> shown;
   for (const auto& run : plan.runs) {
     // Runs that differ only in the optimiser pose the same problem.
-    std::string problem = fmt::format("model {}, {}", run.entry->model, comparison::group_of(*run.entry));
+    std::string problem =
+        fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
     if (!shown.insert(problem).second) continue;
     fmt::print("\n{}\n", hanging("", problem));

@@ -51,8 +51,13 @@ std::string kind_of(const Option& option) {
   return {};
 }
 
-void print_options(const std::vector<Option>& options) {
-  if (!options.empty()) fmt::print("\noptions\n");
+void print_options(const std::vector<Option>& options, bool layered = false) {
+  if (!options.empty() || layered) fmt::print("\noptions\n");
+  if (layered)
+    fmt::print("{}\n",
+               hanging(fmt::format("  {:<18} ", "layers"),
+                       "Layers of the wall from inside, each with a model of its own. (list of {\"model\": name, "
+                       "\"thickness\": quantity in mm}; without it the model of the run fills the wall)"));
   for (const auto& option : options) {
     std::string text = kind_of(option);
     if (option.min) text += fmt::format(", at least {}", *option.min);
@@ -138,7 +143,7 @@ void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
     // A test is made from options and data, and these may not suit it: then what any test of the type can have.
     print_parameters(factory.parameters);
   }
-  print_options(factory.options);
+  print_options(factory.options, factory.layered);
 }
 
 void print(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {

@@ -54,7 +54,8 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<SimulateOptions>();
   auto* verb = app.add_subcommand("simulate", "Predict every test and write it like the data: DIR/<test>.csv");
   verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
-  verb->add_option("--model", options->model, "Name of a model in the experiment")->required()->type_name("M");
+  verb->add_option("--model", options->model, "Name of a model in the experiment; not where tests name all in layers")
+      ->type_name("M");
   verb->add_option("--parameters", options->parameters,
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");

@@ -27,6 +27,19 @@ struct StabilityOptions {
   double to = 0;
 };
 
+/// The stretches to judge a model over: those of its strips, or up to the one that was asked for.
+tunica::stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model,
+                                    const StabilityOptions& options) {
+  auto domain = comparison::domain_of(assembly, model);
+  if (options.to > 1) {
+    domain.largest = options.to;
+    domain.strips = {};
+    for (auto& stretches : domain.asked)
+      for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
+  }
+  return domain;
+}
+
 int stability(const GlobalOptions& global, const StabilityOptions& options) {
   if (!options.map.empty() && options.directory.empty())
     throw InputError("--map writes a file: name a new folder for it with -o DIR");
@@ -38,27 +51,25 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   request.run = options.run;
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
   const auto& assembly = *subject.assembly;
-  auto domain = comparison::domain_of(assembly);
-  if (options.to > 1) {
-    domain.largest = options.to;
-    domain.strips = {};
-    for (auto& stretches : domain.asked)
-      for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
-  }
+  const double limit = domain_of(assembly, 0, options).largest;
   // A map that cannot be drawn, or a folder that is there already, is said before anything else.
   std::string map;
   if (!options.map.empty())
-    map = comparison::stability_map(assembly, subject.free, {options.map[0], options.map[1]}, options.points,
-                                    domain.largest);
+    map = comparison::stability_map(assembly, subject.free, {options.map[0], options.map[1]}, options.points, limit);
   std::optional<execution::RunDirectory> directory;
   if (!options.directory.empty())
     directory.emplace(execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name));
-  const auto verdict = tunica::stability::judge(assembly.model(), assembly.model_parameters(subject.free), domain);
   for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
-  fmt::print("{}\n{}\n", options.model, comparison::hanging("  ", subject.origin));
-  for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging("  ", sentence));
+  fmt::print("{}\n{}\n", subject.model, comparison::hanging("  ", subject.origin));
+  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
+    const auto verdict = tunica::stability::judge(assembly.model(m), assembly.model_parameters(m, subject.free),
+                                                  domain_of(assembly, m, options));
+    if (assembly.model_count() > 1) fmt::print("  model '{}'\n", assembly.model_name(m));
+    const char* const margin = assembly.model_count() > 1 ? "    " : "  ";
+    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging(margin, sentence));
+  }
   if (!directory) return done;
-  comparison::write_stability_tables(directory->path(), {{options.model, &assembly, subject.free, domain.largest}});
+  comparison::write_stability_tables(directory->path(), {{subject.model, &assembly, subject.free, limit}});
   fmt::print("{}\n{}\n", (directory->path() / "stability.csv").string(), (directory->path() / "energy.csv").string());
   if (options.map.empty()) return done;
   const auto file = directory->path() / "stability_map.csv";
@@ -73,7 +84,8 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<StabilityOptions>();
   auto* verb = app.add_subcommand("stability", "Is a parameter set a stable material? Over which stretches?");
   verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
-  verb->add_option("--model", options->model, "Name of a model in the experiment")->required()->type_name("M");
+  verb->add_option("--model", options->model, "Name of a model in the experiment; not where tests name all in layers")
+      ->type_name("M");
   verb->add_option("--parameters", options->parameters,
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");

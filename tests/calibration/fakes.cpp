@@ -167,6 +167,54 @@ class Curve : public Test {
   TestDescription description_;
 };
 
+/// y = gain Σ thickness S(x) over layers, each with its model.
+class Stack final : public Test {
+ public:
+  explicit Stack(const TestSetup& setup) : thickness_(setup.layers) {
+    x_.assign(setup.rows.abscissae.front().values.begin(), setup.rows.abscissae.front().values.end());
+    rows_ = {setup.rows.count, {{"x", x_}}, setup.rows.channels, {}};
+    description_.parameters = {{"gain", "1", 1, 0.5, 2, Scale::linear, "gain", ""}};
+    if (thickness_.empty())
+      description_.parameters.push_back({"bend", "1", 0, 0, 1, Scale::linear, "of one layer", ""});
+    description_.nulls = {std::numeric_limits<double>::quiet_NaN(), 0};
+    description_.nulls.resize(description_.parameters.size());
+  }
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    const std::size_t n = rows_.count, models = input.model_parameters.size();
+    const Model* const one = &input.model;
+    const auto layers = input.layers.empty() ? std::span(&one, 1) : input.layers;
+    std::vector<double> sum(n, 0.0), C(6 * n, 0.0), stress(6 * n);
+    std::copy(x_.begin(), x_.end(), C.begin());
+    std::size_t first = 0;
+    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+      const std::size_t count = layers[layer]->describe().parameters.size();
+      const double factor = input.test_parameters[0] * (thickness_.empty() ? 1 : thickness_[layer]);
+      std::vector<double> by(output.jacobian.empty() ? 0 : 6 * count * n);
+      Status status = layers[layer]->evaluate({n, C, input.model_parameters.subspan(first, count), {}, {}},
+                                              {{}, stress, {}, by, {}});
+      if (!status.ok()) return status;
+      for (std::size_t i = 0; i < n; ++i) {
+        sum[i] += factor * stress[i];
+        for (std::size_t j = 0; j < by.size() / (6 * n); ++j)
+          output.jacobian[(first + j) * n + i] = factor * by[6 * j * n + i];
+      }
+      first += count;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!output.values.empty()) output.values[i] = sum[i];
+      if (!output.jacobian.empty()) output.jacobian[models * n + i] = sum[i] / input.test_parameters[0];
+    }
+    return {};
+  }
+
+ private:
+  std::vector<double> x_, thickness_;
+  TestRows rows_;
+  TestDescription description_;
+};
+
 /// A test in a mechanism: y + v, or y·(1 + v).
 class WrappedTest : public Test {
  public:
@@ -245,6 +293,15 @@ void register_all(plugins::Catalogue::Stage& stage) {
   stage.add(TestFactory{"costly_curve", "", "", {}, observables, [](const TestSetup& setup) {
                           return std::make_unique<Curve>(setup, true);
                         }});
+  stage.add(TestFactory{
+      "stack",
+      "",
+      "",
+      {},
+      {observables[0], observables[1]},
+      [](const TestSetup& setup) { return std::make_unique<Stack>(setup); },
+      {{"gain", "1", 1, 0.5, 2, Scale::linear, "gain", ""}, {"bend", "1", 0, 0, 1, Scale::linear, "of one layer", ""}},
+      true});
   add_model_mechanism(stage, "cubic", Stage::energy, {"beta", "kPa", 0, -1, 1, Scale::linear, "cubic term", ""},
                       WrappedModel::Kind::cubic);
   add_model_mechanism(stage, "doubling", Stage::stress, {"factor", "1", 1, 0, 4, Scale::linear, "factor", ""},

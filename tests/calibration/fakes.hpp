@@ -18,7 +18,7 @@
 ///   valley     S = (2p + q) x + r x², which no data can take apart into p and q; declares 2p + q
 ///
 /// The fake test "curve" predicts y = gain S(x) + tilt x and, if mapped, z = 10 y; tilt is a native imperfection;
-/// "costly_curve" says of itself that it is costly.
+/// "costly_curve" says of itself that it is costly; "stack" predicts y = gain Σ thickness S(x) over layers of models.
 /// Mechanisms: cubic (energy, S + beta x³), doubling (stress, S·factor), memory (history, without derivatives),
 /// offset (test, y + value), scale_error (data, y·(1 + value)), strip_only (test, applies to "strip" alone).
 namespace tunica::fakes {

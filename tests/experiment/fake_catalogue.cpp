@@ -80,13 +80,19 @@ void add_tests(Registry& registry) {
       {"inner_radius", Option::Kind::quantity, {}, "Unloaded inner radius", "mm", 1e-3, {}, {}},
       {"thickness", Option::Kind::quantity, {}, "Unloaded wall thickness", "mm", 1e-3, {}, {}},
       {"axial_stretch", Option::Kind::number, 1.0, "Axial stretch held", "", 0.1, 10.0, {}},
-      {"layers", Option::Kind::json, "[]", "Layers of the wall", "", {}, {}, {}}};
+      {"remarks", Option::Kind::json, "[]", "What was seen", "", {}, {}, {}}};
   const std::vector<Observable> tube = {
       {"pressure", "kPa", Role::abscissa, true, "inner pressure", Kind::plain},
       {"outer_diameter_stretch", "1", Role::channel, false, "D/D0", Kind::stretch},
       {"axial_force", "mN", Role::channel, false, "reduced axial force", Kind::plain}};
-  registry.add(TestFactory{"thick_wall_pressurisation", "A tube inflated", "", tube_options, tube,
-                           [](const TestSetup&) { return nullptr; }});
+  registry.add(TestFactory{"thick_wall_pressurisation",
+                           "A tube inflated",
+                           "",
+                           tube_options,
+                           tube,
+                           [](const TestSetup&) { return nullptr; },
+                           {{"opening_angle", "deg", 0, -90, 330, Scale::linear, "", ""}},
+                           true});
 }
 
 void add_optimizers(Registry& registry) {

@@ -35,7 +35,7 @@ TEST_F(ReadExperiment, ReadsTheExampleOfTheDesign) {
   EXPECT_EQ(strip.data.noise[0].second.relative, 0.02);
   const TestEntry& tube = e.test("inflation");
   EXPECT_EQ(tube.options.number("inner_radius"), 3.71);
-  EXPECT_EQ(tube.options.text("layers"), "[]");
+  EXPECT_EQ(tube.options.text("remarks"), "[]");
   EXPECT_EQ(tube.weights, (std::vector<double>{1, 1}));
   EXPECT_EQ(e.optimizer("es").options.integer("parents"), 30);
   EXPECT_TRUE(e.optimizer("lm").options.flag("polish"));
@@ -103,7 +103,7 @@ TEST_F(ReadExperiment, ReadsRichTestsThatWriteBackTheSame) {
           R"("file": "circ.csv",)",
           R"("files": ["circ.csv", "circ2.csv"], "where": {"specimen": 7, "side": "left"}, "time_from": {"rate": "1 %/min"},)",
           with(R"("hold_out": false)", R"("hold_out": "10:20:2")",
-               with(R"("axial_stretch": 1.2,)", R"("layers": [{"model": "media", "thickness": "0.97 mm"}],)")))));
+               with(R"("axial_stretch": 1.2,)", R"("remarks": [{"at": "80 mmHg", "seen": "a leak"}],)")))));
   const TestEntry& strip = e.test("circumferential_strip");
   EXPECT_EQ(strip.data.files.size(), 2u);
   EXPECT_EQ(strip.data.where[0], (std::pair<std::string, std::string>{"specimen", "7"}));
@@ -111,7 +111,7 @@ TEST_F(ReadExperiment, ReadsRichTestsThatWriteBackTheSame) {
   EXPECT_EQ(strip.hold_out.rows->first, 10u);
   EXPECT_EQ(strip.hold_out.rows->step, 2u);
   EXPECT_EQ(strip.weights, std::vector<double>{0.5});
-  EXPECT_EQ(e.test("inflation").options.text("layers"), R"([{"model":"media","thickness":"0.97 mm"}])");
+  EXPECT_EQ(e.test("inflation").options.text("remarks"), R"([{"at":"80 mmHg","seen":"a leak"}])");
   EXPECT_EQ(e.test("inflation").options.number("axial_stretch"), 1.0);
   EXPECT_EQ(read(e.input_json).input_json, e.input_json);
 }

@@ -47,6 +47,8 @@ TEST_F(Schema, AcceptsWhatTheReaderAccepts) {
        R"("kappa": {"fixed": 0.1}, "theta": {"prior": {"mean": "45 deg", "sd": 5}})"},
       {R"({"type": "standardised_quadratic"})", R"("sum_of_norms")"},
       {R"("realisations": 100)", R"("tests": ["inflation"], "constraints": [], "stop": {"stall": 3})"},
+      {R"("axial_stretch": 1.2,)",
+       R"("layers": [{"model": "gho", "thickness": "0.97 mm"}, {"model": "gho", "thickness": 1}],)"},
       {R"("weight": 1,)", R"("mechanisms": [{"type": "force_offset"}, {"type": "outliers", "rows": "3"}],)"}};
   for (const auto& [piece, replacement] : variants) {
     EXPECT_EQ(refusal(piece, replacement), "");
@@ -80,6 +82,10 @@ TEST_F(Schema, RefusesWhatTheReaderRefuses) {
       {R"("stall": 500)", R"("stall": 0)"},
       {R"("stages": ["es", "lm"])", R"("stages": ["es", "lm"], "parents": 3)"},
       {R"("model": "gho", "optimizer": "es", )", R"("model": "gho", )"},
+      {R"("axial_stretch": 1.2,)", R"("layers": [],)"},
+      {R"("axial_stretch": 1.2,)", R"("layers": [{"model": "gho"}],)"},
+      {R"("axial_stretch": 1.2,)", R"("layers": [{"model": "gho", "thickness": "0.97 mm", "angle": 3}],)"},
+      {R"("weight": 1,)", R"("layers": [{"model": "gho", "thickness": "0.97 mm"}],)"},
       {R"("alpha": 0.05)", R"("alpha": 1)"}};
   for (const auto& [piece, replacement] : variants) {
     EXPECT_NE(refusal(piece, replacement), "") << replacement;
@@ -119,6 +125,27 @@ struct ResultSchema : ::testing::Test {
 };
 
 TEST_F(ResultSchema, AcceptsTheSample) { EXPECT_TRUE(accepts(sample)); }
+
+TEST_F(ResultSchema, HoldsTheStabilityOfOneModelOrOfSeveralByName) {
+  const json condition = {
+      {"holds", true}, {"first_lost", nullptr}, {"path", "a strip"}, {"checked_to", 1.5}, {"paths", json::object()}};
+  const json of_model = {{"transverse", json::array()},
+                         {"ellipticity", condition},
+                         {"drucker", nullptr},
+                         {"inadmissible", json::array()},
+                         {"sentences", json::array()}};
+  json& stability = sample["/runs/0/best/stability"_json_pointer];
+  const json common = {{"imposed", nullptr}, {"ratio_to_free", nullptr}};
+  stability = common;
+  EXPECT_FALSE(accepts(sample)) << "of no model";
+  stability.update(of_model);
+  EXPECT_TRUE(accepts(sample));
+  stability = common;
+  stability["models"] = {{"media", of_model}, {"adventitia", of_model}};
+  EXPECT_TRUE(accepts(sample));
+  stability["models"]["media"].erase("ellipticity");
+  EXPECT_FALSE(accepts(sample));
+}
 
 TEST_F(ResultSchema, RefusesWhatReadersCouldNotUse) {
   const std::vector<std::pair<const char*, json>> damages = {{"/format", 2},

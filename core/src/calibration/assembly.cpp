@@ -70,7 +70,7 @@ std::vector<ChannelView> views(const experiment::TestEntry& entry, const data::D
 }
 
 /// The chain rule of one test, see BoundTest.
-void chain(BoundTest& test, const Bound& model, std::size_t free_count) {
+void chain(BoundTest& test, std::size_t free_count) {
   std::vector<std::optional<std::size_t>> first(free_count);
   const auto visit = [&](const Link& link, std::size_t slot) {
     if (first[link.index]) {
@@ -79,8 +79,8 @@ void chain(BoundTest& test, const Bound& model, std::size_t free_count) {
       first[link.index] = slot;
     }
   };
-  for (const Link& link : model.links) visit(link, link.position);
-  for (const Link& link : test.own.links) visit(link, model.values.size() + link.position);
+  for (const Link& link : test.materials.links) visit(link, link.position);
+  for (const Link& link : test.own.links) visit(link, test.materials.values.size() + link.position);
   for (std::size_t index = 0; index < free_count; ++index) {
     if (!first[index]) {
       test.untouched.push_back(index);
@@ -92,10 +92,11 @@ void chain(BoundTest& test, const Bound& model, std::size_t free_count) {
 }
 
 /// The model's combinations as functions of the free values; one without a free argument says nothing.
-std::vector<Combination> free_combinations(const std::vector<Combination>& of_model, const Bound& bound) {
-  std::vector<Combination> found;
-  for (const Combination& combination : of_model) {
-    Combination free{combination.name, combination.unit, {}, {}, combination.remedy};
+void add_combinations(const BoundModel& model, bool several, std::vector<Combination>& found) {
+  const Bound& bound = model.parameters;
+  for (const Combination& combination : model.model->describe().combinations) {
+    const std::string name = several ? fmt::format("{} ({})", model.name, combination.name) : combination.name;
+    Combination free{name, combination.unit, {}, {}, combination.remedy};
     for (const Link& link : bound.links) {
       const auto& arguments = combination.arguments;
       if (std::find(arguments.begin(), arguments.end(), link.position) == arguments.end()) continue;
@@ -111,7 +112,38 @@ std::vector<Combination> free_combinations(const std::vector<Combination>& of_mo
     };
     found.push_back(std::move(free));
   }
-  return found;
+}
+
+/// Gives a test its models: that of the run, or one a layer; layers that share one have a copy of its parameters each.
+void give_models(BoundTest& test, const experiment::TestEntry& entry, const std::vector<BoundModel>& models) {
+  const auto add = [&test](const BoundModel& model) {
+    const std::size_t first = test.materials.values.size();
+    const std::vector<double>& values = model.parameters.values;
+    test.materials.values.insert(test.materials.values.end(), values.begin(), values.end());
+    for (const Link& link : model.parameters.links) test.materials.links.push_back({first + link.position, link.index});
+    test.differenced = test.differenced || !model.model->describe().parameter_derivatives;
+    if (test.model_plugins.find(model.plugin) == std::string::npos)
+      test.model_plugins += (test.model_plugins.empty() ? "" : ", ") + model.plugin;
+  };
+  if (entry.layers.empty()) add(models.front());
+  for (const experiment::LayerEntry& layer : entry.layers) {
+    const auto named = std::find_if(models.begin(), models.end(),
+                                    [&layer](const BoundModel& candidate) { return candidate.name == layer.model; });
+    test.layers.push_back(named->model.get());
+    add(*named);
+  }
+  test.model = test.layers.empty() ? models.front().model.get() : test.layers.front();
+}
+
+/// Names of several models and of tests begin the names of parameters.
+void refuse_one_name_for_two(const std::vector<std::string>& models, const std::vector<std::string>& tests) {
+  if (models.size() < 2) return;
+  for (const std::string& model : models)
+    if (std::find(tests.begin(), tests.end(), model) != tests.end())
+      throw InputError(fmt::format(
+          "a model and a test are called '{}', and in a run with several models '{}.…' would be the name of "
+          "parameters of both; rename one of them",
+          model, model));
 }
 
 /// Notes the strips and the largest stretch that a test prescribes.
@@ -125,6 +157,7 @@ void add_stretches(const Test& test, const std::vector<Observable>& observables,
     for (const double stretch : column.values) largest = std::max(largest, stretch);
     if (test.describe().free_strip_axis && column.observable == "stretch")
       strips.push_back({name,
+                        0,
                         std::min<std::size_t>(*test.describe().free_strip_axis, 1),
                         {column.values.begin(), column.values.end()}});
   }
@@ -164,20 +197,26 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
                    const plugins::Catalogue& catalogue)
     : parts_(std::make_unique<Parts>()) {
   Parts& parts = *parts_;
-  ComposedModel model = compose_model(experiment.model(run.model), catalogue);
-  std::vector<std::vector<Slot>> slots{std::move(model.slots)};
+  const std::vector<std::string> names = experiment.models_of(run);
+  const bool several = names.size() > 1;
+  refuse_one_name_for_two(names, run.tests);
+  std::vector<std::vector<Slot>> slots;
+  for (const std::string& name : names) {
+    ComposedModel model = compose_model(experiment.model(name), catalogue, several ? name + "." : "");
+    parts.models.push_back({name, std::move(model.plugin), std::move(model.model), {}});
+    slots.push_back(std::move(model.slots));
+  }
   std::vector<ComposedTest> tests;
   for (const std::string& name : run.tests) {
     tests.push_back(compose_test(experiment.test(name), catalogue));
     slots.push_back(tests.back().slots);
   }
   Binding binding = bind_parameters(slots);
-  parts.model = std::move(model.model), parts.model_plugin = std::move(model.plugin);
-  parts.model_parameters = std::move(binding.owners[0]);
+  for (std::size_t m = 0; m < names.size(); ++m) parts.models[m].parameters = std::move(binding.owners[m]);
   parts.free = std::move(binding.free), parts.fixed = std::move(binding.fixed);
   std::transform(parts.free.begin(), parts.free.end(), std::back_inserter(parts.maps), map_of);
   parts.warnings = out_of_range(parts.free, parts.fixed);
-  parts.combinations = free_combinations(parts.model->describe().combinations, parts.model_parameters);
+  for (const BoundModel& model : parts.models) add_combinations(model, several, parts.combinations);
 
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const experiment::TestEntry& entry = experiment.test(run.tests[t]);
@@ -185,10 +224,10 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
     BoundTest test;
     test.name = entry.name, test.plugin = std::move(tests[t].plugin), test.test = std::move(tests[t].test);
     test.rows = dataset.count, test.channels = dataset.channels.size(), test.offset = parts.prediction_count;
-    test.own = std::move(binding.owners[t + 1]);
-    test.differenced = !parts.model->describe().parameter_derivatives;
+    test.own = std::move(binding.owners[names.size() + t]);
+    give_models(test, entry, parts.models);
     test.costly = test.test->describe().costly;
-    chain(test, parts.model_parameters, parts.free.size());
+    chain(test, parts.free.size());
     const auto& observables = catalogue.tests().at(entry.type).factory.observables;
     add_stretches(*test.test, observables, entry.name, parts.strips, parts.largest_stretch);
     for (const std::string& warning : dataset.warnings) {
@@ -240,8 +279,10 @@ Assembly::Assembly(const experiment::Experiment& experiment, const experiment::R
     parts.residual_count += parts.priors.size();
   }
 
-  parts.constraints = make_constraints(run.constraints, *parts.model, parts.strips);
-  for (const auto& constraint : parts.constraints) parts.constraint_count += constraint->count();
+  std::vector<const Model*> models;
+  for (const BoundModel& model : parts.models) models.push_back(model.model.get());
+  parts.constraints = make_constraints(run.constraints, models, parts.strips);
+  for (const auto& [model, constraint] : parts.constraints) parts.constraint_count += constraint->count();
   parts.largest_stretch = std::max(parts.largest_stretch, stated_range(run.constraints));
 }
 
@@ -258,13 +299,16 @@ const std::vector<std::string>& Assembly::warnings() const { return parts_->warn
 const std::vector<std::string>& Assembly::data_hashes() const { return parts_->data_hashes; }
 const std::vector<Combination>& Assembly::combinations() const { return parts_->combinations; }
 
-const Model& Assembly::model() const { return *parts_->model; }
+std::size_t Assembly::model_count() const { return parts_->models.size(); }
+const std::string& Assembly::model_name(std::size_t model) const { return parts_->models[model].name; }
+const Model& Assembly::model(std::size_t model) const { return *parts_->models[model].model; }
 const std::vector<Strip>& Assembly::strips() const { return parts_->strips; }
 double Assembly::largest_stretch() const { return parts_->largest_stretch; }
 
-std::vector<double> Assembly::model_parameters(std::span<const double> free) const {
-  std::vector<double> all = parts_->model_parameters.values;
-  for (const Link& link : parts_->model_parameters.links) all[link.position] = free[link.index];
+std::vector<double> Assembly::model_parameters(std::size_t model, std::span<const double> free) const {
+  const Bound& bound = parts_->models[model].parameters;
+  std::vector<double> all = bound.values;
+  for (const Link& link : bound.links) all[link.position] = free[link.index];
   return all;
 }
 

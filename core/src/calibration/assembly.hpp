@@ -53,7 +53,7 @@ struct ChannelView {
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
 };
 
-/// One run's model (with mechanisms) and tests (bound to their data), from parameters to predictions, residuals and
+/// One run's models (with mechanisms) and tests (bound to their data), from parameters to predictions, residuals and
 /// objective. Const and thread-safe after construction; each thread brings a workspace, evaluation allocates nothing.
 class Assembly {
  public:
@@ -78,7 +78,7 @@ class Assembly {
   [[nodiscard]] std::size_t residual_count() const;                ///< fitted rows and priors
   [[nodiscard]] const std::vector<std::string>& warnings() const;
   [[nodiscard]] const std::vector<std::string>& data_hashes() const;  ///< "circ.csv sha256:…"
-  /// Known invariances of the model, arguments as indices into parameters(); value() takes the free values.
+  /// Known invariances of the models, arguments as indices into parameters(); value() takes the free values.
   [[nodiscard]] const std::vector<Combination>& combinations() const;
   [[nodiscard]] bool jacobian_is_exact() const;  ///< false: some test's predictions are differenced
   [[nodiscard]] bool has_costly_tests() const;   ///< some fitted test declares itself costly
@@ -124,8 +124,12 @@ class Assembly {
   /// What is broken when constraint i is positive, in words.
   [[nodiscard]] std::string constraint_words(std::size_t i, double value) const;
 
-  [[nodiscard]] const Model& model() const;                                                ///< with its mechanisms
-  [[nodiscard]] std::vector<double> model_parameters(std::span<const double> free) const;  ///< all, in its order
+  /// Models of the run with their mechanisms: its own first, then those of layers.
+  [[nodiscard]] std::size_t model_count() const;
+  [[nodiscard]] const std::string& model_name(std::size_t model) const;
+  [[nodiscard]] const Model& model(std::size_t model) const;
+  /// All parameters of a model, in its order.
+  [[nodiscard]] std::vector<double> model_parameters(std::size_t model, std::span<const double> free) const;
   [[nodiscard]] const std::vector<Strip>& strips() const;  ///< free strips among the tests
   [[nodiscard]] double largest_stretch() const;  ///< among the abscissae of all tests and stated ranges; 1 = none
 

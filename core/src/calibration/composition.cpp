@@ -98,16 +98,30 @@ void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decora
   refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->type, owner));
 }
 
+/// Parameters that tests of the type have, but not one with these options.
+void refuse_excluded(const experiment::TestEntry& entry, const std::vector<Parameter>& of_type,
+                     const std::vector<Parameter>& of_test, const std::string& owner) {
+  const auto among = [](const std::vector<Parameter>& parameters, const std::string& name) {
+    return std::any_of(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  };
+  for (const auto& [name, setting] : entry.parameters)
+    if (among(of_type, name) && !among(of_test, name))
+      throw InputError(fmt::format("{}: the parameter '{}' means nothing in {} {}; leave one of them out",
+                                   setting.pointer, name, owner,
+                                   entry.layers.empty() ? "with these options" : "with \"layers\""));
+}
+
 }  // namespace
 
-ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue) {
+ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue,
+                            const std::string& prefix) {
   const std::string owner = fmt::format("model '{}'", entry.name);
   const auto& on_shelf = look_up(catalogue.models(), entry.type, "model type");
   ComposedModel composed{plugins::create(on_shelf, entry.options), on_shelf.plugin, {}};
-  composed.slots = own_slots(composed.model->describe().parameters, entry.parameters, "", owner);
+  composed.slots = own_slots(composed.model->describe().parameters, entry.parameters, prefix, owner);
   for (const Layer& layer : layers(entry.mechanisms, catalogue, owner, true)) {
     composed.model = plugins::wrap(*layer.mechanism, std::move(composed.model), layer.entry->options);
-    append_slots(composed.slots, composed.model->describe().parameters, layer, "", owner);
+    append_slots(composed.slots, composed.model->describe().parameters, layer, prefix, owner);
   }
   return composed;
 }
@@ -118,11 +132,14 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   ComposedTest composed{{}, on_shelf.plugin, {}, {}};
   try {
     composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
-    composed.test = plugins::create(on_shelf, {entry.options, composed.dataset.rows(), entry.data.stress_measure});
+    TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
+    for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
+    composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", owner, problem.what()));
   }
   const TestDescription& bare = composed.test->describe();
+  refuse_excluded(entry, on_shelf.factory.parameters, bare.parameters, owner);
   composed.slots = own_slots(bare.parameters, entry.parameters, prefix, owner);
   for (std::size_t k = 0; k < std::min(bare.nulls.size(), composed.slots.size()); ++k)
     composed.slots[k].null = bare.nulls[k];

@@ -21,7 +21,9 @@ struct ComposedModel {
   std::string plugin;       ///< "gho 0.1.0"
   std::vector<Slot> slots;  ///< one per parameter of the outermost description
 };
-ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue);
+/// `prefix` stands before the outside names of its parameters.
+ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue,
+                            const std::string& prefix);
 
 /// A test bound to its data, inside its mechanisms; outside names carry the test's name.
 struct ComposedTest {

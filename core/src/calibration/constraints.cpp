@@ -97,14 +97,14 @@ std::vector<double> evenly(double first, double last, std::size_t count) {
   return values;
 }
 
-void add_transverse(const experiment::ConstraintEntry& entry, const Model& model, const std::vector<Strip>& strips,
-                    std::vector<std::unique_ptr<Constraint>>& all) {
-  const std::size_t before = all.size();
+void add_transverse(const experiment::ConstraintEntry& entry, std::size_t number, const Model& model,
+                    const std::vector<Strip>& strips, std::vector<ModelConstraint>& all) {
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
     if (!entry.directions[axis]) continue;
     std::vector<double> stretches;
     for (const Strip& strip : strips)
-      if (strip.axis == axis) stretches.insert(stretches.end(), strip.stretches.begin(), strip.stretches.end());
+      if (strip.model == number && strip.axis == axis)
+        stretches.insert(stretches.end(), strip.stretches.begin(), strip.stretches.end());
     unite(stretches);
     constexpr std::size_t default_points = 41;
     if (entry.points && !stretches.empty()) stretches = evenly(stretches.front(), stretches.back(), *entry.points);
@@ -113,32 +113,40 @@ void add_transverse(const experiment::ConstraintEntry& entry, const Model& model
       stretches.insert(stretches.end(), stated.begin(), stated.end());
       unite(stretches);
     }
-    if (!stretches.empty()) all.push_back(std::make_unique<TransverseStability>(model, axis, stretches, entry.h));
+    if (!stretches.empty())
+      all.push_back({number, std::make_unique<TransverseStability>(model, axis, stretches, entry.h)});
   }
-  if (all.size() == before)
+}
+
+void refuse_empty(const experiment::ConstraintEntry& entry, const std::vector<const Model*>& models) {
+  if (entry.type == "transverse_stability")
     throw InputError(
         fmt::format("{}: the run has no free strip in the direction asked for, so there is no stretch to ask for "
                     "transverse stability at; add a test of type 'uniaxial', or state the stretches: "
                     "\"range\": [1, 1.5]",
                     entry.pointer));
+  const std::string who = models.size() == 1 ? fmt::format("the model '{}' declares", models[0]->describe().type)
+                                             : std::string("the models of the run declare");
+  throw InputError(
+      fmt::format("{}: {} no inequality between {} parameters; bounds are enough. Leave the constraint out",
+                  entry.pointer, who, models.size() == 1 ? "its" : "their"));
 }
 
 }  // namespace
 
-std::vector<std::unique_ptr<Constraint>> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
-                                                          const Model& model, const std::vector<Strip>& strips) {
-  std::vector<std::unique_ptr<Constraint>> all;
+std::vector<ModelConstraint> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
+                                              const std::vector<const Model*>& models,
+                                              const std::vector<Strip>& strips) {
+  std::vector<ModelConstraint> all;
   for (const auto& entry : entries) {
-    if (entry.type == "transverse_stability") {
-      add_transverse(entry, model, strips, all);
-    } else {
-      if (model.describe().admissible.empty())
-        throw InputError(
-            fmt::format("{}: the model '{}' declares no inequality between its parameters; bounds are enough for it. "
-                        "Leave the constraint out",
-                        entry.pointer, model.describe().type));
-      all.push_back(std::make_unique<AdmissibleParameters>(model));
+    const std::size_t before = all.size();
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      if (entry.type == "transverse_stability")
+        add_transverse(entry, m, *models[m], strips, all);
+      else if (!models[m]->describe().admissible.empty())
+        all.push_back({m, std::make_unique<AdmissibleParameters>(*models[m])});
     }
+    if (all.size() == before) refuse_empty(entry, models);
   }
   return all;
 }

@@ -15,11 +15,12 @@ namespace tunica::calibration {
 /// A strip with free lateral faces among the tests of a run, and the stretches it was measured at.
 struct Strip {
   std::string test;
-  std::size_t axis = 0;  ///< 0 = circumferential, 1 = axial
+  std::size_t model = 0;  ///< which of the run's it is made of
+  std::size_t axis = 0;   ///< 0 = circumferential, 1 = axial
   std::vector<double> stretches;
 };
 
-/// Conditions c(p) ≤ 0 on the model's parameters. Const and thread-safe; refers to the model.
+/// Conditions c(p) ≤ 0 on a model's parameters. Const and thread-safe; refers to the model.
 class Constraint {
  public:
   virtual ~Constraint() = default;
@@ -31,13 +32,21 @@ class Constraint {
   [[nodiscard]] virtual std::string words(std::size_t i, double value) const = 0;
 };
 
+/// A constraint on one of the run's models.
+struct ModelConstraint {
+  std::size_t model;
+  std::unique_ptr<Constraint> constraint;
+};
+
 /// transverse_stability   one value a stretch of every strip, `range` and `points` (docs/experiment-file.md);
-/// admissible_parameters  one value an inequality that the model declares.
+/// admissible_parameters  one value an inequality that a model declares.
 ///
+/// Each is asked of every model: at the strips that are made of it, over a range, of the inequalities it declares.
 /// Throws InputError, with the place in the file, where a constraint says nothing: no strip and no range, no
 /// inequality declared.
-std::vector<std::unique_ptr<Constraint>> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
-                                                          const Model& model, const std::vector<Strip>& strips);
+std::vector<ModelConstraint> make_constraints(const std::vector<experiment::ConstraintEntry>& entries,
+                                              const std::vector<const Model*>& models,
+                                              const std::vector<Strip>& strips);
 
 /// The largest stretch at which the constraints of a run ask for stability beyond its strips; 1 = none.
 double stated_range(const std::vector<experiment::ConstraintEntry>& entries);

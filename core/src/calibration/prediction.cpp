@@ -49,13 +49,13 @@ void write_rows(const FittedChannel& channel, const BoundTest& test, const doubl
 
 }  // namespace
 
-Assembly::Workspace::Workspace(const Parts& parts) : model_parameters(parts.model_parameters.values) {
+Assembly::Workspace::Workspace(const Parts& parts) {
+  for (const BoundModel& model : parts.models) model_parameters.push_back(model.parameters.values);
   std::size_t largest = 0, jacobian_size = 0;
   for (const BoundTest& test : parts.tests) {
-    test_parameters.push_back(test.own.values);
+    materials.push_back(test.materials.values), own.push_back(test.own.values);
     largest = std::max(largest, test.size());
-    const std::size_t slots = model_parameters.size() + test.own.values.size();
-    jacobian_size = std::max(jacobian_size, test.size() * std::max(slots, parts.free.size()));
+    jacobian_size = std::max(jacobian_size, test.size() * std::max(test.slots(), parts.free.size()));
   }
   predictions.resize(parts.prediction_count);
   jacobian.resize(jacobian_size);
@@ -72,25 +72,28 @@ std::string Assembly::Parts::place(const BoundTest& test, std::size_t position) 
                      view->abscissa[row]);
 }
 
+TestInput Assembly::Parts::input(const BoundTest& test, std::span<const double> at, Workspace& workspace) const {
+  const auto number = static_cast<std::size_t>(&test - tests.data());
+  std::vector<double>&materials = workspace.materials[number], &own = workspace.own[number];
+  for (const Link& link : test.materials.links) materials[link.position] = at[link.index];
+  for (const Link& link : test.own.links) own[link.position] = at[link.index];
+  return {*test.model, materials, own, {}, test.layers};
+}
+
 Status Assembly::Parts::call(const BoundTest& test, std::span<const double> at, std::span<double> values,
                              std::span<double> jacobian, Workspace& workspace) const {
-  const auto number = static_cast<std::size_t>(&test - tests.data());
-  std::vector<double>& own = workspace.test_parameters[number];
-  for (const Link& link : model_parameters.links) workspace.model_parameters[link.position] = at[link.index];
-  for (const Link& link : test.own.links) own[link.position] = at[link.index];
   try {
-    if (Status status = test.test->predict({*model, workspace.model_parameters, own}, {values, jacobian, {}, {}});
-        !status.ok()) {
+    if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok()) {
       return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
     }
   } catch (const std::exception& problem) {
     return Status::failed(fmt::format("test '{}': plugin '{}' with model plugin '{}' threw: {}", test.name, test.plugin,
-                                      model_plugin, problem.what()));
+                                      test.model_plugins, problem.what()));
   } catch (...) {
     return Status::failed(
         fmt::format("test '{}': plugin '{}' with model plugin '{}' threw something that is no "
                     "std::exception",
-                    test.name, test.plugin, model_plugin));
+                    test.name, test.plugin, test.model_plugins));
   }
   if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
     return Status::failed(
@@ -106,8 +109,7 @@ Status Assembly::Parts::predict(const BoundTest& test, std::span<const double> a
     if (Status status = call(test, at, values, {}, workspace); !status.ok() || !jacobian) return status;
     return difference(test, at, values, workspace);
   }
-  const std::size_t slots = workspace.model_parameters.size() + test.own.values.size();
-  const std::span<double> by_slot(workspace.jacobian.data(), slots * size);
+  const std::span<double> by_slot(workspace.jacobian.data(), test.slots() * size);
   if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) return status;
   for (const auto& [into, from] : test.sums) {
     for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
@@ -243,11 +245,8 @@ Status Assembly::ask(std::size_t number, std::span<const double> free,
                      const std::function<Status(const Test&, const TestInput&)>& question) const {
   const BoundTest& test = parts_->tests.at(number);
   Workspace workspace(*parts_);
-  std::vector<double>& own = workspace.test_parameters[number];
-  for (const Link& link : parts_->model_parameters.links) workspace.model_parameters[link.position] = free[link.index];
-  for (const Link& link : test.own.links) own[link.position] = free[link.index];
   try {
-    return question(*test.test, {*parts_->model, workspace.model_parameters, own});
+    return question(*test.test, parts_->input(test, free, workspace));
   } catch (const std::exception& problem) {
     return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
   } catch (...) {

@@ -32,10 +32,10 @@ struct Seen {
   std::vector<double> change;  ///< by step, of the largest
 };
 
-bool look(const Assembly& assembly, std::span<const double> free, const std::vector<std::vector<double>>& steps,
-          const Sheet& sheet, double stretch, Seen& seen) {
-  const Model& model = assembly.model();
-  const std::vector<double> parameters = assembly.model_parameters(free);
+bool look(const Assembly& assembly, std::size_t number, std::span<const double> free,
+          const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch, Seen& seen) {
+  const Model& model = assembly.model(number);
+  const std::vector<double> parameters = assembly.model_parameters(number, free);
   std::vector<double> C(6 * stretches, 0.0), stress(6 * stretches, 0.0), by(parameters.size() * 6 * stretches, 0.0);
   const double c = std::cos(sheet.angle), s = std::sin(sheet.angle);
   for (std::size_t i = 0; i < stretches; ++i) {
@@ -67,7 +67,7 @@ bool look(const Assembly& assembly, std::span<const double> free, const std::vec
     for (std::size_t k = 0; k < steps.size(); ++k) {
       std::vector<double> moved(free.begin(), free.end());
       for (std::size_t j = 0; j < moved.size(); ++j) moved[j] += steps[k][j];
-      const std::vector<double> there = assembly.model_parameters(moved);
+      const std::vector<double> there = assembly.model_parameters(number, moved);
       double sum[3] = {}, dS[3];
       for (std::size_t p = 0; p < parameters.size(); ++p) {
         in_plane(by.data() + 6 * p * stretches, i, dS);
@@ -112,19 +112,22 @@ const char* const elsewhere =
 std::string remedy_in_words(const Assembly& assembly, std::span<const double> free,
                             const std::vector<std::vector<double>>& steps) {
   const double stretch = assembly.largest_stretch();
-  if (!(stretch > 1) || steps.empty() || !assembly.model().describe().parameter_derivatives) return elsewhere;
+  if (!(stretch > 1) || steps.empty()) return elsewhere;
   const std::vector<double> now = present(assembly, free, steps);
   if (now.empty()) return elsewhere;
   // How many times as well as the present tests the worst direction is seen. Exact valleys: as well as rounding lets us
   // tell.
-  std::vector<double> gains;
-  for (const Sheet& sheet : sheets) {
-    Seen seen;
-    double gain = std::numeric_limits<double>::infinity();
-    if (!look(assembly, free, steps, sheet, stretch, seen)) gain = 0;
-    for (std::size_t k = 0; k < seen.change.size() && gain > 0; ++k)
-      gain = std::min(gain, seen.change[k] / seen.largest / std::max(now[k], 1e-9));
-    gains.push_back(gain);
+  std::vector<double> gains;  // by model, then by sheet
+  for (std::size_t model = 0; model < assembly.model_count(); ++model) {
+    if (!assembly.model(model).describe().parameter_derivatives) return elsewhere;
+    for (const Sheet& sheet : sheets) {
+      Seen seen;
+      double gain = std::numeric_limits<double>::infinity();
+      if (!look(assembly, model, free, steps, sheet, stretch, seen)) gain = 0;
+      for (std::size_t k = 0; k < seen.change.size() && gain > 0; ++k)
+        gain = std::min(gain, seen.change[k] / seen.largest / std::max(now[k], 1e-9));
+      gains.push_back(gain);
+    }
   }
   const double best = *std::max_element(gains.begin(), gains.end());
   if (best < worth_it)
@@ -134,9 +137,12 @@ std::string remedy_in_words(const Assembly& assembly, std::span<const double> fr
       std::find_if(gains.begin(), gains.end(), [&](double gain) { return gain >= nearly_best * best; }) -
       gains.begin());
   const double gain = gains[chosen];
+  const std::string of_model = assembly.model_count() > 1 ? fmt::format(" of the material '{}' alone",
+                                                                        assembly.model_name(chosen / std::size(sheets)))
+                                                          : "";
   return fmt::format(
-      " {} to stretch {:.3g} would show it {}: its stresses change {} along it, relative to their largest.",
-      sheets[chosen].words, stretch, gain > 1e3 ? "at all" : "best",
+      " {}{} to stretch {:.3g} would show it {}: its stresses change {} along it, relative to their largest.",
+      sheets[chosen % std::size(sheets)].words, of_model, stretch, gain > 1e3 ? "at all" : "best",
       gain > 1e3 ? std::string("where those of the present tests do not")
                  : fmt::format("{:.{}f} times as much as those of the present tests", gain, gain < 10 ? 1 : 0));
 }

@@ -79,9 +79,15 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   std::vector<std::string> known;
   for (const auto& parameter : parameters) free.push_back(parameter.initial), known.push_back(parameter.name);
   for (const auto& parameter : fixed) known.push_back(parameter.name);
-  for (const auto& [name, value] : values.items()) {
+  // A run of the model alone has names without it, where this one, with layers of other models, says whose they are.
+  const bool several = assembly.model_count() > 1;
+  for (const auto& [written, value] : values.items()) {
+    const std::string full = model + '.' + written;
+    const bool prefixed = several && std::find(known.begin(), known.end(), written) == known.end() &&
+                          std::find(known.begin(), known.end(), full) != known.end();
+    const std::string name = prefixed ? full : written;
     const std::string where = fmt::format("{}: {}", file, name);
-    const auto named = [&name = name](const auto& parameter) { return parameter.name == name; };
+    const auto named = [&name](const auto& parameter) { return parameter.name == name; };
     const auto found = std::find_if(parameters.begin(), parameters.end(), named);
     if (found != parameters.end()) {
       free[static_cast<std::size_t>(found - parameters.begin())] = value_of(value, found->unit, where);

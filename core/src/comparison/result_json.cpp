@@ -106,7 +106,7 @@ json best(const RunSummary& run) {
   json result = {{"parameters", std::move(parameters)},
                  {"objective", run.objective},
                  {"per_test", std::move(per_test)},
-                 {"stable", run.stability ? or_null(run.stability->verdict.transversely_stable()) : json(nullptr)},
+                 {"stable", run.stability ? or_null(run.stability->transversely_stable()) : json(nullptr)},
                  {"status", name(run.status.kind())},
                  {"reason", run.status.reason()},
                  {"stability", stability_json(run)},

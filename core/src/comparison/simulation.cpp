@@ -24,14 +24,23 @@ namespace {
 
 /// All tests with this model; what a run says beyond that does not enter predictions.
 experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, const std::string& model) {
+  experiment::RunEntry run;
+  bool needed = false;
+  for (const auto& test : experiment.tests) run.tests.push_back(test.name), needed = needed || test.layers.empty();
+  const std::string of_layers = experiment.model_name(run);
+  if (needed) run.model = model;
   std::vector<std::string> models;
   for (const auto& entry : experiment.models) models.push_back(entry.name);
-  if (std::find(models.begin(), models.end(), model) == models.end())
+  if (needed && model.empty())
+    throw InputError(
+        fmt::format("--model is missing, and there are tests that name no layers. {}", data::suggestion("", models)));
+  if (needed && std::find(models.begin(), models.end(), model) == models.end())
     throw InputError(
         fmt::format("--model {}: the experiment has no such model. {}", model, data::suggestion(model, models)));
-  experiment::RunEntry run;
-  run.model = model;
-  for (const auto& test : experiment.tests) run.tests.push_back(test.name);
+  if (!needed && !model.empty() && model != of_layers)
+    throw InputError(fmt::format(
+        "--model {}: serves no test: every test names its models in \"layers\"; leave --model out, or give {}", model,
+        of_layers));
   // A prediction needs neither noise nor range of the measured column, which may be a placeholder when a test is
   // planned; this objective asks for neither.
   run.objective = experiment::ObjectiveType::sum_of_norms;
@@ -64,15 +73,16 @@ int place(const std::vector<Observable>& observables, const std::string& name) {
 
 Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                    const SimulationRequest& request) {
+  const experiment::RunEntry run = all_tests_with(experiment, request.model);
   Subject subject;
-  subject.assembly =
-      std::make_unique<calibration::Assembly>(experiment, all_tests_with(experiment, request.model), catalogue);
+  subject.model = experiment.model_name(run);
+  subject.assembly = std::make_unique<calibration::Assembly>(experiment, run, catalogue);
   if (!request.run.empty() && !request.parameters)
     throw InputError("--run names a run of a result.json: name that with --parameters FILE");
   const auto& parameters = subject.assembly->parameters();
   if (request.parameters)
     std::tie(subject.free, subject.origin) =
-        read_parameters(*request.parameters, request.model, request.run, *subject.assembly);
+        read_parameters(*request.parameters, subject.model, request.run, *subject.assembly);
   else
     for (const auto& parameter : parameters) subject.free.push_back(parameter.initial);
   if (!request.parameters) subject.origin = "initial values of the experiment";

@@ -16,7 +16,7 @@
 namespace tunica::comparison {
 
 struct SimulationRequest {
-  std::string model;
+  std::string model;                                ///< of the tests that name no layers; empty where every one does
   std::optional<std::filesystem::path> parameters;  ///< a result.json, or {name: value or "value unit"}
   std::string run = {};                             ///< of the result.json; empty = the best-ranked of the model
   double noise = 0;                                 ///< relative
@@ -25,6 +25,7 @@ struct SimulationRequest {
 
 /// The model of the request with every test of the experiment, and the values its free parameters take.
 struct Subject {
+  std::string model;  ///< what results call it
   std::unique_ptr<calibration::Assembly> assembly;
   std::vector<double> free;
   std::string origin;                 ///< "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -33,6 +35,26 @@ std::size_t index_of(const calibration::Assembly& assembly, const std::string& n
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
+/// Strips along both axes; of several models the one that is worst.
+struct Strips {
+  std::array<std::optional<double>, 2> first_unstable;
+  double worst_slope = -std::numeric_limits<double>::infinity();
+};
+
+Strips judge_strips(const calibration::Assembly& assembly, std::span<const double> free, double limit) {
+  Strips worst;
+  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
+    const auto parameters = assembly.model_parameters(m, free);
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+      const auto verdict = stability::judge(assembly.model(m), parameters, axis, {}, limit);
+      auto& first = worst.first_unstable[axis];
+      if (verdict.first_unstable) first = std::min(first.value_or(*verdict.first_unstable), *verdict.first_unstable);
+      worst.worst_slope = std::max(worst.worst_slope, verdict.worst_slope);
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::string stability_map(const calibration::Assembly& assembly, std::span<const double> free,
@@ -48,16 +70,13 @@ std::string stability_map(const calibration::Assembly& assembly, std::span<const
     x[index[0]] = static_cast<double>(at / points) / static_cast<double>(points - 1);
     x[index[1]] = static_cast<double>(at % points) / static_cast<double>(points - 1);
     assembly.from_unit(x, p);
-    const auto parameters = assembly.model_parameters(p);
-    std::array<stability::TransverseVerdict, 2> verdict;
-    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-      verdict[axis] = stability::judge(assembly.model(), parameters, axis, {}, limit);
+    const Strips strips = judge_strips(assembly, p, limit);
     const auto first = [&](std::size_t axis) {
-      return verdict[axis].first_unstable ? number(*verdict[axis].first_unstable) : std::string();
+      return strips.first_unstable[axis] ? number(*strips.first_unstable[axis]) : std::string();
     };
     rows[at] = fmt::format("{},{},{},{},{},{}\n", number(p[index[0]]), number(p[index[1]]),
-                           verdict[0].first_unstable || verdict[1].first_unstable ? 0 : 1, first(0), first(1),
-                           number(std::max(verdict[0].worst_slope, verdict[1].worst_slope)));
+                           strips.first_unstable[0] || strips.first_unstable[1] ? 0 : 1, first(0), first(1),
+                           number(strips.worst_slope));
   });
   const auto header = [&](std::size_t k) {
     return execution::csv_cell(fmt::format("{} [{}]", names[k], assembly.parameters()[index[k]].unit));

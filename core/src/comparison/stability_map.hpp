@@ -10,8 +10,8 @@
 namespace tunica::comparison {
 
 /// Where in the plane of two free parameters, between their bounds (logarithmically where they are searched so), the
-/// others held at `free`, a strip is transversely stable from rest to `limit` along either axis. CSV text, one row a
-/// point:
+/// others held at `free`, a strip is transversely stable from rest to `limit` along either axis (of several models: of
+/// each). CSV text, one row a point:
 ///
 ///   <x> [unit], <y> [unit], stable (1 or 0), first_unstable_circumferential, first_unstable_axial, worst_slope
 ///

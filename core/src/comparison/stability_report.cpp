@@ -82,12 +82,42 @@ json condition(const std::optional<double>& first_lost, const std::string& path,
 
 json optional_number(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
 
+json model_json(const StabilitySummary::OfModel& found) {
+  json directions = json::array();
+  for (const auto& verdict : found.verdict.transverse)
+    directions.push_back({{"direction", direction(verdict.axis)},
+                          {"measured_from", verdict.judged_from < 1 ? json(verdict.judged_from) : json(nullptr)},
+                          {"measured_to", verdict.judged_to > 1 ? json(verdict.judged_to) : json(nullptr)},
+                          {"stable", verdict.stable ? json(*verdict.stable) : json(nullptr)},
+                          {"first_unstable", optional_number(verdict.first_unstable)},
+                          {"stable_again", optional_number(verdict.stable_again)},
+                          {"first_unstable_pressed", optional_number(verdict.first_unstable_pressed)},
+                          {"checked_from", verdict.checked_from},
+                          {"checked_to", verdict.checked_to}});
+  const auto& ellipticity = found.verdict.ellipticity;
+  const auto& drucker = found.verdict.drucker;
+  return {{"transverse", std::move(directions)},
+          {"ellipticity", condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
+          {"drucker", drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
+          {"inadmissible", found.inadmissible},
+          {"sentences", found.verdict.sentences()}};
+}
+
 }  // namespace
 
-stability::Domain domain_of(const calibration::Assembly& assembly) {
+std::optional<bool> StabilitySummary::transversely_stable() const {
+  stability::Admissibility all;
+  for (const OfModel& model : models)
+    all.transverse.insert(all.transverse.end(), model.verdict.transverse.begin(), model.verdict.transverse.end());
+  return all.transversely_stable();
+}
+
+stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model) {
   stability::Domain domain;
-  for (const auto& strip : assembly.strips())
+  for (const auto& strip : assembly.strips()) {
+    if (strip.model != model) continue;
     domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
+  }
   if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
   return domain;
 }
@@ -98,15 +128,18 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     auto& entry = summary.runs[run];
     if (!entry.has_result) continue;
     const auto& assembly = *plan.runs[run].assembly;
-    const auto parameters = assembly.model_parameters(values_of(entry));
-    StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}, {}};
-    auto domain = domain_of(assembly);
-    add_asked(*plan.runs[run].entry, domain);
-    domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-    found.verdict = stability::judge(assembly.model(), parameters, domain);
-    for (const auto& inequality : assembly.model().describe().admissible) {
-      const double value = inequality.value(parameters);
-      if (value < -1e-9) found.inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
+    StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}};
+    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
+      const auto parameters = assembly.model_parameters(m, values_of(entry));
+      auto domain = domain_of(assembly, m);
+      add_asked(*plan.runs[run].entry, domain);
+      domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
+      found.models.push_back({assembly.model_name(m), stability::judge(assembly.model(m), parameters, domain), {}});
+      for (const auto& inequality : assembly.model(m).describe().admissible) {
+        const double value = inequality.value(parameters);
+        if (value < -1e-9)
+          found.models.back().inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
+      }
     }
     const auto free = unconstrained.find(entry.model + '\n' + entry.group);
     // Over a perfect fit the ratio says nothing.
@@ -131,10 +164,12 @@ std::string stability_table(const Summary& summary) {
     if (!run.stability) continue;
     const auto& found = *run.stability;
     std::vector<std::string> where;
-    for (const auto& verdict : found.verdict.transverse)
-      if (verdict.first_unstable && *verdict.first_unstable < 2 * found.verdict.domain.largest)
-        where.push_back(fmt::format("{:.3f} {}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial"));
-    const std::optional<bool> stable = found.verdict.transversely_stable();
+    for (const auto& model : found.models)
+      for (const auto& verdict : model.verdict.transverse)
+        if (verdict.first_unstable && *verdict.first_unstable < 2 * model.verdict.domain.largest)
+          where.push_back(fmt::format("{:.3f} {}{}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial",
+                                      found.models.size() > 1 ? " (" + model.name + ')' : ""));
+    const std::optional<bool> stable = found.transversely_stable();
     text += fmt::format("  {}  {:<10} {:>#12.6g} {:>7}  {:<8} {}\n", pad(run.label, width),
                         found.imposed.empty() ? "-" : found.imposed, run.objective,
                         found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
@@ -156,26 +191,14 @@ std::string stability_table(const Summary& summary) {
 json stability_json(const RunSummary& run) {
   if (!run.stability) return nullptr;
   const auto& found = *run.stability;
-  json directions = json::array();
-  for (const auto& verdict : found.verdict.transverse)
-    directions.push_back({{"direction", direction(verdict.axis)},
-                          {"measured_from", verdict.judged_from < 1 ? json(verdict.judged_from) : json(nullptr)},
-                          {"measured_to", verdict.judged_to > 1 ? json(verdict.judged_to) : json(nullptr)},
-                          {"stable", verdict.stable ? json(*verdict.stable) : json(nullptr)},
-                          {"first_unstable", optional_number(verdict.first_unstable)},
-                          {"stable_again", optional_number(verdict.stable_again)},
-                          {"first_unstable_pressed", optional_number(verdict.first_unstable_pressed)},
-                          {"checked_from", verdict.checked_from},
-                          {"checked_to", verdict.checked_to}});
-  const auto& ellipticity = found.verdict.ellipticity;
-  const auto& drucker = found.verdict.drucker;
-  return {{"imposed", found.imposed.empty() ? json(nullptr) : json(found.imposed)},
-          {"ratio_to_free", optional_number(found.ratio_to_free)},
-          {"transverse", std::move(directions)},
-          {"ellipticity", condition(ellipticity.first_lost, ellipticity.path, ellipticity.followed)},
-          {"drucker", drucker ? condition(drucker->first_lost, drucker->path, drucker->followed) : json(nullptr)},
-          {"inadmissible", found.inadmissible},
-          {"sentences", found.verdict.sentences()}};
+  json result = {{"imposed", found.imposed.empty() ? json(nullptr) : json(found.imposed)},
+                 {"ratio_to_free", optional_number(found.ratio_to_free)}};
+  if (found.models.size() == 1) {
+    result.update(model_json(found.models.front()));
+  } else {
+    for (const auto& model : found.models) result["models"][model.name] = model_json(model);
+  }
+  return result;
 }
 
 }  // namespace tunica::comparison

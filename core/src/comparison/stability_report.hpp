@@ -25,6 +25,8 @@ nlohmann::ordered_json stability_json(const RunSummary& run);
 ///                 stretch of the run
 /// energy.csv      W(λ_circumferential, λ_axial) of an incompressible sheet on a grid over the same stretches: its
 ///                 isocontours, with the strips of stability.csv on them
+///
+/// Where a run has several models, its name in the tables is followed by that of the model.
 void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
                             const Summary& summary);
 /// The same for parameter sets that no run has found.
@@ -36,7 +38,7 @@ struct StabilitySubject {
 };
 void write_stability_tables(const std::filesystem::path& directory, const std::vector<StabilitySubject>& subjects);
 
-/// The stretches that the tests of an assembly reach.
-stability::Domain domain_of(const calibration::Assembly& assembly);
+/// The stretches of the strips that are made of a model, and the largest that the tests of the assembly reach.
+stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model);
 
 }  // namespace tunica::comparison

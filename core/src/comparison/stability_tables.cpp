@@ -60,12 +60,15 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
       "# Energy of an incompressible sheet at the best point of every run, zero at rest: its isocontours over the two "
       "stretches.\nrun,circumferential_stretch [1],axial_stretch [1],energy [kPa]\n";
   for (const StabilitySubject& subject : subjects) {
-    const Model& model = subject.assembly->model();
-    const auto parameters = subject.assembly->model_parameters(subject.free);
-    const std::string label = execution::csv_cell(subject.label);
-    for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-      append_strip(strips, label, model, parameters, axis, subject.limit);
-    append_energy(energies, label, model, parameters, subject.limit);
+    const auto& assembly = *subject.assembly;
+    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
+      const auto parameters = assembly.model_parameters(m, subject.free);
+      const std::string label = execution::csv_cell(
+          assembly.model_count() > 1 ? subject.label + ' ' + assembly.model_name(m) : subject.label);
+      for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+        append_strip(strips, label, assembly.model(m), parameters, axis, subject.limit);
+      append_energy(energies, label, assembly.model(m), parameters, subject.limit);
+    }
   }
   execution::write_atomically(directory / "stability.csv", strips);
   execution::write_atomically(directory / "energy.csv", energies);
@@ -77,7 +80,8 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
   for (std::size_t run = 0; run < summary.runs.size(); ++run) {
     const auto& entry = summary.runs[run];
     if (!entry.stability) continue;
-    StabilitySubject subject{entry.label, plan.runs[run].assembly.get(), {}, entry.stability->verdict.domain.largest};
+    StabilitySubject subject{
+        entry.label, plan.runs[run].assembly.get(), {}, entry.stability->models.front().verdict.domain.largest};
     for (const auto& parameter : entry.parameters) subject.free.push_back(parameter.value);
     subjects.push_back(std::move(subject));
   }

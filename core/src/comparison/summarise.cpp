@@ -56,11 +56,11 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
   summary.objectives = sample_statistics(objectives);
 }
 
-RunSummary summarise_run(const execution::PlannedRun& run, const execution::RunResult& result,
-                         std::vector<std::string>& warnings) {
+RunSummary summarise_run(const experiment::Experiment& experiment, const execution::PlannedRun& run,
+                         const execution::RunResult& result, std::vector<std::string>& warnings) {
   RunSummary summary;
   summary.label = run.label;
-  summary.model = run.entry->model;
+  summary.model = experiment.model_name(*run.entry);
   summary.optimizer = run.entry->optimizer;
   summary.tests = run.entry->tests;
   summary.group = group_of(*run.entry);
@@ -117,7 +117,7 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   summary.name = plan.experiment->name;
   std::vector<std::string> mismatches;
   for (std::size_t run = 0; run < plan.runs.size(); ++run)
-    summary.runs.push_back(summarise_run(plan.runs[run], results[run], mismatches));
+    summary.runs.push_back(summarise_run(*plan.experiment, plan.runs[run], results[run], mismatches));
   count_successes(plan, results, summary.runs);
   summary.ranking = rank(summary.runs);
   compare_information(summary.runs, summary.ranking);

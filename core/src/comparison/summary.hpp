@@ -48,10 +48,17 @@ struct Quality {
 
 /// Whether the best point behaves as a material, see stability_report.hpp.
 struct StabilitySummary {
-  std::string imposed;  ///< "h = 0.7"; empty = no constraint
-  stability::Admissibility verdict;
-  std::vector<std::string> inadmissible;  ///< "1 - 2A - B = -0.2": inequalities of the model that do not hold
-  std::optional<double> ratio_to_free;    ///< objective over that of the best unconstrained run of the model
+  struct OfModel {
+    std::string name;
+    stability::Admissibility verdict;
+    std::vector<std::string> inadmissible;  ///< "1 - 2A - B = -0.2": inequalities of the model that do not hold
+  };
+  std::string imposed;                  ///< "h = 0.7"; empty = no constraint
+  std::vector<OfModel> models;          ///< one a model of the run
+  std::optional<double> ratio_to_free;  ///< objective over that of the best unconstrained run of the model
+
+  /// Of all models together, see Admissibility.
+  [[nodiscard]] std::optional<bool> transversely_stable() const;
 };
 
 struct RunSummary {

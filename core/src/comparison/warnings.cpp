@@ -33,9 +33,10 @@ void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& w
                                    fmt::join(names, ", "), names.size() > 1 ? " one by one" : ""));
 }
 
-void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnings) {
-  if (!run.stability) return;
-  const auto& verdict = run.stability->verdict;
+/// `who`: the run, and the model where it has several.
+void warn_of_instability(const std::string& who, const StabilitySummary::OfModel& model,
+                         std::vector<std::string>& warnings) {
+  const auto& verdict = model.verdict;
   for (const auto& strip : verdict.transverse)
     if (strip.stable == false) {
       const bool pulled = strip.first_unstable && *strip.first_unstable < strip.judged_to;
@@ -43,24 +44,32 @@ void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnin
       warnings.push_back(fmt::format(
           "{}: UNSTABLE: {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to {:.4g}); impose the "
           "constraint transverse_stability, or take a model with dispersed fibres",
-          run.label, pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial",
-          pulled ? "grows" : "falls", from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
+          who, pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
+          from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
           strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
     }
   if (verdict.ellipticity.first_lost)
     warnings.push_back(
         fmt::format("{}: ELLIPTICITY IS LOST at stretch {:.4g} in {}, within the measured domain: finite "
                     "elements will localise there",
-                    run.label, *verdict.ellipticity.first_lost, verdict.ellipticity.path));
+                    who, *verdict.ellipticity.first_lost, verdict.ellipticity.path));
   if (verdict.drucker && verdict.drucker->first_lost)
     warnings.push_back(
-        fmt::format("{}: DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}, within the measured domain", run.label,
+        fmt::format("{}: DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}, within the measured domain", who,
                     *verdict.drucker->first_lost, verdict.drucker->path));
-  if (!run.stability->inadmissible.empty())
+  if (!model.inadmissible.empty())
     warnings.push_back(
         fmt::format("{}: the parameters are NOT ADMISSIBLE: {} must not be negative; impose the constraint "
                     "admissible_parameters",
-                    run.label, fmt::join(run.stability->inadmissible, ", ")));
+                    who, fmt::join(model.inadmissible, ", ")));
+}
+
+void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnings) {
+  if (!run.stability) return;
+  const auto& models = run.stability->models;
+  for (const auto& model : models)
+    warn_of_instability(models.size() > 1 ? fmt::format("{}, model '{}'", run.label, model.name) : run.label, model,
+                        warnings);
 }
 
 /// "600 times: …; 3 times: …", or the first where there is one kind.

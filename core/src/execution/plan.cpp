@@ -141,7 +141,7 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
   std::map<std::string, int> seen;
   for (const auto& entry : experiment.runs) {
     auto& run = plan.runs.emplace_back();
-    const std::string pair = entry.model + '/' + entry.optimizer;
+    const std::string pair = experiment.model_name(entry) + '/' + entry.optimizer;
     const int occurrence = ++seen[pair];
     run.label = occurrence == 1 ? pair : fmt::format("{}#{}", pair, occurrence);
     run.entry = &entry;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "experiment/experiment.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "data/csv.hpp"
 #include "experiment/reader.hpp"
@@ -23,6 +26,19 @@ const Entry& named(const std::vector<Entry>& entries, std::string_view name) {
 const ModelEntry& Experiment::model(std::string_view wanted) const { return named(models, wanted); }
 const TestEntry& Experiment::test(std::string_view wanted) const { return named(tests, wanted); }
 const OptimizerEntry& Experiment::optimizer(std::string_view wanted) const { return named(optimizers, wanted); }
+
+std::vector<std::string> Experiment::models_of(const RunEntry& run) const {
+  std::vector<std::string> names;
+  if (!run.model.empty()) names.push_back(run.model);
+  for (const std::string& used : run.tests)
+    for (const LayerEntry& layer : test(used).layers)
+      if (std::find(names.begin(), names.end(), layer.model) == names.end()) names.push_back(layer.model);
+  return names;
+}
+
+std::string Experiment::model_name(const RunEntry& run) const {
+  return run.model.empty() ? fmt::format("{}", fmt::join(models_of(run), "+")) : run.model;
+}
 
 Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
   const JsonDocument document(file, data::read_bytes(file));
@@ -50,7 +66,8 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
     models.fail("no model is given", "Give at least one, for example \"gho\": {\"type\": \"gho\"}.");
   const Node tests = root.require("tests", "the experiment file");
   for (const auto& [name, entry] : tests.members("an object with one entry per test"))
-    experiment.tests.push_back(read_test(name, entry, file.parent_path(), catalogue, shared));
+    experiment.tests.push_back(
+        read_test(name, entry, file.parent_path(), entry_names(experiment.models), catalogue, shared));
   if (experiment.tests.empty()) tests.fail("no test is given", "Give at least one, with its data.");
   experiment.optimizers = read_optimizers(root.require("optimizers", "the experiment file"), catalogue);
   RunDefaults defaults;

@@ -54,9 +54,16 @@ struct HoldOut {
   std::optional<data::RowRange> rows;
 };
 
+/// A layer of a wall, with a model of its own.
+struct LayerEntry {
+  std::string model;
+  double thickness;  ///< mm
+};
+
 struct TestEntry {
   std::string name, type;
   Options options;
+  std::vector<LayerEntry> layers;  ///< from inside; empty = the run's model
   ParameterSettings parameters;
   std::vector<MechanismEntry> mechanisms;
   data::DataRequest data;
@@ -101,7 +108,8 @@ struct OptimizerEntry {
 };
 
 struct RunEntry {
-  std::string model, optimizer;
+  std::string model;  ///< of the tests that name no layers; empty = every one does
+  std::string optimizer;
   std::uint64_t realisations = 1;
   bool random_start = false;       ///< every realisation begins at a random point, not at the initial values
   std::vector<std::string> tests;  ///< names, in file order; all unless overridden
@@ -153,6 +161,10 @@ struct Experiment {
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;
   [[nodiscard]] const OptimizerEntry& optimizer(std::string_view name) const;
+  /// The run's own, then those that layers of its tests name, each once.
+  [[nodiscard]] std::vector<std::string> models_of(const RunEntry& run) const;
+  /// What results call the model of a run: its own, or "media+adventitia" where only layers name some.
+  [[nodiscard]] std::string model_name(const RunEntry& run) const;
 };
 
 /// Parses, validates and types an experiment file. Throws InputError: each message quotes what was found, names JSON

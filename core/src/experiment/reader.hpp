@@ -60,8 +60,10 @@ std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::s
                                                  std::vector<Shared>& shared);
 
 // reader_tests.cpp
+/// `models`: the names that layers may have.
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
-                    const plugins::Catalogue& catalogue, std::vector<Shared>& shared);
+                    const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
+                    std::vector<Shared>& shared);
 /// "0:240:6".
 data::RowRange read_row_range(const Node& node);
 

@@ -91,7 +91,7 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
         entry.fail(fmt::format("the test '{}' is defined before", name),
                    "Results carry the names of tests, so a test that differs needs another name; to use the same test, "
                    "list its name.");
-      experiment.tests.push_back(read_test(name, entry, folder, catalogue, shared));
+      experiment.tests.push_back(read_test(name, entry, folder, entry_names(experiment.models), catalogue, shared));
       names.push_back(name);
     }
   } else {
@@ -104,6 +104,21 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
   }
   if (names.empty()) node.fail("the run has no tests", "Leave \"tests\" out to use all.");
   return names;
+}
+
+/// The run's model serves the tests that name no layers: it is there where there are such, and nowhere else.
+void read_model_of_run(const Node& entry, const Experiment& experiment, RunEntry& run) {
+  const auto node = entry.find("model");
+  if (node) run.model = node->one_of(entry_names(experiment.models), "model");
+  const auto unlayered = std::find_if(run.tests.begin(), run.tests.end(),
+                                      [&](const std::string& name) { return experiment.test(name).layers.empty(); });
+  if (!node && unlayered != run.tests.end())
+    entry.fail("the key 'model' is missing in a run",
+               fmt::format("The test '{}' names no layers, so that it needs the model of the run.", *unlayered));
+  if (node && unlayered == run.tests.end())
+    node->fail(
+        fmt::format("the model '{}' serves no test: every test of the run names its models in \"layers\"", run.model),
+        "Leave \"model\" out.");
 }
 
 }  // namespace
@@ -160,7 +175,6 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
     entry.allow_only({"model", "optimizer", "realisations", "initial", "tests", "objective", "constraints", "stop"},
                      "a run");
     RunEntry run;
-    run.model = entry.require("model", "a run").one_of(entry_names(experiment.models), "model");
     run.optimizer = entry.require("optimizer", "a run").one_of(entry_names(experiment.optimizers), "optimizer");
     if (const auto child = entry.find("realisations"))
       run.realisations = child->count("a whole number of realisations from 1", 1);
@@ -169,6 +183,7 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
     run.random_start = initial ? read_initial(*initial) : defaults.random_start;
     run.tests =
         tests ? read_test_list(*tests, experiment.file.parent_path(), catalogue, shared, experiment) : defaults.tests;
+    read_model_of_run(entry, experiment, run);
     run.objective = objective ? read_objective(*objective) : defaults.objective;
     run.constraints = constraints ? read_constraints(*constraints) : defaults.constraints;
     run.stop = stop ? read_stop(*stop) : defaults.stop;

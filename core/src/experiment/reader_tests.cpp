@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
@@ -188,6 +189,35 @@ HoldOut read_hold_out(const Node& node) {
   return hold_out;
 }
 
+std::vector<LayerEntry> read_layers(const Node& entry, const std::string& type, const std::vector<std::string>& models,
+                                    const plugins::Catalogue& catalogue) {
+  const auto list = entry.find("layers");
+  if (!list) return {};
+  if (!catalogue.tests().find(type)->second.factory.layered) {
+    std::vector<std::string> types;
+    for (const auto& [name, test] : catalogue.tests())
+      if (test.factory.layered) types.push_back(name);
+    list->fail(
+        fmt::format("a test of type '{}' has one model throughout and takes no layers", type),
+        types.empty() ? "Remove \"layers\"." : fmt::format("Tests that take layers: {}.", fmt::join(types, ", ")));
+  }
+  std::vector<LayerEntry> layers;
+  for (const Node& node : list->elements("a list of layers from inside, [ {\"model\": …, \"thickness\": …}, … ],")) {
+    node.expect_object("a layer, {\"model\": …, \"thickness\": …},");
+    node.allow_only({"model", "thickness"}, "a layer");
+    LayerEntry layer{node.require("model", "a layer").one_of(models, "model"), 0};
+    const Node thickness = node.require("thickness", "a layer");
+    layer.thickness = thickness.quantity("mm", "the thickness of a layer");
+    if (!(layer.thickness > 0))
+      thickness.fail(fmt::format("the thickness of the layer is {} mm", layer.thickness),
+                     "It must be greater than zero.");
+    layers.push_back(std::move(layer));
+  }
+  if (layers.empty())
+    list->fail("the list of layers is empty", "Leave \"layers\" out where the model of the run serves the test.");
+  return layers;
+}
+
 }  // namespace
 
 data::RowRange read_row_range(const Node& node) {
@@ -216,7 +246,8 @@ data::RowRange read_row_range(const Node& node) {
 }
 
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
-                    const plugins::Catalogue& catalogue, std::vector<Shared>& shared) {
+                    const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
+                    std::vector<Shared>& shared) {
   entry.expect_object("a test, {\"type\": …},");
   entry.check_name(name, "test");
   const std::string owner = fmt::format("test '{}'", name);
@@ -225,8 +256,10 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   TestEntry test;
   test.name = name;
   test.type = type;
-  test.options =
-      read_options(entry, factory.options, {"type", "data", "weight", "hold_out", "parameters", "mechanisms"}, owner);
+  test.layers = read_layers(entry, type, models, catalogue);
+  std::vector<std::string> keys = {"type", "data", "weight", "hold_out", "parameters", "mechanisms"};
+  if (factory.layered) keys.emplace_back("layers");
+  test.options = read_options(entry, factory.options, keys, owner);
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);

@@ -141,7 +141,7 @@ Json run_schema() {
   tests["anyOf"] =
       Json::array({list_schema("Names.", {{"type", "string"}}), named_entries("Tests of its own.", reference("test"))});
   return object_schema("One calibration: a model, fitted by an optimizer.",
-                       {{"model", text_schema("Name of a model.")},
+                       {{"model", text_schema("Name of a model; left out where every test names its own in layers.")},
                         {"optimizer", text_schema("Name of an optimizer.")},
                         {"realisations", count_schema("Repetitions with other seeds (default 1).", 1)},
                         {"initial", initial_schema()},
@@ -149,7 +149,7 @@ Json run_schema() {
                         {"objective", reference("objective")},
                         {"constraints", reference("constraints")},
                         {"stop", reference("stop")}},
-                       {"model", "optimizer"});
+                       {"optimizer"});
 }
 
 Json analysis_schema() {

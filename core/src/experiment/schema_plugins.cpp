@@ -80,6 +80,17 @@ Json mechanism_list(const std::vector<std::string>& types) {
           {"items", by_type("mechanism", types, "One mechanism.")}};
 }
 
+Json layers_schema() {
+  Json layer = object_schema("A layer with a model of its own.",
+                             {{"model", {{"description", "Name of a model."}, {"type", "string"}, {"minLength", 1}}},
+                              {"thickness", quantity_schema("Its thickness in the unloaded wall [mm].")}},
+                             {"model", "thickness"});
+  return {{"description", "Layers of the wall from inside; without them the model of the run fills it."},
+          {"type", "array"},
+          {"items", std::move(layer)},
+          {"minItems", 1}};
+}
+
 Json columns_schema(const std::vector<Observable>& observables) {
   Json properties = Json::object();
   std::vector<std::string> required;
@@ -149,6 +160,7 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
         applicable.push_back(id);
     }
     Json properties = with_options(type, factory.options);
+    if (factory.layered) properties["layers"] = layers_schema();
     properties["data"] = data_schema(factory);
     for (const char* name : {"weight", "hold_out"}) properties[name] = reference(name);
     properties["parameters"] = parameters_schema(factory.parameters);

@@ -95,6 +95,8 @@ class Writer {
   [[nodiscard]] Json test(const TestEntry& entry) const {
     Json json = {{"type", entry.type}};
     add_options(json, entry.options, catalogue_.tests().find(entry.type)->second.factory.options);
+    for (const LayerEntry& layer : entry.layers)
+      json["layers"].push_back({{"model", layer.model}, {"thickness", layer.thickness}});
     json["data"] = written(entry.data);
     json["weight"] = entry.weights;
     if (entry.hold_out.rows)
@@ -128,7 +130,7 @@ Json written(const RunEntry& run) {
   Json constraints = Json::array();
   for (const ConstraintEntry& constraint : run.constraints) constraints.push_back(Json::parse(constraint.json));
   Json json = Json::object();
-  json["model"] = run.model;
+  if (!run.model.empty()) json["model"] = run.model;
   json["optimizer"] = run.optimizer;
   json["realisations"] = run.realisations;
   json["initial"] = run.random_start ? "random" : "given";
