@@ -130,6 +130,17 @@ TEST(TubeLayers, InAnOpenedTubeAgreeWithAnIndependentBisection) {
   EXPECT_GT(std::abs(out.values[0] - closed.values[0]), 1e-4);
 }
 
+TEST(TubeLayers, DoNotRememberTheTubeBefore) {
+  // The same thread, other materials in each place: cuts and states of the one must not appear in the other.
+  const auto fibres = make_model("gho"), matrix = make_model("neo_hooke");
+  const std::vector<const Model*> one{matrix.get(), fibres.get()}, other{fibres.get(), matrix.get()};
+  const auto tube =
+      make_tube({1, 6, 12}, {.channels = all_channels, .axial_stretch = 1.05, .layers = {0.9, wall - 0.9}});
+  const auto first = inflate(*tube, *matrix, joined({60}, set_s), bare_layers, one).values;
+  ASSERT_TRUE(inflate(*tube, *fibres, joined(set_s, {60}), bare_layers, other).status.ok());
+  EXPECT_EQ(inflate(*tube, *matrix, joined({60}, set_s), bare_layers, one).values, first);
+}
+
 TEST(TubeLayers, TheirOrderMatters) {
   const auto model = make_model("neo_hooke");
   const std::vector<const Model*> layers{model.get(), model.get()};

@@ -33,7 +33,12 @@ std::span<const Rule> rules() {
 void Sections::begin(const Layers& layers, const Wall& wall, const Rule& rule) {
   layers_ = &layers, wall_ = &wall, rule_ = &rule;
   wall.edges(edges_);
-  cuts_.resize(wall.layer_count());
+  cuts_.resize(layers.size());
+  can_be_cut_ = false;
+  for (std::size_t m = 0; m < layers.size(); ++m) {
+    cuts_[m].clear();
+    can_be_cut_ |= !layers.of(m).switches().empty();
+  }
   w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
   for (std::size_t layer = 0; layer < wall.layer_count(); ++layer)
     add_piece(edges_[layer].a, edges_[layer + 1].a, layer, true, true);
@@ -48,31 +53,32 @@ void Sections::add_piece(double from, double to, std::size_t layer, bool begins,
   }
 }
 
-void Sections::find_cuts(std::size_t layer, const Shape<double>& at, std::vector<double>& cuts) const {
-  // R of a kink from c = b + a/R²
-  thread_local std::vector<double> kinks;
-  kinks.clear(), cuts.clear();
-  if (at.a != 0)
-    for (const Switch& change : layers_->of(layer).switches()) roots(change, at.cz, kinks);
-  for (const double c : kinks) {
-    const double s = at.a / (c - at.b);
-    if (!(s > 0 && std::isfinite(s))) continue;
-    const double x = 0.5 * std::log(s);
-    if (x > edges_[layer].a + smallest_piece && x < edges_[layer + 1].a - smallest_piece) cuts.push_back(x);
+bool Sections::find_cuts(const Shape<double>& at) {
+  bool cut = false;
+  for (std::size_t m = 0; m < layers_->size(); ++m) {
+    const std::span<const Switch> switches = layers_->of(m).switches();
+    if (switches.empty()) continue;
+    // R of a kink from c = b + a/R²
+    std::vector<double>& cuts = cuts_[m];
+    kinks_.clear(), cuts.clear();
+    if (at.a != 0)
+      for (const Switch& change : switches) roots(change, at.cz, kinks_);
+    for (const double c : kinks_) {
+      const double s = at.a / (c - at.b);
+      if (s > 0 && std::isfinite(s)) cuts.push_back(0.5 * std::log(s));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    const bool throughout = layers_->size() == 1;
+    const double from = edges_[throughout ? 0 : m].a, to = edges_[throughout ? wall_->layer_count() : m + 1].a;
+    for (const double x : cuts) cut |= x > from + smallest_piece && x < to - smallest_piece;
   }
-  std::sort(cuts.begin(), cuts.end());
+  return cut;
 }
 
 /// Points of one section behind those of the sections before it.
 void Sections::lay_points(const Section& section) {
-  const Shape<double> at = shape(*wall_, section.y, section.axial_stretch);
   const std::size_t layers = wall_->layer_count();
-  bool cut = false;
-  for (std::size_t layer = 0; layer < layers; ++layer) {
-    find_cuts(layer, at, cuts_[layer]);
-    cut |= !cuts_[layer].empty();
-  }
-  if (!cut) {
+  if (!can_be_cut_ || !find_cuts(shape(*wall_, section.y, section.axial_stretch))) {
     for (std::size_t layer = 0; layer < layers; ++layer)
       pieces_.push_back(
           {w_.size() + layer * rule_->node.size(), edges_[layer + 1].a - edges_[layer].a, layer, true, true});
@@ -84,8 +90,8 @@ void Sections::lay_points(const Section& section) {
   for (std::size_t layer = 0; layer < layers; ++layer) {
     double from = edges_[layer].a;
     bool begins = true;
-    for (const double x : cuts_[layer]) {
-      if (!(x > from + smallest_piece)) continue;
+    for (const double x : cuts_[layers_->size() == 1 ? 0 : layer]) {
+      if (!(x > from + smallest_piece && x < edges_[layer + 1].a - smallest_piece)) continue;
       add_piece(from, x, layer, begins, false);
       from = x, begins = false;
     }

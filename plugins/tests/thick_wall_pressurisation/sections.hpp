@@ -70,8 +70,8 @@ class Sections {
   };
   void lay_points(const Section& section);
   void add_piece(double from, double to, std::size_t layer, bool begins, bool ends);
-  /// Where kinks of the layer's material cut it under this section.
-  void find_cuts(std::size_t layer, const Shape<double>& at, std::vector<double>& cuts) const;
+  /// Where kinks of its materials cut the wall under a section of this shape; false = nowhere.
+  bool find_cuts(const Shape<double>& at);
   Status respond(bool parameters, const Memory& memory);
   void form(std::size_t first, std::size_t last, double at_rest);
   /// Points of section i in the material of a parameter.
@@ -83,7 +83,9 @@ class Sections {
 
   std::vector<Jet> edges_;  ///< ln R where layers begin and end
   std::vector<double> base_weight_, base_s_, base_inverse_;
-  std::vector<std::vector<double>> cuts_;  ///< by layer
+  bool can_be_cut_ = false;
+  std::vector<std::vector<double>> cuts_;  ///< by material, ln R
+  std::vector<double> kinks_;
 
   std::vector<Section> sections_;
   std::vector<std::size_t> first_piece_, first_point_;  ///< of each section, one more at the end
