@@ -75,7 +75,8 @@ Status Layers::evaluate_layer(std::size_t layer, std::size_t n, std::span<const 
   if (!status.ok()) return status;
   copy(3, here_gradient.data(), points, gradient.data(), n, false);
   if (!hessian.empty()) copy(6, here_hessian.data(), points, hessian.data(), n, false);
-  copy(3 * parameters, here_dp.data(), points, gradient_dp.data() + 3 * first_[layer] * n, n, false);
+  if (parameters > 0)
+    copy(3 * parameters, here_dp.data(), points, gradient_dp.data() + 3 * first_[layer] * n, n, false);
   return {};
 }
 
