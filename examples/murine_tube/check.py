@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check.py RESULTS: calibrated at the in-vivo stretch alone every model follows its diameters and misses the forces 4 %
 above and below, and the warnings say so; calibrated on everything hgo and gho still miss the forces, and four_fibre is
-within what inflation and force-length tests disagree by where they meet, which is measured here again."""
+within what inflation and force-length tests disagree by where they meet, which is measured here again. Of the clamped
+tube: its calibration fits the inflations better than that of a long one, with other parameters."""
 import csv
 import json
 import math
@@ -10,6 +11,18 @@ import sys
 
 RESULTS = sys.argv[1]
 result = json.load(open(RESULTS + "/result.json", encoding="utf-8"))
+if result["name"] == "murine-tube-clamped":
+    assert [run["run"] for run in result["runs"]] == ["four_fibre/lm", "four_fibre/lm#2"], "expected two runs"
+    long, clamped = (run["best"] for run in result["runs"])
+    assert abs(long["objective"] / 21.987 - 1) < 2e-3, f"long tube: {long['objective']}"
+    assert abs(clamped["objective"] / 15.22 - 1) < 0.01, f"clamped tube: {clamped['objective']}"
+    for best in (long, clamped):
+        assert not best["certificate"]["neighbours"]["better"], best["certificate"]["verdict"]
+    k2 = [best["parameters"]["k2"] for best in (long, clamped)]
+    assert k2[1]["value"] < 0.75 * k2[0]["value"] and all(k["ci95"] for k in k2), f"k2 {k2}"
+    print(f"murine tube: chi-squared of the inflations {long['objective']:.1f} as a long tube, {clamped['objective']:.1f} as a clamped one")
+    sys.exit()
+
 ONE, THREE, SEVEN = ("hgo/lm", "gho/lm", "four_fibre/lm"), "four_fibre/lm#2", ("hgo/lm_8", "gho/lm_8", "four_fibre/lm_8")
 runs = {run["run"]: run for run in result["runs"]}
 assert set(runs) == {*ONE, THREE, *SEVEN}, f"runs {sorted(runs)}"
