@@ -31,13 +31,13 @@ TEST(FiniteElementRobustness, TheLimitPressureOfANeoHookeanTubeIsNoticed) {
     const Inflated beyond = inflate(*make_fe_tube({0.5 * limit, 1.1 * limit}, setup), *model, {mu}, bare_fe);
     EXPECT_EQ(beyond.status.kind(), Status::Kind::failed);
     EXPECT_NE(beyond.status.reason().find("row 2 (pressure 24.2"), std::string::npos) << beyond.status.reason();
-    const double reached = number_after(beyond.status.reason(), " at pressure ");
+    const double reached = number_after(beyond.status.reason(), " after pressure ");
     EXPECT_GT(reached, 0.95 * limit) << beyond.status.reason();
     EXPECT_LT(reached, 1.01 * limit) << beyond.status.reason();
     // The same on the interpolated line.
     const Inflated line = inflate(*make_fe_tube(evenly(0, 1.1 * limit, 40), setup), *model, {mu}, bare_fe);
     EXPECT_EQ(line.status.kind(), Status::Kind::failed);
-    EXPECT_GT(number_after(line.status.reason(), " at pressure "), 0.95 * limit) << line.status.reason();
+    EXPECT_GT(number_after(line.status.reason(), " after pressure "), 0.95 * limit) << line.status.reason();
   }
 }
 
@@ -66,9 +66,9 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
       const std::string& reason = out.status.reason();
       EXPECT_EQ(out.status.kind(), Status::Kind::failed);
       EXPECT_NE(reason.find("row "), std::string::npos) << reason;
-      EXPECT_NE(reason.find(" at pressure "), std::string::npos) << reason;
-      const auto why = reason.find("): ");
-      ++reasons[why == std::string::npos ? reason : reason.substr(why + 3, reason.find(" at pressure ") - why - 3)];
+      EXPECT_NE(reason.find(" after pressure "), std::string::npos) << reason;
+      const auto why = reason.find("reached: ");
+      ++reasons[why == std::string::npos ? reason : reason.substr(why + 9, reason.find(" after pressure ") - why - 9)];
       continue;
     }
     for (const double value : out.values) ASSERT_TRUE(std::isfinite(value)) << draw;
@@ -93,11 +93,10 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
   std::printf("  failed %zu, compared %zu, worst %.1e, longest %.0f ms\n", failed, compared, worst, 1e3 * longest);
   EXPECT_EQ(finer_failed, 0u);
   EXPECT_GT(compared, 150u);
-  // Soft walls that balloon, or stiffen so late that the step would have to be tiny: a quarter of the box at most.
-  EXPECT_LT(failed, 250u);
-  for (const char* known : {"the state jumps", "Newton's method diverges",
-                            "Newton's method did not converge in 14 iterations", "Newton's method runs away",
-                            "the stiffness is singular", "the stress overflows, or an element is turned inside out"})
+  // Soft walls that balloon, or elements at the clamp that degenerate beyond twice the diameter.
+  EXPECT_LT(failed, 180u);
+  for (const char* known : {"the pressure stops rising (limit pressure)", "the state jumps", "Newton's method diverges",
+                            "Newton's method did not converge in 14 iterations"})
     EXPECT_GT(reasons[known], 0) << known;
 }
 

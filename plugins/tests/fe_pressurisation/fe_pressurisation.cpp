@@ -88,7 +88,7 @@ class FePressurisation final : public Test {
     const Status status = simulation->run(material, loads, derivatives ? wanted_ : Wanted{}, samples, failed_at);
     if (!status.ok())
       return Status::failed(fmt::format(
-          "fe_pressurisation: not beyond {}: {}",
+          "fe_pressurisation: {} is not reached: {}",
           TubeRows::row_name(failed_at, loads[failed_at].pressure, loads[failed_at].stretch), status.reason()));
     return write(plan, samples, input.model_parameters.size(), output);
   }

@@ -9,7 +9,12 @@
 namespace tunica::fe {
 namespace {
 
-constexpr double shortest = 1. / 64;  ///< of what is left to go
+constexpr double shortest = 1. / 64;             ///< of what is left to go
+constexpr double shortest_of_pressure = 1. / 8;  ///< below it the volume is raised instead
+/// Of the volume's logarithm.
+constexpr double first_filling = 0.02, most_filling = 0.5, least_filling = 1e-4;
+constexpr double far_filling = 0.02;  ///< as `far`: the prediction is better
+constexpr double ballooned = 20;      ///< so many times its unloaded diameter is no tube that anybody measures
 constexpr double far = 0.05;          ///< Newton's method may move the state so much, over the outer radius
 
 /// y += a x
@@ -57,22 +62,78 @@ void Path::predict(const Load& to, State& guess) {
   add(h * t * (1 - t) * (1 - t), previous_slope_, guess);
 }
 
-Status Path::step(const Load& to, bool exact) {
-  predict(to, guess_);
+/// Why it goes no further than an equilibrium.
+Status Path::stuck(const std::string& why, const Load& load, const State& state) const {
+  return Status::failed(
+      fmt::format("{} after pressure {:.5g} kPa, axial stretch {:.5g}, outer diameter {:.4g} times the unloaded one",
+                  why, load.pressure, load.stretch, solver_.outer_radius(state) / solver_.mesh().outer));
+}
+
+/// From the guess to the equilibrium at `to`.
+Status Path::accept(const Load& to, bool exact) {
   if (Status status = solver_.solve(to, guess_, exact); !status.ok()) return status;
   const auto& moved = solver_.effort().steps;
   if (std::accumulate(moved.begin(), moved.end(), 0.) > far) return Status::failed("the state jumps");
   // A factor of a state before the last may be indefinite while the solution's is not.
   if (solver_.negative_pivots() > 0 && !exact)
     if (Status status = solver_.solve(to, guess_, true); !status.ok()) return status;
-  if (solver_.negative_pivots() > 0) return Status::failed("the equilibrium is unstable, as beyond a limit pressure");
+  if (solver_.negative_pivots() > 0) return Status::failed("the equilibrium is unstable");
   return {};
+}
+
+Status Path::step(const Load& to, bool exact) {
+  predict(to, guess_);
+  return accept(to, exact);
+}
+
+/// Steps of the volume's logarithm, each predicted along the last, until one of them passes the pressure of `to`.
+Status Path::fill(const Load& to, bool exact) {
+  const double sign = to.pressure > load_.pressure ? 1 : -1;
+  Load load = load_;
+  State state = state_, before, next;
+  if (Status status = solver_.solve(load, state, true); !status.ok()) return status;
+  double volume = solver_.volume(state);
+  const auto fail = [&](const std::string& why) { return stuck(why, load, state); };
+  for (double part = first_filling, last = 0; true;) {
+    if (++steps_ > limits_.steps) return fail(fmt::format("{} load steps were not enough", limits_.steps));
+    Load at = load;
+    next = state;
+    if (last > 0) scale(1 + part / last, next), add(-part / last, before, next);
+    Status status = solver_.solve_volume(volume * std::exp(sign * part), at, next);
+    const auto& moved = solver_.effort().steps;
+    if (status.ok() && std::accumulate(moved.begin(), moved.end(), 0.) > far_filling)
+      status = Status::failed("the state jumps");
+    if (!status.ok() && (part /= 2) > least_filling && !solver_.late()) continue;
+    if (!status.ok()) return fail(status.reason());
+    if (sign * (at.pressure - load.pressure) <= 0) return fail("the pressure stops rising (limit pressure)");
+    // The pressure rises, and yet the tube would leave this path, by a buckle or a bulge.
+    if (solver_.negative_pivots() > 0) {
+      if ((part /= 2) > least_filling) continue;
+      return fail("the equilibrium becomes unstable");
+    }
+    const double reached = (to.pressure - load.pressure) / (at.pressure - load.pressure);
+    if (reached <= 1) {
+      guess_ = next;
+      scale(reached, guess_);
+      add(1 - reached, state, guess_);
+      status = accept(to, exact);
+      if (status.ok()) {
+        state_ = guess_, load_ = to, has_previous_ = false;
+        return {};
+      }
+      if ((part /= 2) > least_filling && !solver_.late()) continue;
+      return fail(status.reason());
+    }
+    before = state, state = next, load = at, last = part, volume *= std::exp(sign * part);
+    if (moved.size() <= 4) part = std::min(1.5 * part, most_filling);
+  }
 }
 
 Status Path::go(const Load& to, bool exact) {
   double part = 1;
   while (true) {
-    if (++steps_ > limits_.steps) return Status::failed(fmt::format("{} load steps were not enough", limits_.steps));
+    if (++steps_ > limits_.steps)
+      return stuck(fmt::format("{} load steps were not enough", limits_.steps), load_, state_);
     Load next{load_.stretch + part * (to.stretch - load_.stretch),
               load_.pressure + part * (to.pressure - load_.pressure)};
     if (part == 1) next = to;
@@ -88,9 +149,8 @@ Status Path::go(const Load& to, bool exact) {
     part /= 2;
     // The factor is lost: the last equilibrium is found again, and left by its tangent.
     has_previous_ = false;
-    if (part < shortest || solver_.late())
-      return Status::failed(
-          fmt::format("{} at pressure {:.5g} kPa, axial stretch {:.5g}", status.reason(), next.pressure, next.stretch));
+    if (part < shortest || solver_.late()) return stuck(status.reason(), load_, state_);
+    if (part < shortest_of_pressure && to.stretch == load_.stretch) return fill(to, exact);
     if (Status back = solver_.solve(load_, state_, false); !back.ok()) return back;
   }
 }

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <functional>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "solver.hpp"
@@ -15,7 +15,9 @@ using Observed = std::array<double, 3>;
 
 /// Follows the equilibrium from rest, so that of several states it finds the one that loading leads to: a step is
 /// predicted by the tangent, or along a line of pressures by Hermite extrapolation of the last two states, corrected by
-/// Newton's method, and halved where that fails, moves the state far, or ends in an unstable equilibrium.
+/// Newton's method, and halved where that fails, moves the state far, or ends in an unstable equilibrium. Where the
+/// pressure hardly rises with the volume such steps come to nothing: there it is the volume that is raised, until the
+/// pressure is reached or stops rising, which is a limit pressure.
 class Path {
  public:
   struct Limits {
@@ -48,7 +50,10 @@ class Path {
 
  private:
   void predict(const Load& to, State& guess);
+  [[nodiscard]] Status stuck(const std::string& why, const Load& load, const State& state) const;
   Status step(const Load& to, bool exact);
+  Status accept(const Load& to, bool exact);
+  Status fill(const Load& to, bool exact);
   Solver& solver_;
   Limits limits_;
   Load load_, before_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace tunica::fe {
 namespace {
@@ -171,6 +172,51 @@ void Solver::move(State& state, bool mixed) {
   apply(state.x, dx_, step_.x, moved_.x);
   apply(state.q, dq_, step_.q, moved_.q);
   mixes_ = mixed;
+}
+
+/// V is of third order in r and z: x · ∂V/∂x = 3 V.
+double Solver::volume(const State& state) const {
+  return std::inner_product(state.x.begin(), state.x.end(), system_.volume.begin(), 0.0) / 3;
+}
+
+Status Solver::solve_volume(double volume, Load& load, State& state) {
+  const double gamma = system_.gamma;
+  const Status status = iterate_volume(volume, load, state);
+  if (!status.ok()) system_.gamma = gamma, has_factor_ = false;
+  return status;
+}
+
+/// With v = ∂V/∂x, a = K̂⁻¹ right and b = K̂⁻¹ v the step is a + dP b, where V + v · (a + dP b) is the volume asked for.
+Status Solver::iterate_volume(double volume, Load& load, State& state) {
+  impose(load, state);
+  effort_.steps.clear();
+  mixes_ = false;
+  double last = std::numeric_limits<double>::infinity();
+  std::vector<double> b(dx_.size());
+  for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
+    if (late()) return Status::failed("the time limit is reached");
+    if (Status status = assembly_->assemble(*material_, state, load.pressure, true, system_); !status.ok())
+      return status;
+    factorise();
+    ++effort_.iterations;
+    dx_ = system_.right, b = system_.volume;
+    for (std::vector<double>* x : {&dx_, &b}) prescribe(*x), factor_.solve(*x), prescribe(*x);
+    const double by_a = std::inner_product(dx_.begin(), dx_.end(), system_.volume.begin(), 0.0);
+    const double by_b = std::inner_product(b.begin(), b.end(), system_.volume.begin(), 0.0);
+    const double rise = (volume - this->volume(state) - by_a) / by_b;
+    for (std::size_t i = 0; i < dx_.size(); ++i) dx_[i] += rise * b[i];
+    const double step = largest(dx_) / mesh_.outer;
+    effort_.steps.push_back(step);
+    if (!std::isfinite(step)) return Status::failed("the stiffness is singular");
+    if (step > 10 || (iteration > 4 && step > 4 * last)) return Status::failed("Newton's method diverges");
+    assembly_->pressures(system_, dx_, system_.dilation, dq_);
+    move(state, false);
+    load.pressure += rise;
+    system_.gamma = incompressibility * system_.stiffness;
+    if (step * step * 10 < tolerance) return {};
+    last = step;
+  }
+  return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));
 }
 
 void Solver::derive(std::span<const double> right, std::span<const double> moved, State& derivative) {

@@ -47,6 +47,11 @@ class Solver {
 
   /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
   Status solve(const Load& load, State& state, bool full_steps);
+  /// The same with the volume of the lumen given (of half the tube, over 2π, mm³) and the pressure found, which begins
+  /// with that of `load`: there is a solution also where the pressure hardly rises any more, or falls.
+  Status solve_volume(double volume, Load& load, State& state);
+  /// ½ ∫ r² dz of a state that was solved for.
+  [[nodiscard]] double volume(const State& state) const;
   /// Of the factor at hand: 0 where the equilibrium is stable.
   [[nodiscard]] std::size_t negative_pivots() const { return negative_; }
   [[nodiscard]] bool late() const { return std::chrono::steady_clock::now() > deadline_; }
@@ -75,6 +80,7 @@ class Solver {
  private:
   void impose(const Load& load, State& state) const;
   Status iterate(const Load& load, State& state, bool full_steps);
+  Status iterate_volume(double volume, Load& load, State& state);
   void factorise();
   void move(State& state, bool mixed);
   void note_force();
