@@ -63,8 +63,10 @@ TEST(CeresLm, EndsAtTheOptimumWhereBoundsAreActive) {
     const Eigen::Matrix4d A = parts.matrixU() * narrow.asDiagonal() * parts.matrixV().transpose();
     const Eigen::Vector4d c = Eigen::Vector4d::NullaryExpr([&] { return unit(engine); });
     const double least = least_in_box(A, c);
-    Function function{.name = "valley", .dimension = 4, .residual_count = 4, .start = {0.5, 0.5, 0.5, 0.5}};
+    Function function;
+    function.name = "valley", function.dimension = 4, function.residual_count = 4;
     function.blocks = {{0, 4, 1, ResidualBlock::Loss::quadratic}};
+    function.start = {0.5, 0.5, 0.5, 0.5};
     function.residuals = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {
       const Eigen::Vector4d value = A * (Eigen::Map<const Eigen::Vector4d>(x.data()) - c);
       std::ranges::copy(value, r.begin());
