@@ -11,6 +11,12 @@
 
 namespace tunica::calibration {
 
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace
+
 Straightness::Straightness(const Assembly& assembly, const Whitening& noise, std::span<const double> free)
     : assembly_(assembly),
       noise_(noise),
@@ -25,13 +31,33 @@ Straightness::Straightness(const Assembly& assembly, const Whitening& noise, std
       centre_(free.size()) {
   assembly.to_unit(free, centre_);
   least_ = fit(centre_, {});
+  if (!constraints_.empty() || !std::isfinite(linearise(centre_))) return;
+  centre_residuals_ = residuals_, centre_jacobian_ = jacobian_;
+}
+
+/// Along the tangent of the likelihood's valley the others begin where the linear model has its minimum.
+void Straightness::move_along(Eigen::Index parameter, double by, std::vector<double>& x) const {
+  const auto rows = static_cast<Eigen::Index>(centre_residuals_.size()), n = static_cast<Eigen::Index>(x.size());
+  x[static_cast<std::size_t>(parameter)] += by;
+  if (rows == 0 || n == 1) return;
+  const Eigen::Map<const Rows> J(centre_jacobian_.data(), rows, n);
+  const Eigen::Map<const Vector> r(centre_residuals_.data(), rows);
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index j = 0; j < n; ++j)
+    if (j != parameter) moving.push_back(j);
+  const Vector others =
+      Eigen::CompleteOrthogonalDecomposition<Matrix>(J(Eigen::all, moving)).solve(-(r + by * J.col(parameter)));
+  for (std::size_t a = 0; a < moving.size(); ++a) {
+    double& value = x[static_cast<std::size_t>(moving[a])];
+    value = std::clamp(value + others[static_cast<Eigen::Index>(a)], 0.0, 1.0);
+  }
 }
 
 bool Straightness::holds(Eigen::Index parameter, double half_width, double quantile) {
   const auto j = static_cast<std::size_t>(parameter);
   for (const double side : {-1.0, 1.0}) {
     std::vector<double> x = centre_;
-    x[j] = std::clamp(x[j] + side * half_width, 0.0, 1.0);
+    move_along(parameter, std::clamp(x[j] + side * half_width, 0.0, 1.0) - x[j], x);
     const double expected = std::pow(quantile * (x[j] - centre_[j]) / half_width, 2);
     if (expected < 0.05) continue;  // next to a bound: nothing to tell
     const double rise = (fit(x, parameter) - least_) / expected;
@@ -58,7 +84,6 @@ double Straightness::linearise(const std::vector<double>& x) {
 }
 
 Vector Straightness::step(const std::vector<double>& x, const std::vector<Eigen::Index>& moving) {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto n = static_cast<Eigen::Index>(x.size()), m = static_cast<Eigen::Index>(constraints_.size());
   const Eigen::Map<const Rows> J(jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
   const Eigen::Map<const Vector> r(residuals_.data(), J.rows());
@@ -87,9 +112,9 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
   double here = linearise(x);
   for (int k = 0; k < iterations && std::isfinite(here); ++k) {
     std::vector<Eigen::Index> moving;
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(
-        jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
-    const Vector slope = J.transpose() * Eigen::Map<const Vector>(residuals_.data(), J.rows());
+    const Eigen::Map<const Rows> J(jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
+    const Eigen::Map<const Vector> r(residuals_.data(), J.rows());
+    const Vector slope = J.transpose() * r;
     for (Eigen::Index j = 0; j < n; ++j) {
       const double at = x[static_cast<std::size_t>(j)];
       // Against its bound; where constraints push too, the step itself keeps within the bounds.
@@ -100,6 +125,8 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     const double violation = violation_, penalty = penalty_;
     const Vector step = this->step(x, moving);
     if (step.size() == 0) break;
+    // What is to be gained is known before it is simulated.
+    if (constraints_.empty() && r.squaredNorm() - (r + J(Eigen::all, moving) * step).squaredNorm() < enough) break;
     here += (penalty_ - penalty) * violation;
     std::vector<double> next;
     double there = std::numeric_limits<double>::infinity(), length = 1;
