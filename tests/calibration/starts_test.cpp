@@ -115,7 +115,7 @@ class StartsOnALine : public testing::Test {
       return inner_.linearise(x, objective, residuals, jacobian);
     }
     Status constraints(std::span<const double>, std::span<double>, std::span<double>) override { return {}; }
-    void for_each_start(std::size_t, const std::function<void(std::size_t, Problem&)>&) override {}
+    std::size_t for_each_start(std::size_t, const std::function<void(std::size_t, Problem&)>&) override { return 0; }
     [[nodiscard]] bool should_stop() const override { return inner_.should_stop(); }
     [[nodiscard]] std::uint64_t evaluations() const override { return inner_.evaluations(); }
     [[nodiscard]] std::uint64_t budget() const override { return inner_.budget(); }
@@ -200,14 +200,15 @@ TEST_F(StartsOnALine, SeeTheSameBodiesRunForAnyNumberOfThreads) {
     settings.stop = budget(100);
     CalibrationProblem problem(assembly, settings);
     std::vector<std::size_t> evaluations(100, 0);
-    problem.for_each_start(100, [&](std::size_t k, Problem& child) {
+    const std::size_t begun = problem.for_each_start(100, [&](std::size_t k, Problem& child) {
       EXPECT_EQ(child.budget(), 100u);
       wander(child, 10);
       evaluations[k] = child.evaluations();
     });
     EXPECT_EQ(problem.evaluations(), 100u);
-    EXPECT_GT(evaluations[7], 0u) << "the first block runs whole";
-    EXPECT_EQ(evaluations[8], 0u) << "the second does not begin";
+    EXPECT_EQ(begun, 3u) << "of 46 evaluations each";
+    EXPECT_EQ(evaluations[8], 0u) << "the second block does not begin";
+    evaluations.resize(begun);
     visited.push_back(evaluations);
   }
   EXPECT_EQ(visited[0], visited[1]);
@@ -228,6 +229,28 @@ TEST_F(StartsOnALine, KeepAPrefixWhenInterrupted) {
   ASSERT_LT(recording.lines.size(), whole.lines.size());
   EXPECT_TRUE(std::equal(recording.lines.begin(), recording.lines.end(), whole.lines.begin()));
   EXPECT_GT(recording.lines.size(), 10u);
+}
+
+TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
+  constexpr std::uint64_t most = 1'000'000;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+  const calibration::Assembly assembly = bench_.assemble();
+  CalibrationProblem::Settings settings;
+  settings.stop = budget(most), settings.stop.target = 1e9;  // any point will do
+  CalibrationProblem problem(assembly, settings);
+  std::uint64_t wasted = 0;
+  const std::size_t begun = problem.for_each_start(2, [&](std::size_t k, Problem& child) {
+    double objective = 0;
+    if (k == 0) static_cast<void>(child.evaluate(std::vector<double>(child.dimension(), 0.5), objective));
+    if (k == 0) return;
+    // Its own target would end it as well; points that fail do not reach it.
+    const std::vector<double> fails(child.dimension(), 1.0);
+    for (; !child.should_stop(); ++wasted) static_cast<void>(child.evaluate(fails, objective));
+  });
+  EXPECT_EQ(problem.evaluations(), 1u);
+  EXPECT_EQ(problem.stop_reason(), "target");
+  EXPECT_EQ(begun, 1u);
+  EXPECT_LT(wasted, most);
 }
 
 TEST_F(StartsOnALine, NestOneAfterTheOther) {

@@ -142,8 +142,9 @@ class FunctionProblem : public Problem {
     return {};
   }
 
-  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
+  std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
     for (std::size_t k = 0; k < count; ++k) body(settings_.reverse ? count - 1 - k : k, *this);
+    return count;
   }
 
   [[nodiscard]] bool should_stop() const override {

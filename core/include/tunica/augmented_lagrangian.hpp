@@ -107,8 +107,8 @@ class AugmentedLagrangian : public Problem {
                      jacobian.empty() ? jacobian : jacobian.subspan(m_ * n_));
   }
   /// Each child begins with the multipliers and the penalty there are; point() and best() hear nothing of it.
-  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
-    problem_.for_each_start(count, [&](std::size_t k, Problem& child) {
+  std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
+    return problem_.for_each_start(count, [&](std::size_t k, Problem& child) {
       AugmentedLagrangian lagrangian(child);
       lagrangian.multipliers_ = multipliers_;
       lagrangian.penalty_ = penalty_;

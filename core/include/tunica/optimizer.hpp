@@ -53,8 +53,10 @@ class Problem {
   virtual Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) = 0;
 
   /// Independent searches: calls body(k, child) for k = 0 … count − 1, side by side where there are threads, each
-  /// with a problem of its own. The outcome is that of running them one after the other, for any number of threads.
-  virtual void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) = 0;
+  /// with a problem of its own. The outcome is that of running them one after the other, for any number of threads:
+  /// it returns how many of them would have begun before the search had to stop. What a body found for a later k, or
+  /// that it ran at all, depends on the clock and is to be forgotten.
+  virtual std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) = 0;
 
   [[nodiscard]] virtual bool should_stop() const = 0;
   [[nodiscard]] virtual std::uint64_t evaluations() const = 0;

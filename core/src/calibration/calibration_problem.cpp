@@ -109,10 +109,10 @@ Status CalibrationProblem::constraints(std::span<const double> x, std::span<doub
   return parts_->search.constraints(x, values, jacobian);
 }
 
-void CalibrationProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
-  Starts(parts_->common, parts_->search, [this](const Evaluations& made) {
-    parts_->merge(made);
-  }).run(count, parts_->settings.seed, body);
+std::size_t CalibrationProblem::for_each_start(std::size_t count,
+                                               const std::function<void(std::size_t, Problem&)>& body) {
+  return Starts(parts_->common, parts_->search, [this](const Evaluations& made) { parts_->merge(made); })
+      .run(count, parts_->settings.seed, body);
 }
 
 bool CalibrationProblem::should_stop() const { return parts_->search.should_stop(); }

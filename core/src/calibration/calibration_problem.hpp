@@ -110,7 +110,7 @@ class CalibrationProblem : public Problem {
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian) override;
   Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override;
-  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
+  std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
   [[nodiscard]] bool should_stop() const override;
   [[nodiscard]] std::uint64_t evaluations() const override;
   [[nodiscard]] std::uint64_t budget() const override;

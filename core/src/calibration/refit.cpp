@@ -59,8 +59,10 @@ class RefitProblem final : public Problem {
     return status;
   }
   /// One after the other: refits themselves run side by side.
-  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
-    for (std::size_t k = 0; k < count && !should_stop(); ++k) body(k, *this);
+  std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
+    std::size_t k = 0;
+    for (; k < count && !should_stop(); ++k) body(k, *this);
+    return k;
   }
   [[nodiscard]] bool should_stop() const override { return evaluations_ >= refit_evaluations; }
   [[nodiscard]] std::uint64_t evaluations() const override { return evaluations_; }

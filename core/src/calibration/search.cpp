@@ -74,12 +74,14 @@ void Evaluations::clear() {
   calls.clear(), parameters.clear(), per_test.clear(), objectives.clear(), seconds.clear(), statuses.clear();
 }
 
-Search::Search(Common& common, Ledger ledger_, std::optional<std::uint64_t> replay_from)
-    : ledger(std::move(ledger_)), common_(common), replay_from_(replay_from) {}
+Search::Search(Common& common, Ledger ledger_, std::optional<std::uint64_t> replay_from,
+               const std::atomic<bool>* needless)
+    : ledger(std::move(ledger_)), common_(common), replay_from_(replay_from), needless_(needless) {}
 
 bool Search::should_stop() const {
   if (ledger.stopped()) return true;
   const auto& settings = common_.settings;
+  if (needless_ != nullptr && *needless_) ledger.stop("not needed");
   if (settings.interrupted && settings.interrupted()) ledger.stop("interrupted");
   if (settings.stop.max_time && common_.watch.seconds() >= *settings.stop.max_time) ledger.stop("max_time");
   if (ledger.budget() == 0) ledger.stop("max_evaluations");

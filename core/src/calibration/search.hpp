@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <mutex>
@@ -95,7 +96,9 @@ struct Evaluations {
 class Search {
  public:
   /// `replay_from`: index of the first evaluation in the journal; used only while it lasts.
-  Search(Common& common, Ledger ledger, std::optional<std::uint64_t> replay_from);
+  /// It also stops where `needless` becomes true.
+  Search(Common& common, Ledger ledger, std::optional<std::uint64_t> replay_from,
+         const std::atomic<bool>* needless = nullptr);
 
   Status evaluate(std::span<const double> x, double& objective);
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses);
@@ -120,6 +123,7 @@ class Search {
 
   Common& common_;
   std::optional<std::uint64_t> replay_from_;
+  const std::atomic<bool>* needless_;
   GoodPoints good_;
   Replayed entry_;
 };

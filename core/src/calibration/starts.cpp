@@ -2,6 +2,7 @@
 #include "calibration/starts.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -24,8 +25,9 @@ std::uint64_t seed_of_start(std::uint64_t seed, std::size_t number) {
 
 }  // namespace
 
-StartProblem::StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from)
-    : search(common, std::move(ledger), replay_from), common_(common), seed_(seed) {}
+StartProblem::StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from,
+                           const std::atomic<bool>* needless)
+    : search(common, std::move(ledger), replay_from, needless), common_(common), seed_(seed) {}
 
 Status StartProblem::evaluate(std::span<const double> x, double& objective) { return search.evaluate(x, objective); }
 
@@ -39,18 +41,21 @@ Status StartProblem::linearise(std::span<const double> x, double& objective, std
   return search.linearise(x, objective, residuals, jacobian);
 }
 
-void StartProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
+std::size_t StartProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
   const std::uint64_t own = seed_;
-  for (std::size_t k = 0; k < count && !should_stop(); ++k) {
+  std::size_t k = 0;
+  for (; k < count && !should_stop(); ++k) {
     seed_ = seed_of_start(own, k);
     body(k, *this);
   }
   seed_ = own;
+  return k;
 }
 
 std::uint64_t StartProblem::seed(std::string_view purpose) const { return derive_seed(seed_, purpose); }
 
 void Starts::take(StartProblem& start) {
+  begun_ += parent_.ledger.stopped() ? 0 : 1;
   merge_(start.search.made);
   // A start that the clock or the user ended is not whole: what follows it in order must not be counted.
   const std::string& reason = start.search.ledger.stop_reason();
@@ -70,13 +75,15 @@ void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
   }
   std::vector<std::unique_ptr<StartProblem>> starts(size);
   std::vector<char> finished(size, 0);
+  std::atomic<bool> needless = parent_.ledger.stopped();
   std::size_t next = k;
   std::mutex mutex;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(k, size, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t at = range.begin(); at < range.end(); ++at) {
-          starts[at] = std::make_unique<StartProblem>(common_, at_begin, seed_of_start(seed, first + at), std::nullopt);
+          starts[at] = std::make_unique<StartProblem>(common_, at_begin, seed_of_start(seed, first + at), std::nullopt,
+                                                      &needless);
           body(first + at, *starts[at]);
           const std::lock_guard lock(mutex);
           finished[at] = 1;
@@ -84,18 +91,20 @@ void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
             take(*starts[next]);
             starts[next].reset();
           }
+          needless = parent_.ledger.stopped();
         }
       },
       tbb::simple_partitioner());
 }
 
-void Starts::run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body) {
+std::size_t Starts::run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body) {
   for (std::size_t done = 0, block = first_block; done < count && !parent_.should_stop();
        block = std::min(2 * block, largest_block)) {
     const std::size_t size = std::min(block, count - done);
     run_block(done, size, seed, body);
     done += size;
   }
+  return begun_;
 }
 
 }  // namespace tunica::calibration

@@ -15,7 +15,8 @@ namespace tunica::calibration {
 /// was when its block of starts began.
 class StartProblem : public Problem {
  public:
-  StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from);
+  StartProblem(Common& common, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from,
+               const std::atomic<bool>* needless = nullptr);
 
   [[nodiscard]] std::size_t dimension() const override { return common_.parameters; }
   [[nodiscard]] std::span<const double> start() const override { return common_.start; }
@@ -30,7 +31,7 @@ class StartProblem : public Problem {
     return search.constraints(x, values, jacobian);
   }
   /// Starts within a start run one after the other on this problem, each with seeds of its own.
-  void for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
+  std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override;
   [[nodiscard]] bool should_stop() const override { return search.should_stop(); }
   [[nodiscard]] std::uint64_t evaluations() const override { return search.ledger.tally().evaluations; }
   [[nodiscard]] std::uint64_t budget() const override { return search.ledger.budget(); }
@@ -43,12 +44,12 @@ class StartProblem : public Problem {
   std::uint64_t seed_;
 };
 
-/// Runs starts block by block, each block side by side, and merges what they evaluated in the order of the starts.
+/// Runs starts block by block, of 8, 16, 32, then 64, each block side by side, and merges what they evaluated in the
+/// order of the starts.
 ///
 /// The outcome is that of one start after the other: a start may have gone on beyond the point where the search as a
-/// whole stops; what lies beyond is discarded and not counted, and later blocks do not run. Blocks have the same
-/// sizes for any number of threads, 8, 16, 32, then 64, so that the bodies see the same too, and work thrown away
-/// stays in proportion to work done.
+/// whole stops; what lies beyond is discarded and not counted, later starts under way end at their next evaluation, and
+/// later blocks do not run.
 ///
 /// `merge` takes one start's evaluations; it is called in the order of the starts, never concurrently. `parent` is
 /// what the search as a whole counts.
@@ -56,7 +57,8 @@ class Starts {
  public:
   Starts(Common& common, Search& parent, std::function<void(const Evaluations&)> merge)
       : common_(common), parent_(parent), merge_(std::move(merge)) {}
-  void run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body);
+  /// Returns how many begin before the stop when they run one after the other.
+  std::size_t run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body);
 
  private:
   void run_block(std::size_t first, std::size_t size, std::uint64_t seed,
@@ -66,6 +68,7 @@ class Starts {
   Common& common_;
   Search& parent_;
   std::function<void(const Evaluations&)> merge_;
+  std::size_t begun_ = 0;
 };
 
 }  // namespace tunica::calibration

@@ -46,14 +46,17 @@ std::vector<std::size_t> rank(const std::vector<Descent>& descents) {
   return order;
 }
 
-/// Descends from x of each listed descent and puts the result in its place.
+/// Descends from x of each listed descent and puts the result in its place, of those that were begun in time.
 void descend_all(Problem& problem, const std::vector<std::size_t>& which, std::vector<Descent>& descents,
                  int max_iterations, const Settings& settings) {
-  problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
-    Descent& descent = descents[which[k]];
-    Descent next = descend(child, descent.x, max_iterations, settings);
-    if (next.evaluated || !descent.evaluated) descent = std::move(next);
+  std::vector<Descent> made(which.size());
+  const std::size_t begun = problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
+    made[k] = descend(child, descents[which[k]].x, max_iterations, settings);
   });
+  for (std::size_t k = 0; k < begun; ++k) {
+    Descent& descent = descents[which[k]];
+    if (made[k].evaluated || !descent.evaluated) descent = std::move(made[k]);
+  }
 }
 
 /// Every start, those that cannot be evaluated replaced a few times over.

@@ -94,7 +94,7 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
   std::size_t evaluated = 0;
   constexpr int rounds = 5;  // points that cannot be evaluated are replaced
   for (int round = 0; round < rounds && !which.empty() && !problem.should_stop(); ++round) {
-    problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
+    const std::size_t begun = problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
       const std::size_t i = which[k];
       const std::vector<double> x =
           i == 0 && round == 0
@@ -102,6 +102,7 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
               : random_point(derive_seed(seed, fmt::format("start {} {}", i, round)), child.dimension());
       searches[i] = search_locally(child, x, settings_.algorithm, settings_);
     });
+    for (std::size_t k = begun; k < which.size(); ++k) searches[which[k]] = {};  // too late to count
     for (const std::size_t i : which) evaluated += searches[i].evaluated;
     std::erase_if(which, [&](std::size_t i) { return !searches[i].best.x.empty(); });
   }
