@@ -93,7 +93,10 @@ Status Path::fill(const Load& to, bool exact) {
   State state = state_, before, next;
   if (Status status = solver_.solve(load, state, true); !status.ok()) return status;
   double volume = solver_.volume(state);
-  const auto fail = [&](const std::string& why) { return stuck(why, load, state); };
+  const auto fail = [&](const std::string& why) {
+    load_ = load, state_ = state, has_previous_ = false;
+    return stuck(why, load, state);
+  };
   for (double part = first_filling, last = 0; true;) {
     if (++steps_ > limits_.steps) return fail(fmt::format("{} load steps were not enough", limits_.steps));
     Load at = load;
