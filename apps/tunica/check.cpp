@@ -57,8 +57,8 @@ void print_parameters(const calibration::Assembly& assembly) {
     fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", pad(parameter.name, width), parameter.unit, parameter.value);
 }
 
-/// Median time of one evaluation in µs, over a fifth of a second at most.
-double time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
+/// Median time of one evaluation, over a fifth of a second at most.
+std::string time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
   using Clock = std::chrono::steady_clock;
   auto workspace = assembly.make_workspace();
   std::vector<double> per_test(tests), times;
@@ -71,7 +71,8 @@ double time_evaluation(const calibration::Assembly& assembly, const std::vector<
     now = after;
   }
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  return times[times.size() / 2];
+  const double median = times[times.size() / 2];
+  return median < 1000 ? fmt::format("{:.3g} µs", median) : fmt::format("{:.3g} ms", median / 1000);
 }
 
 /// What the tests find of themselves by other means; false where more than discretisation separates them.
@@ -117,7 +118,7 @@ bool print_initial_point(const execution::PlannedRun& run) {
   if (per_test.size() > 1)
     for (std::size_t test = 0; test < per_test.size(); ++test)
       text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
-  fmt::print("{}\n  one evaluation takes {:.3g} µs; derivatives are {}\n", hanging("  at the initial point: ", text),
+  fmt::print("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
              time_evaluation(assembly, free, per_test.size()), assembly.jacobian_is_exact() ? "exact" : "differenced");
   if (assembly.constraint_count() > 0)
     fmt::print("{}\n", hanging(fmt::format("  {}: ", counted(assembly.constraint_count(), "constraint", "constraints")),

@@ -38,12 +38,15 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   fmt::print(stderr, "{}\n", comparison::hanging("", subject.origin));
   for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
   const auto tables = comparison::simulate(experiment, session.catalogue(), request, subject);
-  std::vector<comparison::FieldRequest> fields;
-  for (const auto& text : options.fields) fields.push_back(comparison::field_request(text));
+  std::vector<std::pair<std::string, std::vector<Snapshot>>> fields;
+  for (const auto& text : options.fields) {
+    const auto asked = comparison::field_request(text);
+    fields.emplace_back(asked.test, comparison::take_snapshots(experiment, subject, asked));
+  }
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
   for (const auto& table : tables) fmt::print("{}\n", comparison::write_table(directory.path(), table).string());
-  for (const auto& field : fields)
-    for (const auto& path : comparison::write_snapshots(directory.path(), experiment, subject, field))
+  for (const auto& [test, snapshots] : fields)
+    for (const auto& path : comparison::write_snapshots(directory.path(), test, snapshots))
       fmt::print("{}\n", path.string());
   return done;
 }

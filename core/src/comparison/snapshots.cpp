@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
+#include "stability/ellipticity.hpp"
 #include "tunica/error.hpp"
 #include "tunica/test.hpp"
 
@@ -61,6 +63,30 @@ void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
   out.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
 }
 
+/// Where a snapshot tells the stretches: how far the material is from losing ellipticity there, the shear near a clamp
+/// left aside; not positive = lost.
+void add_ellipticity(const TestInput& input, Snapshot& snapshot) {
+  if (input.model.describe().history_size > 0 || input.layers.size() > 1) return;
+  const std::array<const char*, 3> names{"circumferential_stretch", "axial_stretch", "radial_stretch"};
+  const auto margin = [&](const auto& has) {
+    std::array<const std::vector<double>*, 3> stretch{};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (const auto& one : has)
+        if (one.name == names[a]) stretch[a] = &one.values;
+    std::vector<double> found;
+    if (std::ranges::count(stretch, nullptr) > 0) return found;
+    for (std::size_t i = 0; i < stretch[0]->size(); ++i)
+      found.push_back(stability::least_wave_stiffness(input.model, input.model_parameters,
+                                                      {(*stretch[0])[i], (*stretch[1])[i], (*stretch[2])[i]})
+                          .value_or(std::numeric_limits<double>::quiet_NaN()));
+    return found;
+  };
+  if (std::vector<double> found = margin(snapshot.fields); !found.empty())
+    snapshot.fields.push_back({"least_wave_stiffness", "kPa", 1, true, std::move(found)});
+  if (std::vector<double> found = margin(snapshot.section); !found.empty())
+    snapshot.section.push_back({"least_wave_stiffness", "kPa", std::move(found)});
+}
+
 }  // namespace
 
 FieldRequest field_request(const std::string& text) {
@@ -75,9 +101,8 @@ FieldRequest field_request(const std::string& text) {
   return request;
 }
 
-std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory,
-                                                   const experiment::Experiment& experiment, const Subject& subject,
-                                                   const FieldRequest& request) {
+std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, const Subject& subject,
+                                     const FieldRequest& request) {
   const auto test = std::ranges::find(experiment.tests, request.test, &experiment::TestEntry::name);
   if (test == experiment.tests.end())
     throw InputError(fmt::format("--fields {}: the experiment has no test of that name", request.test));
@@ -94,14 +119,20 @@ std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& 
   std::vector<Snapshot> snapshots;
   const auto number = static_cast<std::size_t>(test - experiment.tests.begin());
   const Status status = subject.assembly->ask(number, subject.free, [&](const Test& asked, const TestInput& input) {
-    return asked.snapshots(input, rows, snapshots);
+    const Status made = asked.snapshots(input, rows, snapshots);
+    for (Snapshot& snapshot : snapshots) add_ellipticity(input, snapshot);
+    return made;
   });
   if (!status.ok()) throw InputError(fmt::format("--fields {}: {}", request.test, status.reason()));
+  return snapshots;
+}
 
+std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory, const std::string& test,
+                                                   const std::vector<Snapshot>& snapshots) {
   std::vector<std::filesystem::path> files;
   std::string collection;
   for (const Snapshot& snapshot : snapshots) {
-    const std::string stem = fmt::format("{}_{}", request.test, snapshot.row + 1);
+    const std::string stem = fmt::format("{}_{}", test, snapshot.row + 1);
     files.push_back(directory / (stem + ".vtu"));
     write_grid(files.back(), snapshot);
     collection += fmt::format("    <DataSet timestep=\"{}\" file=\"{}.vtu\"/>\n", snapshot.row + 1, stem);
@@ -113,7 +144,7 @@ std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& 
     }
     files.push_back(write_table(directory, table));
   }
-  files.push_back(directory / (request.test + ".pvd"));
+  files.push_back(directory / (test + ".pvd"));
   fmt::ostream out = fmt::output_file(files.back().string());
   out.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "

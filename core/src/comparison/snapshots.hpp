@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "comparison/simulation.hpp"
+#include "tunica/test.hpp"
 
 namespace tunica::comparison {
 
@@ -17,12 +18,14 @@ struct FieldRequest {
 };
 FieldRequest field_request(const std::string& text);
 
-/// Asks the test for its fields and writes, for ParaView and others, directory/<test>_<row>.vtu (VTK's XML format for
-/// unstructured grids, ASCII, quadrilaterals) with directory/<test>.pvd as the collection of them all, and tables
-/// directory/<test>_<row>_section.csv. Returns the files. Throws InputError where the experiment has no such test or
-/// row, or the test no fields. Source: docs.vtk.org, "VTK XML Formats".
-std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory,
-                                                   const experiment::Experiment& experiment, const Subject& subject,
-                                                   const FieldRequest& request);
+/// Asks the test for its fields. Throws InputError where the experiment has no such test or row, or the test no fields.
+std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, const Subject& subject,
+                                     const FieldRequest& request);
+
+/// Writes, for ParaView and others, directory/<test>_<row>.vtu (VTK's XML format for unstructured grids, ASCII,
+/// quadrilaterals) with directory/<test>.pvd as the collection of them all, and tables
+/// directory/<test>_<row>_section.csv. Returns the files. Source: docs.vtk.org, "VTK XML Formats".
+std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory, const std::string& test,
+                                                   const std::vector<Snapshot>& snapshots);
 
 }  // namespace tunica::comparison

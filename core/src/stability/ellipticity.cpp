@@ -74,6 +74,12 @@ std::optional<Weakest> weakest_at(const Model& model, std::span<const double> pa
 
 }  // namespace
 
+std::optional<double> least_wave_stiffness(const Model& model, std::span<const double> parameters,
+                                           const std::array<double, 3>& stretches) {
+  const std::optional<Weakest> found = weakest_at(model, parameters, {stretches, 0});
+  return found ? std::optional(found->value) : std::nullopt;
+}
+
 std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> parameters, double limit) {
   std::vector<double> stretches;
   for (std::size_t k = 1; k <= points_a_path; ++k)

@@ -28,4 +28,9 @@ struct EllipticityVerdict {
 EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double> parameters,
                                      const std::vector<Path>& paths);
 
+/// Least m·Q m at one state of stretches along t, z, r, kPa, over the same directions; none where the response is not
+/// finite.
+std::optional<double> least_wave_stiffness(const Model& model, std::span<const double> parameters,
+                                           const std::array<double, 3>& stretches);
+
 }  // namespace tunica::stability
