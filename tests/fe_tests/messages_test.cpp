@@ -97,6 +97,18 @@ TEST(FiniteElementMessages, TheStepsAreCounted) {
   EXPECT_SAYS(reason(*tube, "gho", set_s), "row 2 (pressure 8 kPa");
 }
 
+/// On a line that is interpolated, with rows on both sides of zero: first up, then down.
+TEST(FiniteElementMessages, TheRowThatWasNotReachedIsOnItsSideOfZero) {
+  std::vector<double> pressures = evenly(0, 20, 21);
+  for (const double below : evenly(-0.5, -15, 30)) pressures.push_back(below);
+  const auto stopped = [&](std::int64_t steps) {
+    return reason(*make_fe_tube(pressures, {.elements = "[2, 3]", .options = option("max_steps", steps)}), "gho",
+                  set_s);
+  };
+  EXPECT_SAYS(stopped(3), "row 8 (pressure 7 kPa");
+  for (const std::int64_t steps : {10, 12, 14}) EXPECT_SAYS(stopped(steps), "(pressure -");
+}
+
 TEST(FiniteElementMessages, AnOverflowNamesItsRow) {
   const std::string text =
       reason(*make_fe_tube({1, 2}, {.elements = "[2, 3]", .axial_stretch = 4}), "gho", {10, 0.1, 500, 100, 0});
@@ -123,7 +135,7 @@ TEST(FiniteElementMessages, TheEquilibriaOfATubeThatBalloonsAreNotPassedBy) {
   for (const double beyond : {1.001, 1.01, 1.05}) {
     const std::string text =
         reason(*make_fe_tube({beyond * limit}, {.elements = "[4, 6]", .ends = "sliding"}), "neo_hooke", {60});
-    EXPECT_SAYS(text, "the equilibrium becomes unstable after pressure 21.8");
+    EXPECT_SAYS(text, "the equilibrium becomes unstable, by a bulge or a buckle, after pressure 21.8");
   }
 }
 

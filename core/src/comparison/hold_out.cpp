@@ -31,7 +31,7 @@ std::string cell(const Quality& quality) {
 std::string line(const std::string& name, const std::string& fitted, const std::string& held_out) {
   std::string text = "  ";
   if (columns(name) > name_width) text += name + "\n  ";
-  text += pad(columns(name) > name_width ? "" : name, name_width) + pad(fitted, cell_width) + held_out;
+  text += pad(columns(name) > name_width ? "" : name, name_width) + pad(fitted + ' ', cell_width) + held_out;
   return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
 }
 

@@ -114,6 +114,7 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
   for (const std::size_t row : rows)
     if (row >= count)
       throw InputError(fmt::format("--fields {}: there is no row {}; the test has {}", request.test, row + 1, count));
+  std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 
   std::vector<Snapshot> snapshots;

@@ -53,6 +53,8 @@ void descend_all(Problem& problem, const std::vector<std::size_t>& which, std::v
   const std::size_t begun = problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
     made[k] = descend(child, descents[which[k]].x, max_iterations, settings);
   });
+  // The last of them may have gone on beyond the stop.
+  if (begun > 0 && problem.should_stop()) made[begun - 1].end = Descent::End::stopped;
   for (std::size_t k = 0; k < begun; ++k) {
     Descent& descent = descents[which[k]];
     if (made[k].evaluated || !descent.evaluated) descent = std::move(made[k]);

@@ -103,6 +103,7 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
       searches[i] = search_locally(child, x, settings_.algorithm, settings_);
     });
     for (std::size_t k = begun; k < which.size(); ++k) searches[which[k]] = {};  // too late to count
+    if (begun > 0 && problem.should_stop()) searches[which[begun - 1]].end = Search::End::stopped;
     for (const std::size_t i : which) evaluated += searches[i].evaluated;
     std::erase_if(which, [&](std::size_t i) { return !searches[i].best.x.empty(); });
   }

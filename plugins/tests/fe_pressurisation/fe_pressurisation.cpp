@@ -193,7 +193,7 @@ std::vector<Option> options() {
        .fallback = std::string("clamped"),
        .doc =
            "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
-           "not at all (sliding: then the tube is a long one).",
+           "not at all (sliding: then the tube is a long one, until it bulges or buckles).",
        .choices = {"clamped", "clamped_after_stretch", "sliding"}},
       {.name = "element",
        .kind = Option::Kind::choice,

@@ -14,7 +14,6 @@ constexpr double shortest_of_pressure = 1. / 8;  ///< below it the volume is rai
 /// Of the volume's logarithm.
 constexpr double first_filling = 0.02, most_filling = 0.5, least_filling = 1e-4;
 constexpr double far_filling = 0.02;  ///< as `far`: the prediction is better
-constexpr double ballooned = 20;      ///< so many times its unloaded diameter is no tube that anybody measures
 constexpr double far = 0.05;          ///< Newton's method may move the state so much, over the outer radius
 
 /// y += a x
@@ -112,7 +111,7 @@ Status Path::fill(const Load& to, bool exact) {
     // The pressure rises, and yet the tube would leave this path, by a buckle or a bulge.
     if (solver_.negative_pivots() > 0) {
       if ((part /= 2) > least_filling) continue;
-      return fail("the equilibrium becomes unstable");
+      return fail("the equilibrium becomes unstable, by a bulge or a buckle,");
     }
     const double reached = (to.pressure - load.pressure) / (at.pressure - load.pressure);
     if (reached <= 1) {
@@ -152,7 +151,8 @@ Status Path::go(const Load& to, bool exact) {
     part /= 2;
     // The factor is lost: the last equilibrium is found again, and left by its tangent.
     has_previous_ = false;
-    if (part < shortest || solver_.late()) return stuck(status.reason(), load_, state_);
+    if (solver_.late()) return stuck("the time limit is reached", load_, state_);
+    if (part < shortest) return stuck(status.reason(), load_, state_);
     if (part < shortest_of_pressure && to.stretch == load_.stretch) return fill(to, exact);
     if (Status back = solver_.solve(load_, state_, false); !back.ok()) return back;
   }

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 namespace tunica::fe {
 namespace {
 
-constexpr std::size_t first_points = 15, most_points = 29;  ///< each within the next
+constexpr std::size_t first_points = 15, most_points = 29;
 
 Mesh mesh_of(const Tube& tube) {
   return {tube.order, tube.radial, tube.axial, tube.inner, tube.outer, tube.length / 2, tube.grading, tube.ends};
@@ -116,11 +117,14 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
   const auto solve = [&](std::size_t k) {
     const Status status = take(path, {trunk.load.stretch, at[k]}, nodes[k]);
     if (status.ok()) return status;
-    for (const std::size_t i : rows)  // the first row that was not reached
-      if (std::abs(loads[i].pressure) > std::abs(path.load().pressure)) {
-        failed_at = i;
-        break;
-      }
+    // The next row on this side of zero that was not reached.
+    const auto beyond = [&](std::size_t i) {
+      const double pressure = loads[i].pressure, reached = path.load().pressure;
+      return at[k] < 0 ? pressure < std::min(reached, 0.0) : pressure > std::max(reached, 0.0) || pressure == at[k];
+    };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : rows)
+      if (beyond(i) && std::abs(loads[i].pressure) < nearest) nearest = std::abs(loads[i].pressure), failed_at = i;
     return status;
   };
   const std::size_t zero =

@@ -132,6 +132,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     const double allowed = full_steps ? 0.4 : slow;
     if (!full && step > allowed * last) {  // the factor is too old
       full = true;
+      effort_.steps.pop_back();  // not taken
       system_.gamma = incompressibility * system_.stiffness;
       continue;
     }
@@ -165,7 +166,7 @@ void Solver::move(State& state, bool mixed) {
                          std::vector<double>& moved) {
     last.resize(step.size()), moved.resize(step.size());
     for (std::size_t i = 0; i < step.size(); ++i) {
-      moved[i] = step[i] - beta * (moved[i] + step[i] - last[i]);
+      moved[i] = beta == 0 ? step[i] : step[i] - beta * (moved[i] + step[i] - last[i]);
       last[i] = step[i], x[i] += moved[i];
     }
   };

@@ -16,7 +16,7 @@ struct Load {
   double stretch = 1, pressure = 0;
 };
 
-/// What one solution took.
+/// What solutions took since begin(), and the last of them.
 struct Effort {
   std::size_t factorisations = 0, iterations = 0;
   std::vector<double> steps;  ///< the largest |dx| of each iteration over the outer radius, of the last solution
