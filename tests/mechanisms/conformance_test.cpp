@@ -18,14 +18,14 @@ TEST_P(DecoratedModel, KeepsTheProperties) {
   EXPECT_EQ(property.check(*wrapped(mechanism, model("hgo", fibre_switch)), 20230211), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, DecoratedModel,
-                         ::testing::Combine(::testing::Values("fibre_dispersion", "viscoelasticity"),
-                                            ::testing::Values("strain", "none"),
-                                            ::testing::ValuesIn(model_properties())),
-                         [](const auto& at) {
-                           return std::string(std::get<0>(at.param)) + "_" + std::get<1>(at.param) + "_" +
-                                  std::get<2>(at.param).name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Mechanisms, DecoratedModel,
+    ::testing::Combine(::testing::Values("axial_fibres", "circumferential_fibres", "fibre_dispersion",
+                                         "second_invariant", "viscoelasticity"),
+                       ::testing::Values("strain", "none"), ::testing::ValuesIn(model_properties())),
+    [](const auto& at) {
+      return std::string(std::get<0>(at.param)) + "_" + std::get<1>(at.param) + "_" + std::get<2>(at.param).name;
+    });
 
 }  // namespace
 }  // namespace tunica::testing

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/forwarded_part.hpp"
 #include "tunica/hyperelastic.hpp"
 #include "tunica/plugin.hpp"
 
@@ -24,33 +25,10 @@ Parameter kappa() {
           "Gasser, Ogden, Holzapfel 2006, eq. 4.2"};
 }
 
-/// A part of the base model, which it keeps alive; the base's parameters come first, so its indices stay valid.
-class Forwarded : public EnergyPart {
- public:
-  Forwarded(std::shared_ptr<const Model> base, const EnergyPart& part)
-      : base_(std::move(base)), part_(part), description_(part.describe()) {}
-
-  [[nodiscard]] const Description& describe() const override { return description_; }
-  void invariant(std::span<const double> parameters, Invariant& value,
-                 std::span<Invariant> derivatives) const override {
-    part_.invariant(parameters.first(base_count()), value, derivatives);
-  }
-  void respond(std::span<const double> parameters, const ResponseBatch& batch) const override {
-    part_.respond(parameters.first(base_count()), batch);
-  }
-
- protected:
-  [[nodiscard]] std::size_t base_count() const { return base_->describe().parameters.size(); }
-
-  std::shared_ptr<const Model> base_;
-  const EnergyPart& part_;
-  Description description_;
-};
-
 /// A fibre part with fibre (M·CM) → fibre (κ I1 + (1 − 3κ) M·CM).
-class Dispersed final : public Forwarded {
+class Dispersed final : public ForwardedPart {
  public:
-  Dispersed(std::shared_ptr<const Model> base, const EnergyPart& part) : Forwarded(std::move(base), part) {
+  Dispersed(std::shared_ptr<const Model> base, const EnergyPart& part) : ForwardedPart(std::move(base), part) {
     description_.invariant_parameters.push_back(base_count());
   }
 
@@ -58,7 +36,7 @@ class Dispersed final : public Forwarded {
                  std::span<Invariant> derivatives) const override {
     const double k = parameters[base_count()];
     const std::size_t own = derivatives.empty() ? 0 : derivatives.size() - 1;
-    Forwarded::invariant(parameters, value, derivatives.first(own));
+    ForwardedPart::invariant(parameters, value, derivatives.first(own));
     if (!derivatives.empty()) {
       derivatives[own] = {.i1 = value.fibre, .fibre = -3 * value.fibre};
       for (Invariant& derivative : derivatives.first(own)) mix(derivative, k);
@@ -121,7 +99,7 @@ class DispersedModel final : public Hyperelastic {
     std::size_t fibres = 0;
     for (const auto& part : base->parts()) {
       if (part->describe().role != EnergyPart::Role::fibre) {
-        parts.push_back(std::make_unique<Forwarded>(base, *part));
+        parts.push_back(std::make_unique<ForwardedPart>(base, *part));
         continue;
       }
       if (is_dispersed(*part, model)) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "tunica/model.hpp"
+
+namespace tunica {
+
+/// A part of a base model within a mechanism's model, which keeps the base alive. The base's parameters come first, so
+/// that the indices of the part stay valid.
+class ForwardedPart : public EnergyPart {
+ public:
+  ForwardedPart(std::shared_ptr<const Model> base, const EnergyPart& part)
+      : base_(std::move(base)), part_(part), description_(part.describe()) {}
+
+  [[nodiscard]] const Description& describe() const override { return description_; }
+  void invariant(std::span<const double> parameters, Invariant& value,
+                 std::span<Invariant> derivatives) const override {
+    part_.invariant(parameters.first(base_count()), value, derivatives);
+  }
+  void respond(std::span<const double> parameters, const ResponseBatch& batch) const override {
+    part_.respond(parameters.first(base_count()), batch);
+  }
+
+ protected:
+  [[nodiscard]] std::size_t base_count() const { return base_->describe().parameters.size(); }
+
+  std::shared_ptr<const Model> base_;
+  const EnergyPart& part_;
+  Description description_;
+};
+
+/// A part of the mechanism's own, with parameters of its own that stand behind those of the base.
+class AddedPart final : public EnergyPart {
+ public:
+  AddedPart(std::size_t base_count, std::unique_ptr<EnergyPart> part)
+      : base_count_(base_count), part_(std::move(part)), description_(part_->describe()) {
+    for (auto* indices : {&description_.invariant_parameters, &description_.response_parameters})
+      for (std::size_t& index : *indices) index += base_count_;
+  }
+
+  [[nodiscard]] const Description& describe() const override { return description_; }
+  void invariant(std::span<const double> parameters, Invariant& value,
+                 std::span<Invariant> derivatives) const override {
+    part_->invariant(parameters.subspan(base_count_), value, derivatives);
+  }
+  void respond(std::span<const double> parameters, const ResponseBatch& batch) const override {
+    part_->respond(parameters.subspan(base_count_), batch);
+  }
+
+ private:
+  std::size_t base_count_;
+  std::unique_ptr<EnergyPart> part_;
+  Description description_;
+};
+
+}  // namespace tunica

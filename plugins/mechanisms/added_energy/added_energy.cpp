@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mechanisms that add a part to the energy, W + ψ(x; amplitude, …): a family of fibres along an axis, a second
+// invariant in the matrix, the tone of the smooth muscle.
+#include <functional>
+
+#include "tunica/arterial_fibres.hpp"
+#include "tunica/forwarded_part.hpp"
+#include "tunica/rubber_laws.hpp"
+
+namespace {
+
+using namespace tunica;
+
+/// ψ = (T/2) ln(1 + x) = T ln λt with x = C_tt − 1: a circumferential Cauchy stress T.
+struct Tone {
+  static constexpr std::size_t parameter_count = 1;
+
+  template <class T>
+  static T energy(const T& x, std::span<const T> p) {
+    using std::log;
+    return 0.5 * p[0] * log(1.0 + x);
+  }
+};
+
+/// The base model and one part more, whose amplitude is its first parameter; without it, the base itself.
+class ExtendedModel final : public Hyperelastic {
+ public:
+  ExtendedModel(const std::shared_ptr<const Model>& base, const std::vector<Parameter>& parameters,
+                std::unique_ptr<EnergyPart> part)
+      : Hyperelastic(described(*base, parameters), extended(base, std::move(part))),
+        base_(base),
+        count_(base->describe().parameters.size()) {}
+
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    if (points.parameters[count_] != 0 || !response.stress_dp.empty()) return Hyperelastic::evaluate(points, response);
+    MaterialPoints bare = points;
+    bare.parameters = points.parameters.first(count_);
+    return base_->evaluate(bare, response);
+  }
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
+    if (points.parameters[count_] != 0 || !response.gradient_dp.empty() || !base_->describe().principal_axes)
+      return Hyperelastic::evaluate_axes(points, response);
+    return base_->evaluate_axes({points.count, points.c, points.parameters.first(count_)}, response);
+  }
+
+ private:
+  static ModelDescription described(const Model& base, const std::vector<Parameter>& parameters) {
+    ModelDescription description = base.describe();
+    description.parameters.insert(description.parameters.end(), parameters.begin(), parameters.end());
+    description.parameter_derivatives = true;  // from the parts, whatever the base itself offers
+    return description;
+  }
+  static std::vector<std::unique_ptr<EnergyPart>> extended(const std::shared_ptr<const Model>& base,
+                                                           std::unique_ptr<EnergyPart> own) {
+    std::vector<std::unique_ptr<EnergyPart>> parts;
+    for (const auto& part : base->parts()) parts.push_back(std::make_unique<ForwardedPart>(base, *part));
+    parts.push_back(std::make_unique<AddedPart>(base->describe().parameters.size(), std::move(own)));
+    return parts;
+  }
+
+  std::shared_ptr<const Model> base_;
+  std::size_t count_;
+};
+
+using MakePart = std::function<std::unique_ptr<EnergyPart>()>;
+
+MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
+  mechanism.stage = tunica::Stage::energy;
+  mechanism.side = MechanismFactory::Side::positive;
+  mechanism.null = 0;
+  mechanism.wrap_model = [id = mechanism.id, parameters = mechanism.parameters, make = std::move(make)](
+                             std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
+    if (base->parts().empty())
+      throw InputError(id + ": model '" + base->describe().type +
+                       "' is no sum of energy parts, to which one could be added; expected a hyperelastic model; take "
+                       "the mechanism out or choose another model");
+    return std::make_unique<ExtendedModel>(std::shared_ptr<const Model>(std::move(base)), parameters, make());
+  };
+  return mechanism;
+}
+
+std::vector<Parameter> family(const std::string& axis) {
+  const char* const source = "Baek, Gleason, Rajagopal, Humphrey 2007";
+  return {{"k", "kPa", 1, 0, 100, Scale::linear, "Stiffness of the " + axis + " fibres.", source},
+          {"k2", "1", 1, 0.001, 100, Scale::log, "How fast the " + axis + " fibres stiffen.", source}};
+}
+
+/// Fibres carry load while stretched: λ > 1 along the axis.
+template <int degrees>
+std::unique_ptr<EnergyPart> fibres(const std::string& name) {
+  return std::make_unique<LawPart<laws::Exponential, arterial::FixedFibres<degrees>, 2>>(EnergyPart::Description{
+      name, EnergyPart::Role::fibre, EnergyPart::Active::argument_positive, false, {}, {0, 1}, false});
+}
+
+std::vector<MechanismFactory> factories() {
+  const auto stated = [](std::string id, std::string cause, std::vector<Parameter> parameters, double plausible_max,
+                         std::vector<std::string> look_alikes, std::string isolated_by, std::string reference) {
+    MechanismFactory mechanism{};
+    mechanism.id = std::move(id), mechanism.cause = std::move(cause), mechanism.parameters = std::move(parameters);
+    mechanism.plausible_max = plausible_max, mechanism.look_alikes = std::move(look_alikes);
+    mechanism.isolated_by = std::move(isolated_by), mechanism.reference = std::move(reference);
+    return mechanism;
+  };
+  const std::string four = "Baek, Gleason, Rajagopal, Humphrey, Comput. Methods Appl. Mech. Eng. 196:3070 (2007)";
+  return {adding(stated("axial_fibres", "A family of fibres runs along the axis, beside the diagonal ones.",
+                        family("axial"), 50, {"fibre_dispersion", "matrix_stiffening", "axial_stretch_error"},
+                        "an axial strip beside a circumferential one, or imaging of the fibre directions", four),
+                 [] { return fibres<0>("axial_fibres"); }),
+          adding(stated("circumferential_fibres",
+                        "A family of fibres runs around the circumference, beside the diagonal ones.",
+                        family("circumferential"), 50, {"fibre_dispersion", "matrix_stiffening", "active_tone"},
+                        "a circumferential strip beside an axial one, or imaging of the fibre directions", four),
+                 [] { return fibres<90>("circumferential_fibres"); }),
+          adding(stated("second_invariant", "The matrix resists the stretching of areas, not only of lengths.",
+                        {{"c2", "kPa", 1, 0, 100, Scale::linear, "Stiffness in the second invariant.", "Mooney 1940"}},
+                        50, {"matrix_stiffening", "chain_extensibility"}, "equibiaxial beside uniaxial extension",
+                        "Mooney, J. Appl. Phys. 11:582 (1940)"),
+                 [] {
+                   return isotropic::part<laws::Proportional, isotropic::SecondInvariant, 1>("second_invariant", {0});
+                 }),
+          adding(stated("active_tone", "The smooth muscle was not fully relaxed: it adds a circumferential stress.",
+                        {{"tone", "kPa", 1, 0, 200, Scale::linear, "Circumferential Cauchy stress of the muscle.",
+                          "Rachev, Hayashi 1999"}},
+                        100, {"force_offset", "circumferential_fibres", "residual_stress"},
+                        "the same test in a relaxing bath", "Rachev, Hayashi, Ann. Biomed. Eng. 27:459 (1999)"),
+                 [] {
+                   return std::make_unique<LawPart<Tone, arterial::FixedFibres<90>, 1>>(EnergyPart::Description{
+                       "active_tone", EnergyPart::Role::fibre, EnergyPart::Active::always, false, {}, {0}, false});
+                 })};
+}
+
+}  // namespace
+
+TUNICA_PLUGIN("added_energy", TUNICA_PLUGIN_VERSION) {
+  for (auto& mechanism : factories()) registry.add(std::move(mechanism));
+}
