@@ -34,8 +34,8 @@ void print_tests(const calibration::Assembly& assembly) {
     std::string text = fmt::format("{} rows", channel.count);
     if (held_out > 0) text += fmt::format(" ({} held out)", held_out);
     if (channel.count > 0)
-      text += fmt::format(", {:.4g} … {:.4g} {} over {} {:.4g} … {:.4g}{}", *low, *high, channel.unit,
-                          channel.abscissa_name, *first, *last,
+      text += fmt::format(", {:.4g} … {:.4g}{} over {} {:.4g} … {:.4g}{}", *low, *high,
+                          channel.unit == "1" ? "" : " " + channel.unit, channel.abscissa_name, *first, *last,
                           channel.abscissa_unit == "1" ? "" : ' ' + channel.abscissa_unit);
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
