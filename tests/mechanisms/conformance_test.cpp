@@ -20,12 +20,19 @@ TEST_P(DecoratedModel, KeepsTheProperties) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mechanisms, DecoratedModel,
-    ::testing::Combine(::testing::Values("axial_fibres", "circumferential_fibres", "fibre_dispersion",
-                                         "second_invariant", "viscoelasticity"),
+    ::testing::Combine(::testing::Values("axial_fibres", "chain_extensibility", "circumferential_fibres",
+                                         "fibre_dispersion", "matrix_stiffening", "second_invariant",
+                                         "viscoelasticity"),
                        ::testing::Values("strain", "none"), ::testing::ValuesIn(model_properties())),
     [](const auto& at) {
       return std::string(std::get<0>(at.param)) + "_" + std::get<1>(at.param) + "_" + std::get<2>(at.param).name;
     });
+
+/// Fibres that always carry load are not taken up.
+INSTANTIATE_TEST_SUITE_P(Recruitment, DecoratedModel,
+                         ::testing::Combine(::testing::Values("fibre_recruitment"), ::testing::Values("strain"),
+                                            ::testing::ValuesIn(model_properties())),
+                         [](const auto& at) { return std::string(std::get<2>(at.param).name); });
 
 }  // namespace
 }  // namespace tunica::testing

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "tunica/arterial_fibres.hpp"
-#include "tunica/forwarded_part.hpp"
+#include "tunica/decorated_model.hpp"
 #include "tunica/rubber_laws.hpp"
 
 namespace {
@@ -22,46 +22,6 @@ struct Tone {
   }
 };
 
-/// The base model and one part more, whose amplitude is its first parameter; without it, the base itself.
-class ExtendedModel final : public Hyperelastic {
- public:
-  ExtendedModel(const std::shared_ptr<const Model>& base, const std::vector<Parameter>& parameters,
-                std::unique_ptr<EnergyPart> part)
-      : Hyperelastic(described(*base, parameters), extended(base, std::move(part))),
-        base_(base),
-        count_(base->describe().parameters.size()) {}
-
-  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    if (points.parameters[count_] != 0 || !response.stress_dp.empty()) return Hyperelastic::evaluate(points, response);
-    MaterialPoints bare = points;
-    bare.parameters = points.parameters.first(count_);
-    return base_->evaluate(bare, response);
-  }
-  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
-    if (points.parameters[count_] != 0 || !response.gradient_dp.empty() || !base_->describe().principal_axes)
-      return Hyperelastic::evaluate_axes(points, response);
-    return base_->evaluate_axes({points.count, points.c, points.parameters.first(count_)}, response);
-  }
-
- private:
-  static ModelDescription described(const Model& base, const std::vector<Parameter>& parameters) {
-    ModelDescription description = base.describe();
-    description.parameters.insert(description.parameters.end(), parameters.begin(), parameters.end());
-    description.parameter_derivatives = true;  // from the parts, whatever the base itself offers
-    return description;
-  }
-  static std::vector<std::unique_ptr<EnergyPart>> extended(const std::shared_ptr<const Model>& base,
-                                                           std::unique_ptr<EnergyPart> own) {
-    std::vector<std::unique_ptr<EnergyPart>> parts;
-    for (const auto& part : base->parts()) parts.push_back(std::make_unique<ForwardedPart>(base, *part));
-    parts.push_back(std::make_unique<AddedPart>(base->describe().parameters.size(), std::move(own)));
-    return parts;
-  }
-
-  std::shared_ptr<const Model> base_;
-  std::size_t count_;
-};
-
 using MakePart = std::function<std::unique_ptr<EnergyPart>()>;
 
 MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
@@ -74,7 +34,11 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
       throw InputError(id + ": model '" + base->describe().type +
                        "' is no sum of energy parts, to which one could be added; expected a hyperelastic model; take "
                        "the mechanism out or choose another model");
-    return std::make_unique<ExtendedModel>(std::shared_ptr<const Model>(std::move(base)), parameters, make());
+    const std::shared_ptr<const Model> shared(std::move(base));
+    std::vector<std::unique_ptr<EnergyPart>> parts;
+    for (const auto& part : shared->parts()) parts.push_back(std::make_unique<ForwardedPart>(shared, *part));
+    parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(), make()));
+    return std::make_unique<DecoratedModel>(shared, parameters, 0, std::move(parts));
   };
   return mechanism;
 }

@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/forwarded_part.hpp"
-#include "tunica/hyperelastic.hpp"
+#include "tunica/decorated_model.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {
@@ -65,61 +64,30 @@ bool is_dispersed(const EnergyPart& part, const ModelDescription& model) {
   return false;
 }
 
-class DispersedModel final : public Hyperelastic {
- public:
-  explicit DispersedModel(const std::shared_ptr<const Model>& base)
-      : Hyperelastic(described(*base), dispersed(base)), base_(base) {}
-
-  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    if (!at_null(points.parameters) || !response.stress_dp.empty()) return Hyperelastic::evaluate(points, response);
-    MaterialPoints bare = points;
-    bare.parameters = points.parameters.first(points.parameters.size() - 1);
-    return base_->evaluate(bare, response);
-  }
-  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
-    if (!at_null(points.parameters) || !response.gradient_dp.empty() || !base_->describe().principal_axes)
-      return Hyperelastic::evaluate_axes(points, response);
-    return base_->evaluate_axes({points.count, points.c, points.parameters.first(points.parameters.size() - 1)},
-                                response);
-  }
-
- private:
-  static bool at_null(std::span<const double> parameters) { return parameters.back() == 0; }
-
-  static ModelDescription described(const Model& base) {
-    ModelDescription description = base.describe();
-    description.parameters.push_back(kappa());
-    description.parameter_derivatives = true;  // from the parts, whatever the base itself offers
-    return description;
-  }
-
-  static std::vector<std::unique_ptr<EnergyPart>> dispersed(const std::shared_ptr<const Model>& base) {
-    const ModelDescription& model = base->describe();
-    std::vector<std::unique_ptr<EnergyPart>> parts;
-    std::size_t fibres = 0;
-    for (const auto& part : base->parts()) {
-      if (part->describe().role != EnergyPart::Role::fibre) {
-        parts.push_back(std::make_unique<ForwardedPart>(base, *part));
-        continue;
-      }
-      if (is_dispersed(*part, model)) {
-        throw InputError("fibre_dispersion: the fibres of model '" + model.type + "' (part '" + part->describe().name +
-                         "') are dispersed already; expected a model with aligned fibres, for example hgo; use the "
-                         "model's own dispersion parameters, or take the mechanism out");
-      }
-      parts.push_back(std::make_unique<Dispersed>(base, *part));
-      ++fibres;
+std::vector<std::unique_ptr<EnergyPart>> dispersed(const std::shared_ptr<const Model>& base) {
+  const ModelDescription& model = base->describe();
+  std::vector<std::unique_ptr<EnergyPart>> parts;
+  std::size_t fibres = 0;
+  for (const auto& part : base->parts()) {
+    if (part->describe().role != EnergyPart::Role::fibre) {
+      parts.push_back(std::make_unique<ForwardedPart>(base, *part));
+      continue;
     }
-    if (fibres == 0) {
-      throw InputError("fibre_dispersion: model '" + model.type +
-                       "' has no fibre parts to disperse; expected a model with fibres, for example hgo; take the "
-                       "mechanism out or choose another model");
+    if (is_dispersed(*part, model)) {
+      throw InputError("fibre_dispersion: the fibres of model '" + model.type + "' (part '" + part->describe().name +
+                       "') are dispersed already; expected a model with aligned fibres, for example hgo; use the "
+                       "model's own dispersion parameters, or take the mechanism out");
     }
-    return parts;
+    parts.push_back(std::make_unique<Dispersed>(base, *part));
+    ++fibres;
   }
-
-  std::shared_ptr<const Model> base_;
-};
+  if (fibres == 0) {
+    throw InputError("fibre_dispersion: model '" + model.type +
+                     "' has no fibre parts to disperse; expected a model with fibres, for example hgo; take the "
+                     "mechanism out or choose another model");
+  }
+  return parts;
+}
 
 MechanismFactory factory() {
   MechanismFactory mechanism{
@@ -137,7 +105,8 @@ MechanismFactory factory() {
       .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)",
       .options = {}};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
-    return std::make_unique<DispersedModel>(std::shared_ptr<const Model>(std::move(base)));
+    const std::shared_ptr<const Model> shared(std::move(base));
+    return std::make_unique<DecoratedModel>(shared, std::vector<Parameter>{kappa()}, 0, dispersed(shared));
   };
   return mechanism;
 }
