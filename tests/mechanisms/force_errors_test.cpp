@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "shelf.hpp"
 #include "support/strip.hpp"
+#include "support/tube.hpp"
 
 namespace tunica {
 namespace {
@@ -92,6 +94,64 @@ TEST(ForceOffset, RefusesATestWithoutStress) {
                                     "mechanism shifts; map a column to 'stress', or take the mechanism out"));
   }
 }
+
+struct Case {
+  const char* mechanism;
+  bool tube;
+  double amplitude, gain, shift;  ///< measured = gain · true + shift
+};
+
+class EveryForceError : public ::testing::TestWithParam<Case> {
+ protected:
+  [[nodiscard]] static std::unique_ptr<tunica::Test> bare() {
+    if (!GetParam().tube) return strip({"transverse_stretch", "stress"});
+    return testing::make_tube({1, 8, 15, 20}, {.channels = {"outer_diameter_stretch", "axial_force"}});
+  }
+  [[nodiscard]] static std::unique_ptr<tunica::Test> misread() {
+    const auto& entry = testing::catalogue().mechanisms().at(GetParam().mechanism);
+    return plugins::wrap(entry, bare(), testing::defaults(entry.factory.options));
+  }
+  /// The test's own parameters at their nulls, and the amplitude.
+  [[nodiscard]] static std::vector<double> own(std::vector<double> more) {
+    std::vector<double> values = bare()->describe().nulls;
+    values.insert(values.end(), more.begin(), more.end());
+    return values;
+  }
+};
+
+TEST_P(EveryForceError, ReadsTheTrueForceAsItsFormulaSays) {
+  const Case is = GetParam();
+  const Prediction truth = predict(*bare(), own({}));
+  const Prediction read = predict(*misread(), own({is.amplitude}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(read.values[i], truth.values[i]);
+    EXPECT_NEAR(read.values[4 + i], is.gain * truth.values[4 + i] + is.shift, 1e-13 * std::abs(truth.values[4 + i]));
+    EXPECT_NEAR(read.by_abscissa[4 + i], is.gain * truth.by_abscissa[4 + i],
+                1e-13 * std::abs(truth.by_abscissa[4 + i]));
+  }
+  for (std::size_t j = 0; j < truth.jacobian.size(); ++j)
+    EXPECT_NEAR(read.jacobian[j], (j % 8 < 4 ? 1 : is.gain) * truth.jacobian[j], 1e-13 * std::abs(truth.jacobian[j]));
+  constexpr double h = 1e-4;
+  const Prediction above = predict(*misread(), own({is.amplitude + h}));
+  const Prediction below = predict(*misread(), own({is.amplitude - h}));
+  for (std::size_t i = 0; i < 8; ++i)
+    EXPECT_NEAR(read.jacobian[truth.jacobian.size() + i], (above.values[i] - below.values[i]) / (2 * h),
+                1e-6 * std::max(1., std::abs(truth.values[i])));
+}
+
+TEST_P(EveryForceError, IsTheBareTestAtTheNullBitForBit) {
+  const Prediction truth = predict(*bare(), own({}));
+  const Prediction read = predict(*misread(), own({0}));
+  EXPECT_EQ(std::memcmp(read.values.data(), truth.values.data(), sizeof(double) * truth.values.size()), 0);
+  EXPECT_EQ(std::memcmp(read.jacobian.data(), truth.jacobian.data(), sizeof(double) * truth.jacobian.size()), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(ForceErrors, EveryForceError,
+                         ::testing::Values(Case{"force_offset", false, -2.5, 1, -2.5},
+                                           Case{"force_scale_error", false, 0.25, 1.25, 0},
+                                           Case{"axial_force_offset", true, 12, 1, -12},
+                                           Case{"axial_force_scale_error", true, 0.25, 0.8, 0}),
+                         [](const auto& at) { return std::string(at.param.mechanism); });
 
 }  // namespace
 }  // namespace tunica
