@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tunica/model.hpp"
@@ -34,6 +35,16 @@ struct MechanismFactory {
   std::string isolated_by;  ///< the kind of test that separates it
   std::string reference;
   std::vector<Option> options;
+
+  /// Instead of wrap_test: the test's own parameter of this name, a native imperfection that is held at its null
+  /// unless this mechanism is there. Options that the test declares as well override those of the test.
+  std::string native = {};
+  /// Diagnosis tries one amplitude in all tests that it applies to, besides one a test.
+  bool shared = false;
+  /// Where diagnosis looks for the effect: values of nuisance parameters and of number options, by name. Empty: every
+  /// nuisance at its initial value, those in s from the shortest step to the duration of the data.
+  using Setting = std::vector<std::pair<std::string, double>>;
+  std::vector<Setting> scan = {};
 
   /// Stages invariants … history. Throws InputError where it cannot apply, for example for want of fibre parts.
   std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};

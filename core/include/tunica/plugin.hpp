@@ -17,7 +17,7 @@
 #include "tunica/test.hpp"
 
 /// Raised with every change of an interface or of a struct that crosses the boundary.
-#define TUNICA_PLUGIN_API 3
+#define TUNICA_PLUGIN_API 4
 
 #define TUNICA_TEXT_(x) #x
 #define TUNICA_TEXT(x) TUNICA_TEXT_(x)

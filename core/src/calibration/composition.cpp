@@ -111,6 +111,41 @@ void refuse_excluded(const experiment::TestEntry& entry, const std::vector<Param
                                    entry.layers.empty() ? "with these options" : "with \"layers\""));
 }
 
+void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, const std::string& owner) {
+  const auto& applies_to = layer.mechanism->factory.applies_to;
+  if (applies_to.empty() || std::find(applies_to.begin(), applies_to.end(), entry.type) != applies_to.end()) return;
+  throw InputError(fmt::format("{}: the mechanism '{}' does not apply to a test of type '{}'; it applies to: {}", owner,
+                               layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
+}
+
+/// What mechanisms that stand for native imperfections say of the test's options.
+void override_options(Options& options, const std::vector<Layer>& mechanisms) {
+  for (const Layer& layer : mechanisms)
+    for (const auto& [name, value] : layer.entry->options.values())
+      if (!layer.mechanism->factory.native.empty() && options.has(name)) options.set(name, value);
+}
+
+/// Gives the test's own parameter to the mechanism that stands for it: under its name, and free unless fixed.
+void expose_native(std::vector<Slot>& slots, const std::vector<Parameter>& of_test, const Layer& layer,
+                   const experiment::TestEntry& entry, const std::string& prefix, const std::string& owner) {
+  const MechanismFactory& factory = layer.mechanism->factory;
+  const auto found =
+      std::find_if(of_test.begin(), of_test.end(), [&](const Parameter& p) { return p.name == factory.native; });
+  if (found == of_test.end())
+    throw InputError(fmt::format("{}: the mechanism '{}' is the test's own parameter '{}', which it does not have {}",
+                                 owner, factory.id, factory.native,
+                                 entry.layers.empty() ? "with these options" : "with \"layers\""));
+  Slot& slot = slots[static_cast<std::size_t>(found - of_test.begin())];
+  if (slot.setting)
+    throw InputError(fmt::format("{}: the mechanism '{}' is the parameter '{}' of {}; name one of the two",
+                                 slot.setting->pointer, factory.id, factory.native, owner));
+  const std::string& name = factory.parameters.front().name;
+  slot.declaration.name = fmt::format("{}{}.{}", prefix, factory.id, name);
+  slot.setting = setting_of(layer.entry->parameters, name);
+  slot.null = std::numeric_limits<double>::quiet_NaN();
+  refuse_unknown(layer.entry->parameters, {name}, fmt::format("mechanism '{}' of {}", factory.id, owner));
+}
+
 }  // namespace
 
 ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue,
@@ -130,9 +165,12 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   const std::string owner = fmt::format("test '{}'", entry.name), prefix = entry.name + ".";
   const auto& on_shelf = look_up(catalogue.tests(), entry.type, "test type");
   ComposedTest composed{{}, on_shelf.plugin, {}, {}};
+  const std::vector<Layer> mechanisms = layers(entry.mechanisms, catalogue, owner, false);
+  for (const Layer& layer : mechanisms) refuse_other_tests(entry, layer, owner);
   try {
     composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
     TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
+    override_options(setup.options, mechanisms);
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {
@@ -143,11 +181,11 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   composed.slots = own_slots(bare.parameters, entry.parameters, prefix, owner);
   for (std::size_t k = 0; k < std::min(bare.nulls.size(), composed.slots.size()); ++k)
     composed.slots[k].null = bare.nulls[k];
-  for (const Layer& layer : layers(entry.mechanisms, catalogue, owner, false)) {
-    const auto& applies_to = layer.mechanism->factory.applies_to;
-    if (!applies_to.empty() && std::find(applies_to.begin(), applies_to.end(), entry.type) == applies_to.end()) {
-      throw InputError(fmt::format("{}: the mechanism '{}' does not apply to a test of type '{}'; it applies to: {}",
-                                   owner, layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
+  const std::vector<Parameter> own = bare.parameters;
+  for (const Layer& layer : mechanisms) {
+    if (!layer.mechanism->factory.native.empty()) {
+      expose_native(composed.slots, own, layer, entry, prefix, owner);
+      continue;
     }
     composed.test = plugins::wrap(*layer.mechanism, std::move(composed.test), layer.entry->options);
     append_slots(composed.slots, composed.test->describe().parameters, layer, prefix, owner);

@@ -36,6 +36,13 @@ void check_callable(const Factory& factory, std::string_view kind) {
 }
 void check_callable(const MechanismFactory& factory, std::string_view kind) {
   const bool on_model = factory.stage < tunica::Stage::test;
+  if (!factory.native.empty()) {
+    if (!on_model && !factory.wrap_model && !factory.wrap_test && factory.parameters.size() == 1) return;
+    throw std::invalid_argument(
+        fmt::format("the {} '{}' stands for a test's own parameter '{}', and then acts at stage 'test', wraps nothing "
+                    "and has that one parameter; mend its factory before registering",
+                    kind, factory.id, factory.native));
+  }
   if (on_model ? !factory.wrap_model : !factory.wrap_test) {
     throw std::invalid_argument(
         fmt::format("the {} '{}' has no {} function, which its stage needs; set it before "
