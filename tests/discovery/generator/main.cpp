@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes cases of the blind benchmark of diagnosis: experiment files and data with an effect hidden in them, the truth
+// apart. Nothing of tunica is in it. The same orders give the same cases; those that are there are left alone.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+
+#include "sealed_case.hpp"
+
+namespace {
+
+using namespace blind;
+
+/// "A:B", B not included.
+std::pair<std::size_t, std::size_t> range(const std::string& text) {
+  const auto colon = text.find(':');
+  std::size_t from = 0, to = 0;
+  const auto read = [](std::string_view part, std::size_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size();
+  };
+  if (colon == std::string::npos || !read(std::string_view(text).substr(0, colon), from) ||
+      !read(std::string_view(text).substr(colon + 1), to) || to < from)
+    throw CLI::ValidationError("--cases", fmt::format("found '{}', expected \"first:last\", last not included, for "
+                                                      "example 0:40",
+                                                      text));
+  return {from, to};
+}
+
+void list() {
+  for (const auto* effects : {&catalogue(), &outsiders()}) {
+    for (const Effect& effect : *effects)
+      fmt::print("{}{}{}\n", effect.id, effects == &outsiders() ? " (outside)" : "",
+                 effect.look_alike.empty() ? "" : ", like " + effect.look_alike);
+  }
+}
+
+std::vector<Order> orders(const std::string& set, std::vector<std::string> effects, std::vector<double> lambdas,
+                          std::pair<std::size_t, std::size_t> cases, std::uint64_t seed,
+                          const std::vector<std::string>& noise) {
+  if (set == "nulls") effects = {""}, lambdas = {0};
+  if (set == "pairs") effects = {""};
+  if (effects.empty())
+    for (const Effect& effect : set == "outside" ? outsiders() : catalogue()) effects.push_back(effect.id);
+  if (lambdas.empty()) lambdas = set == "pairs" ? std::vector<double>{60} : std::vector<double>{10, 25, 60, 150};
+  std::vector<Order> all;
+  for (std::size_t index = cases.first; index < cases.second; ++index)
+    for (const std::string& effect : effects)
+      for (const double lambda : lambdas) all.push_back({seed, set, effect, lambda, index, noise});
+  return all;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  CLI::App app("Cases of the blind benchmark of diagnosis, their truth sealed");
+  std::string out, set = "nulls", cases = "0:1";
+  std::uint64_t seed = 1;
+  std::vector<std::string> effects, noise{"white", "relative", "quantised"};
+  std::vector<double> lambdas;
+  bool only_list = false;
+  app.add_option("--out", out, "folder of the cases; truths go to its folder 'sealed'");
+  app.add_option("--seed", seed, "root of all random numbers");
+  app.add_option("--set", set, "what is hidden")->check(CLI::IsMember({"nulls", "singles", "pairs", "outside"}));
+  app.add_option("--cases", cases, "first:last of each effect and Λ, last not included");
+  app.add_option("--effect", effects, "ids, for singles and outside; default: all");
+  app.add_option("--lambda", lambdas, "squared misfit that each effect alone leaves; default 10 25 60 150, pairs 60")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--noise", noise, "kinds to draw from; default: white relative quantised")
+      ->check(CLI::IsMember(noise_kinds()));
+  app.add_flag("--list", only_list, "list the effects and end");
+  try {
+    app.parse(count, arguments);
+    if (only_list) {
+      list();
+      return 0;
+    }
+    if (out.empty()) throw CLI::RequiredError("--out");
+    for (const std::string& id : effects) (void)effect(id);
+    std::size_t written = 0;
+    const auto all = orders(set, effects, lambdas, range(cases), seed, noise);
+    for (const Order& order : all) written += write(order, out);
+    fmt::print("{} cases in {}, {} of them new\n", all.size(), out, written);
+    return 0;
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  } catch (const std::invalid_argument& problem) {
+    fmt::print(stderr, "discovery_generator: {}\n", problem.what());
+    return 2;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "discovery_generator: {}\n", problem.what());
+    return 1;
+  }
+}

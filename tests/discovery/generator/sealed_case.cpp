@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sealed_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nettle/sha2.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace blind {
+namespace {
+
+std::mt19937_64 stream(const std::string& text) {
+  std::seed_seq sequence(text.begin(), text.end());
+  return std::mt19937_64(sequence);
+}
+
+/// Two effects of which the data can tell one from the other at Λ = 60: c below 0.9 (5.41/(1 − c) ≤ 60).
+constexpr double most_alike = 0.9;
+
+/// What acts on the same term of the energy has no agreed order.
+bool compatible(const std::string& a, const std::string& b) {
+  const auto is = [&](const char* x, const char* y) { return (a == x && b == y) || (a == y && b == x); };
+  return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment");
+}
+
+Dialled hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {
+  return dial(made.specimen, made.noise, draw(effect, made.specimen, random), made.order.lambda);
+}
+
+/// Correlation of what the base model leaves of each of the two.
+double likeness(const SealedCase& made) {
+  const auto left = [&](const Dialled& one) {
+    return refit_with(made.specimen, made.noise, {one.hidden}, made.specimen.tissue).residual;
+  };
+  const Eigen::VectorXd a = left(made.hidden[0]), b = left(made.hidden[1]);
+  return a.dot(b) / (a.norm() * b.norm());
+}
+
+void hide_pair(SealedCase& made, std::mt19937_64& random) {
+  const auto& all = catalogue();
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto pick = [&]() -> const Effect& {
+      return all[std::uniform_int_distribution<std::size_t>(0, all.size() - 1)(random)];
+    };
+    const Effect &one = pick(), &other = pick();
+    if (!compatible(one.id, other.id)) continue;
+    made.hidden = {hide(made, one, random), hide(made, other, random)};
+    if (!made.hidden[0].reached || !made.hidden[1].reached) continue;
+    made.correlation = likeness(made);
+    made.truth =
+        observe(made.specimen.protocol, world_with(made.specimen, {made.hidden[0].hidden, made.hidden[1].hidden}));
+    bool good = std::abs(made.correlation) <= most_alike;
+    for (const double value : made.truth) good &= std::isfinite(value);
+    if (good) return;
+  }
+  throw std::runtime_error("no pair of effects found for " + made.order.text());
+}
+
+}  // namespace
+
+std::string sha256(const std::string& bytes) {
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+std::string Order::text() const {
+  return fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));
+}
+std::string Order::name() const { return "case-" + sha256("name of " + text()).substr(0, 12); }
+
+SealedCase make(const Order& order) {
+  auto random = stream(order.text());
+  SealedCase made;
+  made.order = order;
+  made.specimen = draw_specimen(random);
+  const auto kind = std::uniform_int_distribution<std::size_t>(0, order.noise.size() - 1)(random);
+  made.noise = draw_noise(order.noise[kind], made.specimen, random);
+  if (order.set == "pairs") hide_pair(made, random);
+  if (order.set == "singles" || order.set == "outside") made.hidden = {hide(made, effect(order.effect), random)};
+  std::vector<Hidden> hidden;
+  for (const Dialled& one : made.hidden) hidden.push_back(one.hidden);
+  made.truth = observe(made.specimen.protocol, world_with(made.specimen, hidden));
+  if (made.hidden.size() == 1) made.lambda = made.hidden[0].lambda;
+  if (made.hidden.size() == 2 || order.set == "outside") {
+    const Refit fit = refit_with(made.specimen, made.noise, hidden, made.specimen.tissue);
+    made.lambda = fit.misfit;
+    if (order.set == "outside") {
+      const Noise noise = made.noise.about(made.specimen.protocol, made.truth);
+      made.account = best_account(signatures(made.specimen, fit.tissue, noise, fit.jacobian), fit.residual);
+    }
+  }
+  made.records = add_noise(made.noise, made.specimen.protocol, made.truth, random);
+  return made;
+}
+
+}  // namespace blind

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dial.hpp"
+#include "signatures.hpp"
+
+namespace blind {
+
+/// Which case of the benchmark: the same order makes the same case, bit for bit.
+struct Order {
+  std::uint64_t seed = 0;
+  std::string set;     ///< nulls, singles, pairs, outside
+  std::string effect;  ///< of singles and outside
+  double lambda = 0;   ///< asked of every effect alone
+  std::size_t index = 0;
+  std::vector<std::string> noise;  ///< kinds to draw from
+  [[nodiscard]] std::string text() const;
+  /// Says nothing about the case to who does not know the order.
+  [[nodiscard]] std::string name() const;
+};
+
+struct SealedCase {
+  Order order;
+  Specimen specimen;
+  NoiseModel noise;
+  std::vector<Dialled> hidden;
+  double lambda = 0;       ///< of all effects together
+  double correlation = 0;  ///< of pairs: of what the base model leaves of each
+  Account account;         ///< of effects outside the catalogue: the catalogue's best for it
+  std::vector<double> truth;
+  Records records;
+};
+SealedCase make(const Order& order);
+
+/// DIR/<name>/: experiment.json, data, truth.sha256; and DIR/sealed/<name>.json. The case folder appears at once and
+/// last, so that an interrupted run leaves none that is incomplete. True unless it was there already.
+bool write(const Order& order, const std::filesystem::path& folder);
+
+std::string sha256(const std::string& bytes);
+
+}  // namespace blind

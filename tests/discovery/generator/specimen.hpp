@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+
+#include "world.hpp"
+
+namespace blind {
+
+/// One of the specimens that the benchmark tests, and how a laboratory would test it: stretches and pressures up to
+/// what the tissue bears.
+struct Specimen {
+  Tissue tissue;
+  Protocol protocol;
+};
+Specimen draw_specimen(std::mt19937_64& random);
+
+double between(std::mt19937_64& random, double low, double high);
+double between_log(std::mt19937_64& random, double low, double high);
+
+}  // namespace blind

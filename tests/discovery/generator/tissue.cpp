@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tissue.hpp"
+
+#include <Eigen/Dense>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace blind {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Moments of the density exp(2b cos²Θ) over the sphere, by Simpson's rule in v = 1 − cos Θ over half of it. The
+/// density dies off over v ~ 1/(4b), and so does the rule.
+Scatter moments(double b) {
+  constexpr int n = 400;
+  const double end = std::min(1.0, 10 / b), step = end / n;
+  double all = 0, along = 0;
+  for (int i = 0; i <= n; ++i) {
+    const double u = 1 - i * step, weight = (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * std::exp(2 * b * (u * u - 1));
+    all += weight, along += weight * u * u;
+  }
+  return {along / all, (1 - along / all) / 2};
+}
+
+Triple diagonal(const Eigen::Matrix3d& H) { return {H(0, 0), H(1, 1), H(2, 2)}; }
+
+/// Structure tensor of fibres scattered about the in-plane direction at `angle` from the first axis.
+Eigen::Matrix3d structure(const Scatter& by, double angle) {
+  const Eigen::Matrix3d Q = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return Q * Eigen::Vector3d(by.along, by.across, by.across).asDiagonal() * Q.transpose();
+}
+
+double contract(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+}  // namespace
+
+Scatter scatter(double kappa) {
+  if (kappa <= 0) return {};
+  if (kappa >= 1. / 3) return {1. / 3, 1. / 3};
+  const auto miss = [kappa](double log_b) { return std::log(moments(std::exp(log_b)).across / kappa); };
+  std::uintmax_t budget = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(miss, std::log(1e-9), std::log(1e9),
+                                                             boost::math::tools::eps_tolerance<double>(48), budget);
+  return moments(std::exp(0.5 * (low + high)));
+}
+
+Material::Material(const Tissue& tissue, First first, double turn) : tissue_(tissue) {
+  const bool pulled_around = first == First::circumferential;
+  const auto from_axial = [&](double angle) { return (pulled_around ? 90 - angle : angle) * degree + turn * degree; };
+  const Scatter by = scatter(tissue.kappa);
+  const double slack = 1 / (tissue.recruitment * tissue.recruitment);
+  const auto add = [&](double angle, double strength) {
+    Triple h = diagonal(structure(by, from_axial(angle)));
+    if (slack != 1) {  // κ I1 + (1 − 3κ) I/λs²
+      const double isotropic = by.across, own = by.along - by.across;
+      const Triple aligned = diagonal(structure({}, from_axial(angle)));
+      for (std::size_t a = 0; a < 3; ++a) h[a] = isotropic + own * slack * aligned[a];
+    }
+    families_.push_back({h, tissue.k1, tissue.k2, strength, tissue.fibre_power});
+  };
+  if (turn == 0) {
+    add(tissue.theta, 2);  // the mirrored family has the same diagonal
+  } else {
+    add(tissue.theta, 1), add(-tissue.theta, 1);
+  }
+  around_ = diagonal(structure({}, from_axial(90)));
+  along_ = diagonal(structure({}, from_axial(0)));
+  if (tissue.axial_k != 0) families_.push_back({along_, tissue.axial_k, tissue.axial_k2, 1, 0});
+  if (tissue.around_k != 0) families_.push_back({around_, tissue.around_k, tissue.around_k2, 1, 0});
+}
+
+Triple Material::elastic(const Triple& c) const {
+  const double I1 = c[0] + c[1] + c[2], x = I1 - 3;
+  double twice_matrix = tissue_.mu;  // 2 dψ/dI1
+  if (tissue_.stiffening != 0) twice_matrix *= std::exp(tissue_.stiffening * x);
+  if (tissue_.inverse_limit != 0) {
+    const double left = 1 - tissue_.inverse_limit * x;
+    twice_matrix = left > 0 ? twice_matrix / left : std::numeric_limits<double>::quiet_NaN();
+  }
+  twice_matrix += 4 * tissue_.quadratic_matrix * x;
+  Triple S{twice_matrix, twice_matrix, twice_matrix};
+  for (const Family& family : families_) {
+    const double E = contract(family.h, c) - 1;
+    if (E <= 0) continue;
+    double slope = 2 * family.strength * family.k * E * std::exp(family.k2 * E * E);
+    if (family.power != 0) slope *= std::pow(E, family.power);
+    for (std::size_t a = 0; a < 3; ++a) S[a] += slope * family.h[a];
+  }
+  if (tissue_.second_invariant != 0)
+    for (std::size_t a = 0; a < 3; ++a) S[a] += 2 * tissue_.second_invariant * (I1 - c[a]);
+  if (tissue_.tone != 0) {
+    const double along = contract(around_, c);
+    for (std::size_t a = 0; a < 3; ++a) S[a] += tissue_.tone * around_[a] / along;
+  }
+  if (tissue_.axial_stiffening != 0) {
+    const double slope = 4 * tissue_.axial_stiffening * (contract(along_, c) - 1);
+    for (std::size_t a = 0; a < 3; ++a) S[a] += slope * along_[a];
+  }
+  return S;
+}
+
+double Material::energy(const Triple& c) const {
+  const double x = c[0] + c[1] + c[2] - 3;
+  double W = 0.5 * tissue_.mu * x;
+  if (tissue_.stiffening != 0) W = 0.5 * tissue_.mu / tissue_.stiffening * std::expm1(tissue_.stiffening * x);
+  if (tissue_.inverse_limit != 0)
+    W = -0.5 * tissue_.mu / tissue_.inverse_limit * std::log1p(-tissue_.inverse_limit * x);
+  for (const Family& family : families_) {
+    const double E = contract(family.h, c) - 1;
+    if (E > 0) W += family.strength * family.k / (2 * family.k2) * std::expm1(family.k2 * E * E);
+  }
+  if (tissue_.second_invariant != 0) W += tissue_.second_invariant * (c[0] * c[1] + c[1] * c[2] + c[2] * c[0] - 3);
+  if (tissue_.tone != 0) W += 0.5 * tissue_.tone * std::log(contract(around_, c));
+  return W;
+}
+
+Triple Material::deviator(const Triple& S, const Triple& c) const {
+  const double third = contract(S, c) / 3;
+  return {S[0] - third / c[0], S[1] - third / c[1], S[2] - third / c[2]};
+}
+
+Memory Material::at_rest() const {
+  const Triple unit{1, 1, 1};
+  return {0, {}, deviator(elastic(unit), unit)};
+}
+
+/// Ogden–Roxburgh softening of the stress, then one Maxwell branch, dh/dt = g dS'/dt − h/τ, by an exponential midpoint
+/// rule: second order in dt, exact for a jump.
+Triple Material::with_memory(const Triple& c, const Memory& old, double dt, Memory* fresh) const {
+  Triple S = elastic(c);
+  Memory next = old;
+  if (tissue_.softening != 0) {
+    const double W = energy(c);
+    next.highest = std::max(old.highest, W);
+    if (next.highest > W) {
+      const double eta =
+          1 - tissue_.softening * std::erf((next.highest - W) / (tissue_.softening_width * next.highest));
+      for (double& value : S) value *= eta;
+    }
+  }
+  if (tissue_.branch != 0) {
+    next.driver = deviator(S, c);
+    const double half = std::exp(-dt / (2 * tissue_.relaxation));
+    for (std::size_t a = 0; a < 3; ++a) {
+      next.over[a] = half * (half * old.over[a] + tissue_.branch * (next.driver[a] - old.driver[a]));
+      S[a] += next.over[a];
+    }
+  }
+  if (fresh != nullptr) *fresh = next;
+  return S;
+}
+
+}  // namespace blind
