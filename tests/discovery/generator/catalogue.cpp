@@ -85,21 +85,21 @@ std::vector<Effect> of_the_material() {
 std::vector<Effect> of_the_tubes() {
   using enum Where;
   std::vector<Effect> all = {
-      of_tube("residual_stress", "deg", all_tubes, -60, 180, set_tubes<&TubeFaults::opening_angle>),
-      of_tube("axial_stretch_error", "1", tube_or_all, -0.15, 0.15, set_tubes<&TubeFaults::axial_stretch>),
+      of_tube("residual_stress", "deg", all_tubes, -60, 300, set_tubes<&TubeFaults::opening_angle>),
+      of_tube("axial_stretch_error", "1", tube_or_all, -0.1, 0.1, set_tubes<&TubeFaults::axial_stretch>),
       of_tube("tethering", "kPa", all_tubes, 0, 40, set_tubes<&TubeFaults::support>),
-      of_tube("geometry_error", "1", all_tubes, -0.4, 0.4, set_tubes<&TubeFaults::thickness>),
-      of_tube("pressure_offset", "kPa", tube_or_all, -4, 4, set_tubes<&TubeFaults::pressure_offset>),
-      of_tube("pressure_scale_error", "1", tube_or_all, -0.3, 0.3, set_tubes<&TubeFaults::pressure_gain>),
-      of_tube("diameter_scale_error", "1", tube_or_all, -0.15, 0.15, set_tubes<&TubeFaults::diameter_gain>),
-      of_tube("axial_force_offset", "mN", tube_or_all, -300, 300, set_tubes<&TubeFaults::force_offset>),
-      of_tube("axial_force_scale_error", "1", tube_or_all, -0.3, 0.5, set_tubes<&TubeFaults::force_gain>)};
+      of_tube("geometry_error", "1", all_tubes, -0.3, 0.3, set_tubes<&TubeFaults::thickness>),
+      of_tube("pressure_offset", "kPa", tube_or_all, -2, 2, set_tubes<&TubeFaults::pressure_offset>),
+      of_tube("pressure_scale_error", "1", tube_or_all, -0.2, 0.2, set_tubes<&TubeFaults::pressure_gain>),
+      of_tube("diameter_scale_error", "1", tube_or_all, -0.1, 0.1, set_tubes<&TubeFaults::diameter_gain>),
+      of_tube("axial_force_offset", "mN", tube_or_all, -100, 100, set_tubes<&TubeFaults::force_offset>),
+      of_tube("axial_force_scale_error", "1", tube_or_all, -0.2, 0.2, set_tubes<&TubeFaults::force_gain>)};
   all.push_back({.id = "layered_wall",
                  .unit = "1",
                  .where = all_tubes,
                  .null = 1,
-                 .low = 0.2,
-                 .high = 5,
+                 .low = 0.1,
+                 .high = 10,
                  .nuisances = {{"interface", 0, 1, {1. / 2, 2. / 3}}},
                  .logarithmic = true,
                  .apply = [](World& world, const Protocol&, const Hidden& hidden) {
@@ -111,9 +111,9 @@ std::vector<Effect> of_the_tubes() {
 
 std::vector<Effect> of_the_records() {
   std::vector<Effect> all = {of_strip("reference_length_error", "1", 0.1, set_strip<&StripFaults::reference_length>),
-                             of_strip("force_scale_error", "1", 0.3, set_strip<&StripFaults::gain>),
-                             of_strip("force_offset", "kPa", 20, set_strip<&StripFaults::offset>),
-                             of_strip("specimen_misalignment", "deg", 15, set_strip<&StripFaults::misalignment>)};
+                             of_strip("force_scale_error", "1", 0.2, set_strip<&StripFaults::gain>),
+                             of_strip("force_offset", "kPa", 10, set_strip<&StripFaults::offset>),
+                             of_strip("specimen_misalignment", "deg", 10, set_strip<&StripFaults::misalignment>)};
   all.back().even = true;
   all.push_back({.id = "signal_drift",
                  .unit = "",

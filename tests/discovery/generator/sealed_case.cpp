@@ -22,7 +22,8 @@ constexpr double most_alike = 0.9;
 /// What acts on the same term of the energy has no agreed order.
 bool compatible(const std::string& a, const std::string& b) {
   const auto is = [&](const char* x, const char* y) { return (a == x && b == y) || (a == y && b == x); };
-  return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment");
+  return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment") &&
+         !is("stress_softening", "viscoelasticity");
 }
 
 Dialled hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {

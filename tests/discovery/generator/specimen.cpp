@@ -69,8 +69,9 @@ Specimen draw_specimen(std::mt19937_64& random) {
   using enum Material::First;
   made.protocol.strips = {strip(circumferential, largest_stretch(tissue, circumferential, 150, 1.6)),
                           strip(axial, largest_stretch(tissue, axial, 150, 1.6))};
-  const double inner = rounded(between(random, 3, 4.5), 0.01), thickness = rounded(between(random, 1.2, 2.2), 0.01);
-  const double most = largest_stretch(tissue, axial, 120, 1.6);
+  const double inner = rounded(between_log(random, 1.5, 4), 0.01),
+               thickness = rounded(between(random, 0.2, 0.5) * inner, 0.01);
+  const double most = largest_stretch(tissue, axial, 80, 1.6);
   double pressure = 16;
   for (std::size_t i = 0; i < tube_count; ++i) {
     Tube& tube = made.protocol.tubes[i];

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Generator and program share no line, and yet mean the same physics: noise-free cases of the one are simulated by the
+// other, base model and every mechanism of the catalogue at the true amplitude.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/process.hpp"
+#include "execution/folder.hpp"
+#include "sealed_case.hpp"
+
+using nlohmann::json;
+using tunica::trial::Folder;
+using tunica::trial::text_of;
+
+namespace {
+
+/// What the experiment file calls a mechanism's parameters; "channel" and "rows" are filled in from the target.
+struct Words {
+  std::string amplitude;
+  std::map<std::string, std::string> nuisances = {};  ///< the generator's name → parameter
+  std::map<std::string, std::string> options = {};    ///< the generator's name → option
+};
+const std::map<std::string, Words>& words() {
+  static const std::map<std::string, Words> all{{"fibre_dispersion", {"kappa"}},
+                                                {"axial_fibres", {"k", {{"k2", "k2"}}}},
+                                                {"circumferential_fibres", {"k", {{"k2", "k2"}}}},
+                                                {"matrix_stiffening", {"b"}},
+                                                {"chain_extensibility", {"inverse_limit"}},
+                                                {"second_invariant", {"c2"}},
+                                                {"fibre_recruitment", {"stretch"}},
+                                                {"active_tone", {"tone"}},
+                                                {"stress_softening", {"s", {{"m", "m"}}}},
+                                                {"viscoelasticity", {"g", {{"tau", "tau"}}}},
+                                                {"residual_stress", {"opening_angle"}},
+                                                {"axial_stretch_error", {"value"}},
+                                                {"tethering", {"stiffness"}},
+                                                {"geometry_error", {"gain"}},
+                                                {"layered_wall", {"ratio", {}, {{"interface", "layer_interface"}}}},
+                                                {"pressure_offset", {"value"}},
+                                                {"pressure_scale_error", {"gain"}},
+                                                {"diameter_scale_error", {"gain"}},
+                                                {"axial_force_offset", {"value"}},
+                                                {"axial_force_scale_error", {"gain"}},
+                                                {"reference_length_error", {"strain"}},
+                                                {"force_scale_error", {"gain"}},
+                                                {"force_offset", {"value"}},
+                                                {"specimen_misalignment", {"angle"}},
+                                                {"signal_drift", {"value"}},
+                                                {"outliers", {"value"}}};
+  return all;
+}
+
+/// Numbers of a CSV file's column.
+std::vector<double> column(const std::filesystem::path& file, const std::string& name) {
+  std::istringstream stream(text_of(file));
+  std::string line, cell;
+  std::getline(stream, line);
+  std::istringstream header(line);
+  std::size_t at = 0;
+  while (std::getline(header, cell, ',') && cell.substr(0, cell.find(' ')) != name) ++at;
+  std::vector<double> values;
+  while (std::getline(stream, line)) {
+    std::istringstream row(line);
+    for (std::size_t k = 0; k <= at; ++k) std::getline(row, cell, ',');
+    values.push_back(std::stod(cell));
+  }
+  return values;
+}
+
+/// The experiment of a case with the base parameters held at the truth, and the effects added.
+json experiment_of(const blind::SealedCase& made, const std::filesystem::path& folder) {
+  json experiment = json::parse(text_of(folder / "experiment.json"));
+  const blind::Tissue& base = made.specimen.tissue;
+  experiment["models"]["hgo"]["parameters"] = {{"mu", {{"fixed", base.mu}}},
+                                               {"k1", {{"fixed", base.k1}}},
+                                               {"k2", {{"fixed", base.k2}}},
+                                               {"theta", {{"fixed", base.theta}}}};
+  for (const blind::Dialled& one : made.hidden) {
+    const blind::Hidden& hidden = one.hidden;
+    const Words& of = words().at(hidden.effect->id);
+    json entry{{"type", hidden.effect->id}};
+    entry["parameters"][of.amplitude]["fixed"] = hidden.amplitude();
+    for (const auto& [name, parameter] : of.nuisances)
+      entry["parameters"][parameter]["fixed"] = hidden.nuisance.at(name);
+    for (const auto& [name, option] : of.options) entry[option] = hidden.nuisance.at(name);
+    const auto into_test = [&](const std::string& test) { experiment["tests"][test]["mechanisms"].push_back(entry); };
+    using enum blind::Effect::Where;
+    switch (hidden.effect->where) {
+      case material:
+        experiment["models"]["hgo"]["mechanisms"].push_back(entry);
+        break;
+      case strip:
+        into_test(blind::strip_names()[*hidden.target.strip]);
+        break;
+      case all_tubes:
+      case tube_or_all:
+        for (std::size_t i = 0; i < blind::tube_count; ++i)
+          if (hidden.target.tube.value_or(i) == i) into_test(blind::tube_names()[i]);
+        break;
+      case channel:
+      case points: {
+        const auto where = blind::channels(made.specimen.protocol)[*hidden.target.channel];
+        entry["channel"] = where.name;
+        if (hidden.target.row)
+          entry["rows"] = std::to_string(*hidden.target.row) + ":" + std::to_string(*hidden.target.row + 1);
+        into_test(where.test);
+      }
+    }
+  }
+  return experiment;
+}
+
+/// Largest difference between what the program simulates and the truth of the case, in standard deviations.
+double largest_difference(const blind::Order& order) {
+  const Folder folder;
+  blind::write(order, folder.path());
+  const blind::SealedCase made = blind::make(order);
+  const auto place = folder.path() / order.name();
+  std::ofstream(place / "known.json") << experiment_of(made, place).dump(1);
+  const auto ended = tunica::trial::tunica({"simulate", "known.json", "--model", "hgo", "-o", "out"}, place);
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  if (ended.code != 0) return std::numeric_limits<double>::infinity();
+  const blind::Noise noise = made.noise.about(made.specimen.protocol, made.truth);
+  double largest = 0;
+  for (const blind::Channel& channel : blind::channels(made.specimen.protocol)) {
+    const auto simulated = column(place / "out" / (channel.test + ".csv"), channel.name);
+    EXPECT_EQ(simulated.size(), channel.count);
+    for (std::size_t i = 0; i < simulated.size(); ++i) {
+      const std::size_t at = channel.first + i;
+      const double off = std::abs(simulated[i] - made.truth[at]) / noise.sd[static_cast<Eigen::Index>(at)];
+      if (!(off <= largest)) largest = off;
+    }
+  }
+  return largest;
+}
+
+class Physics : public ::testing::TestWithParam<std::string> {};
+
+}  // namespace
+
+TEST(GeneratorPhysics, BaseCurvesAgreeToAHundredthOfTheNoise) {
+  for (std::size_t index = 0; index < 5; ++index) {
+    const double off = largest_difference({11, "nulls", "", 0, index, {"none"}});
+    EXPECT_LT(off, 0.01) << "case " << index;
+  }
+}
+
+TEST(GeneratorPhysics, BothSidesListTheSameMechanisms) {
+  const auto ended = tunica::trial::tunica({"list", "mechanisms"}, std::filesystem::temp_directory_path());
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  std::set<std::string> listed, hidden;
+  std::istringstream lines(ended.out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
+      listed.insert(line.substr(2, line.find(' ', 2) - 2));
+  for (const blind::Effect& effect : blind::catalogue()) hidden.insert(effect.id);
+  EXPECT_EQ(listed, hidden);
+  EXPECT_EQ(words().size(), hidden.size());
+}
+
+TEST_P(Physics, AgreesWithTheProgramAtTheTrueAmplitude) {
+  for (std::size_t index = 0; index < 3; ++index) {
+    const double off = largest_difference({11, "singles", GetParam(), 60, index, {"none"}});
+    RecordProperty("case_" + std::to_string(index), std::to_string(off));
+    EXPECT_LT(off, 0.05) << GetParam() << ", case " << index;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Physics, ::testing::ValuesIn([] {
+                           std::vector<std::string> ids;
+                           for (const blind::Effect& effect : blind::catalogue()) ids.push_back(effect.id);
+                           return ids;
+                         }()),
+                         [](const auto& test) { return test.param; });
