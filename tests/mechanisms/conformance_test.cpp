@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(
     Mechanisms, DecoratedModel,
     ::testing::Combine(::testing::Values("axial_fibres", "chain_extensibility", "circumferential_fibres",
                                          "fibre_dispersion", "matrix_stiffening", "second_invariant",
-                                         "viscoelasticity"),
+                                         "stress_softening", "viscoelasticity"),
                        ::testing::Values("strain", "none"), ::testing::ValuesIn(model_properties())),
     [](const auto& at) {
       return std::string(std::get<0>(at.param)) + "_" + std::get<1>(at.param) + "_" + std::get<2>(at.param).name;

@@ -28,6 +28,9 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
   mechanism.stage = tunica::Stage::energy;
   mechanism.side = MechanismFactory::Side::positive;
   mechanism.null = 0;
+  // What a refit of gho to two strips leaves of the fibres' effect: any other k2 has a shape that correlates with one
+  // of these by 0.75 or more.
+  if (mechanism.parameters.size() > 1) mechanism.scan = {{{"k2", 0.01}}, {{"k2", 0.3}}, {{"k2", 1}}, {{"k2", 10}}};
   mechanism.wrap_model = [id = mechanism.id, parameters = mechanism.parameters, make = std::move(make)](
                              std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     if (base->parts().empty())

@@ -27,11 +27,15 @@ std::vector<Parameter> own_parameters() {
            "Part of the largest energy, by which the material has to be unloaded to lose 84 % of that share.", source}};
 }
 
+/// Nothing has been stored yet where the largest energy is below this part of the stress: strains below 1e-6, which
+/// rounding of the energy would take for a memory.
+constexpr double unloaded = 1e-12;
+
 /// η and dη/dW, at energy W where the largest of earlier points was `largest`.
 struct Softening {
   double eta = 1, slope = 0;
   Softening(double W, double largest, double s, double m) {
-    if (!(W < largest)) return;  // also the limit: nothing has been stored yet
+    if (!(W < largest)) return;
     const double width = m * largest, x = (largest - W) / width;
     eta = 1 - s * std::erf(x);
     slope = s * std::numbers::inv_sqrtpi * 2 * std::exp(-x * x) / width;
@@ -83,7 +87,8 @@ class Softened final : public Model {
     }
     for (std::size_t i = 0; i < n; ++i) {
       const double W = out.energy[i] - at_rest, before = points.state.empty() ? 0 : points.state[base_state + i];
-      if (soft) soften(Softening(W, before, s, m), n, i, by_energy, out);
+      if (soft && before > unloaded * largest_stress(out.stress, n, i))
+        soften(Softening(W, before, s, m), n, i, by_energy, out);
       if (!response.state.empty()) response.state[base_state + i] = std::isnan(W) ? W : std::max(before, W);
     }
     return {};
@@ -93,6 +98,10 @@ class Softened final : public Model {
   Status energy_at_rest(std::span<const double> parameters, double& W) const {
     const double identity[] = {1, 1, 1, 0, 0, 0};
     return base_->evaluate({1, identity, parameters, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
+  }
+
+  static double largest_stress(std::span<const double> stress, std::size_t n, std::size_t i) {
+    return std::max({std::abs(stress[i]), std::abs(stress[n + i]), std::abs(stress[2 * n + i])});
   }
 
   /// S → η S, and the tangent consistent with it: η A + S ⊗ 2 ∂η/∂C = η A + η' S ⊗ S_W with S_W = 2 ∂W/∂C, which is S
