@@ -26,12 +26,9 @@ Dialled dial(const Specimen& specimen, const NoiseModel& noise, Hidden hidden, d
   double before = 0, root_before = 0;
   bool bounded = false;  // the upper end of the bracket is known to show too much
   Dialled best{hidden, 0, true};
-  Tissue start = specimen.tissue;
-  hidden.distance = 0.05 * hidden.largest;
+  hidden.distance = 0.01 * hidden.largest;
   for (int trial = 0; trial < 30; ++trial) {
-    const Refit fit = refit_with(specimen, noise, {hidden}, start);
-    const double found = fit.misfit;
-    start = fit.tissue;
+    const double found = refit_with(specimen, noise, {hidden}, specimen.tissue).misfit;
     if (!std::isfinite(found)) {
       high = hidden.distance, bounded = true;
       hidden.distance = 0.5 * (low + high), before = 0;

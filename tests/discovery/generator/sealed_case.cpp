@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nettle/sha2.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "seal.hpp"
 
 namespace blind {
 namespace {
@@ -16,8 +17,8 @@ std::mt19937_64 stream(const std::string& text) {
   return std::mt19937_64(sequence);
 }
 
-/// Two effects of which the data can tell one from the other at Λ = 60: c below 0.9 (5.41/(1 − c) ≤ 60).
-constexpr double most_alike = 0.9;
+/// What one of two effects has to leave unexplained by the other, Λ (1 − c²), for the data to tell that both are there.
+constexpr double least_remainder = 25;
 
 /// What acts on the same term of the energy has no agreed order.
 bool compatible(const std::string& a, const std::string& b) {
@@ -52,7 +53,8 @@ void hide_pair(SealedCase& made, std::mt19937_64& random) {
     made.correlation = likeness(made);
     made.truth =
         observe(made.specimen.protocol, world_with(made.specimen, {made.hidden[0].hidden, made.hidden[1].hidden}));
-    bool good = std::abs(made.correlation) <= most_alike;
+    const double c = made.correlation;
+    bool good = made.order.lambda * (1 - c * c) >= std::min(least_remainder, 0.5 * made.order.lambda);
     for (const double value : made.truth) good &= std::isfinite(value);
     if (good) return;
   }
@@ -60,15 +62,6 @@ void hide_pair(SealedCase& made, std::mt19937_64& random) {
 }
 
 }  // namespace
-
-std::string sha256(const std::string& bytes) {
-  sha256_ctx context;
-  sha256_init(&context);
-  sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
-  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-  sha256_digest(&context, digest.size(), digest.data());
-  return fmt::format("{:02x}", fmt::join(digest, ""));
-}
 
 std::string Order::text() const {
   return fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));

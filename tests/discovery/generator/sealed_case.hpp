@@ -41,6 +41,4 @@ SealedCase make(const Order& order);
 /// last, so that an interrupted run leaves none that is incomplete. True unless it was there already.
 bool write(const Order& order, const std::filesystem::path& folder);
 
-std::string sha256(const std::string& bytes);
-
 }  // namespace blind

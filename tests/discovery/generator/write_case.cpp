@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "seal.hpp"
 #include "sealed_case.hpp"
 
 namespace blind {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/// The judge of the blind benchmark: verdicts beside the truths that were sealed when the data were written.
+namespace blind::score {
+
+/// Wrong input: what was found, where, what to do.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Where an effect sits; empty: the material, all tubes, every channel.
+struct Target {
+  std::string test, channel;
+  bool operator==(const Target&) const = default;
+};
+
+struct TrueEffect {
+  std::string id;
+  Target target;
+  double amplitude = 0, null = 0;
+  bool even = false, reached = true;
+};
+
+struct Truth {
+  std::string set;  ///< nulls, singles, pairs, outside
+  std::string noise;
+  double asked = 0;           ///< Λ of each effect alone
+  bool contaminated = false;  ///< there are gross errors in the data beside what is hidden
+  std::vector<TrueEffect> effects;
+  std::string look_alike, nearest;  ///< of effects outside the catalogue: declared, and by the data
+  double remainder = 0;             ///< Λ that the catalogue's best leaves
+};
+
+struct Cause {
+  std::string id;
+  Target target;
+  std::optional<double> probability, amplitude, low, high;
+  bool hedged = false;  ///< marked as "consistent with"
+};
+
+struct Verdict {
+  std::string verdict;
+  std::vector<Cause> causes;                                         ///< the best first
+  std::vector<std::string> ambiguity_set;                            ///< ids
+  std::map<std::pair<std::string, std::string>, double> confusable;  ///< projected correlations, either order
+  std::vector<double> held_out;                                      ///< predictive p-values of blocks
+  [[nodiscard]] bool detected() const { return verdict != "nothing_detected"; }
+};
+
+/// Same data, true noise and true base parameters.
+struct Oracle {
+  bool detected = false;
+  std::string first;
+};
+
+struct Case {
+  std::string name;
+  Truth truth;
+  Verdict verdict;
+  std::optional<Oracle> oracle;
+};
+
+/// `results`/<case>/result.json for every case of `cases`, and only then the truths of `cases`/sealed, each against
+/// `cases`/<case>/truth.sha256. A case without a verdict is an error, or where `partial` it stays sealed and is
+/// counted.
+struct Opened {
+  std::vector<Case> cases;
+  std::size_t sealed = 0;
+};
+Opened open_cases(const std::filesystem::path& cases, const std::filesystem::path& results, bool partial);
+
+/// Declared look-alikes: {id: [ids]}.
+using LookAlikes = std::map<std::string, std::vector<std::string>>;
+LookAlikes read_look_alikes(const std::filesystem::path& file);
+
+}  // namespace blind::score

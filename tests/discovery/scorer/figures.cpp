@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rows of the table of the blind benchmark. What a row counts, and what it does not, stands beside it.
+#include "figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace blind::score {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Bar at_least(double low) { return {low, infinite}; }
+Bar at_most(double high) { return {-infinite, high}; }
+
+Figure share(std::string name, const Share& of, std::optional<Bar> pass, std::optional<Bar> stretch,
+             std::string remark = {}) {
+  return {std::move(name), of.total,         of.total == 0 ? 0 : of.value(), of.low(), of.high(), pass,
+          stretch,         std::move(remark)};
+}
+Figure number(std::string name, std::size_t cases, double value, std::optional<Bar> pass, std::optional<Bar> stretch,
+              std::string remark = {}) {
+  return {std::move(name), cases, value, value, value, pass, stretch, std::move(remark)};
+}
+
+using Cases = std::vector<Case>;
+
+/// Cases with one effect of the catalogue that its amplitude could be dialled for.
+bool single(const Case& one) { return one.truth.set == "singles" && one.truth.effects.front().reached; }
+const std::string& hidden(const Case& one) { return one.truth.effects.front().id; }
+bool ordinary(const std::string& noise) { return noise != "ar1" && noise != "outliers"; }
+
+void false_alarms(const Cases& cases, std::vector<Figure>& table) {
+  std::map<std::string, Share> by_noise;
+  Share plain;
+  for (const Case& one : cases) {
+    if (one.truth.set != "nulls") continue;
+    const bool alarm = judged(one).detected();
+    by_noise[one.truth.noise].add(alarm);
+    if (ordinary(one.truth.noise)) plain.add(alarm);
+  }
+  table.push_back(share("false alarms at α = 0.05", plain, Bar{0.035, 0.065}, Bar{0.04, 0.06}, "stated noise"));
+  table.push_back(
+      share("false alarms, ρ = 0.3, covariance from replicates", by_noise["ar1"], at_most(0.08), at_most(0.06)));
+  for (const auto& [noise, alarms] : by_noise)
+    if (noise != "ar1")
+      table.push_back(share("false alarms, noise " + noise, alarms, {}, {},
+                            noise == "outliers" ? "naming the gross errors that are there is none" : ""));
+}
+
+void detection(const Cases& cases, std::vector<Figure>& table) {
+  const auto row = [&](const std::string& name, double from, double to, Bar pass, Bar stretch) {
+    Share mine, oracle;
+    for (const Case& one : cases) {
+      if (!single(one) || one.truth.asked < from || one.truth.asked > to) continue;
+      mine.add(judged(one).detected());
+      if (one.oracle) oracle.add(one.oracle->detected);
+    }
+    // A ratio of two shares of the same cases.
+    const double scale = oracle.hits > 0 ? oracle.value() : 0;
+    Figure figure = share("detected, as a share of the oracle's, " + name, mine, pass, stretch,
+                          mine.total == 0 ? "" : fmt::format("detected {:.3f}, oracle {:.3f}", mine.value(), scale));
+    if (scale > 0 && oracle.total == mine.total) {
+      figure.value /= scale, figure.low /= scale, figure.high /= scale;
+    } else {
+      figure.cases = 0;
+    }
+    table.push_back(figure);
+  };
+  row("Λ 10", 10, 10, at_least(0.90), at_least(0.95));
+  row("Λ ≥ 25", 25, infinite, at_least(0.95), at_least(0.98));
+}
+
+void naming(const Cases& cases, const LookAlikes& look_alikes, std::vector<Figure>& table) {
+  constexpr std::array<std::array<double, 3>, 3> rows{{{25, 0.80, 0.87}, {60, 0.93, 0.97}, {150, 0.97, 0.99}}};
+  for (const auto& [lambda, pass, stretch] : rows) {
+    Share strict, counted, oracle;
+    for (const Case& one : cases) {
+      if (!single(one) || one.truth.asked != lambda) continue;
+      if (one.oracle && one.oracle->detected) oracle.add(one.oracle->first == hidden(one));
+      const Verdict verdict = judged(one);
+      if (!verdict.detected()) continue;
+      strict.add(named_first(verdict, hidden(one)));
+      counted.add(named_with_look_alike(verdict, hidden(one), look_alikes));
+    }
+    std::string remark = strict.total == 0 ? "" : fmt::format("first alone {:.3f}", strict.value());
+    if (oracle.total > 0) remark += fmt::format(", oracle first {:.3f}", oracle.value());
+    table.push_back(share(fmt::format("right name first given detection, Λ {:g}", lambda), counted, at_least(pass),
+                          at_least(stretch), remark));
+  }
+}
+
+void sets(const Cases& cases, std::vector<Figure>& table) {
+  Share holds;
+  std::map<double, Share> wrong;
+  Share wrong_from_60;
+  double size = 0;
+  std::size_t sized = 0;
+  for (const Case& one : cases) {
+    if (!single(one) || one.truth.asked < 10) continue;
+    const Verdict verdict = judged(one);
+    if (!verdict.detected()) continue;
+    const auto set = claimed(verdict);
+    const bool claims = verdict.verdict != "unknown" && !set.empty();
+    const bool inside = std::find(set.begin(), set.end(), hidden(one)) != set.end();
+    if (claims) holds.add(inside);
+    wrong[one.truth.asked].add(claims && !inside);
+    if (one.truth.asked >= 60) wrong_from_60.add(claims && !inside);
+    if (claims && one.truth.asked == 25) size += static_cast<double>(set.size()), ++sized;
+  }
+  table.push_back(share("ambiguity set holds the truth (Λ ≥ 10)", holds, at_least(0.95), at_least(0.97)));
+  table.push_back(number("mean size of the set at Λ 25", sized, sized == 0 ? 0 : size / static_cast<double>(sized), {},
+                         at_most(1.6)));
+  table.push_back(share("wrong (truth excluded), Λ 10", wrong[10], at_most(0.05), at_most(0.03), "of those detected"));
+  table.push_back(
+      share("wrong (truth excluded), Λ ≥ 60", wrong_from_60, at_most(0.01), at_most(0.005), "of those detected"));
+}
+
+void pairs(const Cases& cases, std::vector<Figure>& table) {
+  Share exact, found_false, both;
+  for (const Case& one : cases) {
+    if (one.truth.set != "pairs" || one.truth.asked != 60) continue;
+    std::multiset<std::string> truth, named;
+    for (const TrueEffect& effect : one.truth.effects) truth.insert(effect.id);
+    const Verdict verdict = judged(one);
+    for (const Cause& cause : verdict.causes) {
+      named.insert(cause.id);
+      found_false.add(truth.count(cause.id) == 0);
+    }
+    exact.add(named == truth);
+    both.add(std::includes(named.begin(), named.end(), truth.begin(), truth.end()));
+  }
+  table.push_back(share("two effects, exact pair, Λ 60 each", exact, at_least(0.85), at_least(0.90)));
+  table.push_back(share("two effects, false discoveries among the causes named", found_false, at_most(0.05), {}));
+  table.push_back(share("two effects, both among the causes", both, {}, {}));
+}
+
+void outside(const Cases& cases, std::vector<Figure>& table) {
+  Share honest, hedged, detected;
+  for (const Case& one : cases) {
+    if (one.truth.set != "outside" || !one.truth.effects.front().reached) continue;
+    const Verdict verdict = judged(one);
+    detected.add(verdict.detected());
+    if (!verdict.detected()) continue;
+    const auto set = claimed(verdict);
+    const bool open = verdict.verdict == "unknown" || set.size() > 1;
+    if (one.truth.remainder >= 25) {
+      honest.add(open);
+      continue;
+    }
+    const auto has = [&set](const std::string& id) {
+      return !id.empty() && std::find(set.begin(), set.end(), id) != set.end();
+    };
+    const bool with_look_alike = set.size() > 1 && (has(one.truth.look_alike) || has(one.truth.nearest));
+    const bool marked =
+        std::any_of(verdict.causes.begin(), verdict.causes.end(), [](const Cause& c) { return c.hedged; });
+    hedged.add(verdict.verdict == "unknown" || with_look_alike || marked);
+  }
+  table.push_back(share("outside the catalogue, remainder ≥ 25: unknown or a set", honest, at_least(0.90),
+                        at_least(0.95), "of those detected"));
+  table.push_back(share("outside, remainder below: in a set with its look-alike, or \"consistent with\"", hedged,
+                        at_least(0.90), at_least(0.95), "of those detected"));
+  table.push_back(share("outside, detected", detected, {}, {}));
+}
+
+void amplitudes(const Cases& cases, std::vector<Figure>& table) {
+  Share covered;
+  const auto row = [&](double lambda, double pass, double stretch) {
+    double squares = 0;
+    std::size_t count = 0;
+    for (const Case& one : cases) {
+      if (!single(one) || one.truth.asked != lambda) continue;
+      const Verdict verdict = judged(one);
+      const TrueEffect& truth = one.truth.effects.front();
+      if (!named_first(verdict, truth.id)) continue;
+      const Cause& cause = verdict.causes.front();
+      if (!cause.amplitude || cause.target != truth.target) continue;
+      const double sign = truth.even && *cause.amplitude * truth.amplitude < 0 ? -1 : 1;
+      squares += std::pow((sign * *cause.amplitude - truth.amplitude) / (truth.amplitude - truth.null), 2), ++count;
+      if (!cause.low || !cause.high) continue;
+      const double low = std::min(sign * *cause.low, sign * *cause.high),
+                   high = std::max(sign * *cause.low, sign * *cause.high);
+      covered.add(low <= truth.amplitude && truth.amplitude <= high);
+    }
+    table.push_back(number(fmt::format("amplitude, relative rms at Λ {:g}", lambda), count,
+                           count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count)), at_most(pass),
+                           at_most(stretch),
+                           fmt::format("of those named at their target; limit {:.2f}", 1 / std::sqrt(lambda))));
+  };
+  row(25, 0.28, 0.23);
+  row(60, 0.17, 0.145);
+  table.push_back(share("amplitude, coverage of the 95 % interval", covered, Bar{0.92, 0.98}, Bar{0.94, 0.96}));
+}
+
+/// Σ over ten bins of n_b/n |mean probability − share right| (Naeini, Cooper, Hauskrecht, AAAI 2015).
+void calibration(const Cases& cases, std::vector<Figure>& table) {
+  struct Bin {
+    double stated = 0;
+    Share right;
+  };
+  std::array<Bin, 10> bins;
+  std::size_t count = 0;
+  for (const Case& one : cases) {
+    if (!single(one)) continue;
+    const Verdict verdict = judged(one);
+    if (!verdict.detected() || verdict.causes.empty() || !verdict.causes.front().probability) continue;
+    const double p = *verdict.causes.front().probability;
+    Bin& bin = bins[std::min<std::size_t>(9, static_cast<std::size_t>(10 * std::clamp(p, 0.0, 1.0)))];
+    bin.stated += p, bin.right.add(verdict.causes.front().id == hidden(one)), ++count;
+  }
+  double error = 0;
+  for (const Bin& bin : bins)
+    if (bin.right.total > 0) error += std::abs(bin.stated - static_cast<double>(bin.right.hits));
+  table.push_back(number("expected calibration error of the stated probability", count,
+                         count == 0 ? 0 : error / static_cast<double>(count), at_most(0.05), at_most(0.03)));
+}
+
+void held_out(const Cases& cases, std::vector<Figure>& table) {
+  Share good;
+  for (const Case& one : cases) {
+    if (!single(one) || !named_first(judged(one), hidden(one))) continue;
+    for (const double p : one.verdict.held_out) good.add(p > 0.05);
+  }
+  table.push_back(share("held-out predictive p-value above 0.05 with the named mechanism", good, Bar{0.90, 0.98},
+                        Bar{0.93, 0.97}, "blocks"));
+}
+
+}  // namespace
+
+std::vector<Figure> figures(const Cases& cases, const LookAlikes& look_alikes) {
+  std::vector<Figure> table;
+  false_alarms(cases, table);
+  detection(cases, table);
+  naming(cases, look_alikes, table);
+  sets(cases, table);
+  pairs(cases, table);
+  outside(cases, table);
+  amplitudes(cases, table);
+  calibration(cases, table);
+  held_out(cases, table);
+  return table;
+}
+
+std::vector<EffectRow> effects(const Cases& cases, const LookAlikes& look_alikes) {
+  std::map<std::pair<std::string, double>, EffectRow> rows;
+  std::map<std::pair<std::string, double>, std::map<std::string, std::size_t>> instead;
+  for (const Case& one : cases) {
+    if (one.truth.set != "singles") continue;
+    const std::pair key{hidden(one), one.truth.asked};
+    EffectRow& row = rows[key];
+    row.id = key.first, row.lambda = key.second;
+    if (!one.truth.effects.front().reached) {
+      ++row.unreached;
+      continue;
+    }
+    const Verdict verdict = judged(one);
+    row.detected.add(verdict.detected());
+    if (!verdict.detected()) continue;
+    row.named.add(named_first(verdict, row.id));
+    row.named_or_look_alike.add(named_with_look_alike(verdict, row.id, look_alikes));
+    row.mean_set += static_cast<double>(claimed(verdict).size());
+    if (verdict.verdict == "unknown" || verdict.causes.empty())
+      ++instead[key]["unknown"];
+    else if (verdict.causes.front().id != row.id)
+      ++instead[key][verdict.causes.front().id];
+  }
+  std::vector<EffectRow> all;
+  for (auto& [key, row] : rows) {
+    if (row.detected.hits > 0) row.mean_set /= static_cast<double>(row.detected.hits);
+    row.confused_with.assign(instead[key].begin(), instead[key].end());
+    std::stable_sort(row.confused_with.begin(), row.confused_with.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+}  // namespace blind::score

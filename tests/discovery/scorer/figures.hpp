@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+
+namespace blind::score {
+
+/// hits of total, with Wilson's 95 % interval (Wilson, J. Am. Stat. Assoc. 22:209, 1927).
+struct Share {
+  std::size_t hits = 0, total = 0;
+  void add(bool hit) { hits += hit, ++total; }
+  [[nodiscard]] double value() const { return static_cast<double>(hits) / static_cast<double>(total); }
+  [[nodiscard]] double low() const;
+  [[nodiscard]] double high() const;
+};
+
+/// What a figure has to be: within [low, high].
+struct Bar {
+  double low = 0, high = 1;
+  [[nodiscard]] bool holds(double value) const { return value >= low - 1e-12 && value <= high + 1e-12; }
+};
+
+/// One figure of the table.
+struct Figure {
+  std::string name;
+  std::size_t cases = 0;                ///< what it is made of; 0: not measured
+  double value = 0, low = 0, high = 0;  ///< with its interval where it is a share; else low = high = value
+  std::optional<Bar> pass, stretch;     ///< none: told, not judged
+  std::string remark = {};
+  [[nodiscard]] bool missed() const { return pass && cases > 0 && !pass->holds(value); }
+  /// Missed by more than chance: the whole interval is outside.
+  [[nodiscard]] bool surely_missed() const { return pass && cases > 0 && (high < pass->low || low > pass->high); }
+};
+
+/// What became of one effect of the catalogue.
+struct EffectRow {
+  std::string id;
+  double lambda = 0;
+  std::size_t unreached = 0;  ///< cases in which no plausible amplitude shows that much: in no other column
+  Share detected, named, named_or_look_alike;
+  double mean_set = 0;  ///< of detected ones
+  std::vector<std::pair<std::string, std::size_t>> confused_with;
+};
+
+/// Every row of the table; and effect by effect.
+std::vector<Figure> figures(const std::vector<Case>& cases, const LookAlikes& look_alikes);
+std::vector<EffectRow> effects(const std::vector<Case>& cases, const LookAlikes& look_alikes);
+
+// What the figures are made of, one case at a time.
+
+/// The verdict of a case whose data hold gross errors: naming `outliers` is right there, and no part of the judgement.
+Verdict judged(const Case& one);
+/// The set that the verdict claims: the ambiguity set and the first cause.
+std::vector<std::string> claimed(const Verdict& verdict);
+/// First, or sharing the set with a first whose declared look-alike it is, correlation above 0.9 on these data.
+bool named_first(const Verdict& verdict, const std::string& truth);
+bool named_with_look_alike(const Verdict& verdict, const std::string& truth, const LookAlikes& look_alikes);
+
+}  // namespace blind::score

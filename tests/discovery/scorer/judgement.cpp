@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "figures.hpp"
+
+namespace blind::score {
+namespace {
+
+constexpr double z = 1.959963984540054;
+
+double wilson(const Share& of, double side) {
+  if (of.total == 0) return side < 0 ? 0 : 1;
+  const double n = static_cast<double>(of.total), p = of.value(), zz = z * z / n;
+  return (p + zz / 2 + side * z * std::sqrt(p * (1 - p) / n + zz / (4 * n))) / (1 + zz);
+}
+
+bool holds(const std::vector<std::string>& all, const std::string& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+}  // namespace
+
+double Share::low() const { return std::max(0.0, wilson(*this, -1)); }
+double Share::high() const { return std::min(1.0, wilson(*this, 1)); }
+
+Verdict judged(const Case& one) {
+  Verdict left = one.verdict;
+  const auto& hidden = one.truth.effects;
+  const bool told_to_find =
+      std::any_of(hidden.begin(), hidden.end(), [](const TrueEffect& effect) { return effect.id == "outliers"; });
+  if (!one.truth.contaminated || told_to_find) return left;
+  const bool any = !left.causes.empty();
+  std::erase_if(left.causes, [](const Cause& cause) { return cause.id == "outliers"; });
+  std::erase(left.ambiguity_set, "outliers");
+  // What is left when the gross errors are taken away is no alarm of anything else.
+  if (left.verdict == "suspect_data" && left.causes.empty()) left.verdict = "nothing_detected";
+  if (any && left.causes.empty() && left.ambiguity_set.empty() && left.verdict != "unknown")
+    left.verdict = "nothing_detected";
+  return left;
+}
+
+std::vector<std::string> claimed(const Verdict& verdict) {
+  std::vector<std::string> all = verdict.ambiguity_set;
+  if (!verdict.causes.empty() && !holds(all, verdict.causes.front().id)) all.push_back(verdict.causes.front().id);
+  return all;
+}
+
+bool named_first(const Verdict& verdict, const std::string& truth) {
+  return verdict.detected() && verdict.verdict != "unknown" && !verdict.causes.empty() &&
+         verdict.causes.front().id == truth;
+}
+
+bool named_with_look_alike(const Verdict& verdict, const std::string& truth, const LookAlikes& look_alikes) {
+  if (named_first(verdict, truth)) return true;
+  if (!verdict.detected() || verdict.verdict == "unknown" || verdict.causes.empty()) return false;
+  const std::string& first = verdict.causes.front().id;
+  const auto declared = look_alikes.find(first);
+  const auto likeness = verdict.confusable.find({std::min(first, truth), std::max(first, truth)});
+  constexpr double alike = 0.9;
+  return holds(verdict.ambiguity_set, truth) && declared != look_alikes.end() && holds(declared->second, truth) &&
+         likeness != verdict.confusable.end() && std::abs(likeness->second) > alike;
+}
+
+}  // namespace blind::score
