@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "shelf.hpp"
-#include "support/strip.hpp"
-#include "support/tube.hpp"
+#include "subject.hpp"
 
 namespace tunica {
 namespace {
@@ -20,8 +18,7 @@ std::unique_ptr<Test> strip(const std::vector<std::string>& channels) {
 }
 
 std::unique_ptr<Test> offset_strip(const std::vector<std::string>& channels) {
-  const auto& entry = testing::catalogue().mechanisms().at("force_offset");
-  return plugins::wrap(entry, strip(channels), testing::defaults(entry.factory.options));
+  return testing::wrapped_test("force_offset", strip(channels));
 }
 
 struct Prediction {

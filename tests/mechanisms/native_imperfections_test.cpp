@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "shelf.hpp"
+
+namespace tunica::testing {
+namespace {
+
+/// A file that fixes or bounds the amplitude is read with the mechanism's declaration, and bound to the test's.
+TEST(NativeImperfections, DeclareTheirParameterAsTheTestsDo) {
+  std::size_t compared = 0;
+  for (const auto& [id, entry] : catalogue().mechanisms()) {
+    const MechanismFactory& mechanism = entry.factory;
+    if (mechanism.native.empty()) continue;
+    const Parameter& declared = mechanism.parameters.front();
+    for (const std::string& type : mechanism.applies_to) {
+      const auto& of_test = catalogue().tests().at(type).factory.parameters;
+      const auto native =
+          std::find_if(of_test.begin(), of_test.end(), [&](const Parameter& p) { return p.name == mechanism.native; });
+      ASSERT_NE(native, of_test.end()) << id << " of " << type;
+      EXPECT_EQ(declared.unit, native->unit) << id;
+      EXPECT_EQ(declared.min, native->min) << id;
+      EXPECT_EQ(declared.max, native->max) << id;
+      EXPECT_EQ(declared.initial, native->initial) << id;
+      EXPECT_EQ(declared.scale, native->scale) << id;
+      EXPECT_EQ(native->initial, mechanism.null) << id;
+      ++compared;
+    }
+    for (const Option& option : mechanism.options) {
+      const auto& of_test = catalogue().tests().at(mechanism.applies_to.front()).factory.options;
+      const auto same =
+          std::find_if(of_test.begin(), of_test.end(), [&](const Option& o) { return o.name == option.name; });
+      ASSERT_NE(same, of_test.end()) << id;
+      EXPECT_EQ(option.min, same->min);
+      EXPECT_EQ(option.max, same->max);
+      EXPECT_EQ(option.fallback, same->fallback);
+    }
+  }
+  EXPECT_EQ(compared, 8u) << "six mechanisms, two of them of both tubes";
+}
+
+/// Every test type's parameter with a null has a mechanism that stands for it.
+TEST(NativeImperfections, LeaveNoneOfTheTestsOut) {
+  for (const auto& [type, entry] : catalogue().tests()) {
+    for (const Parameter& parameter : entry.factory.parameters) {
+      const auto& shelf = catalogue().mechanisms();
+      EXPECT_TRUE(std::any_of(shelf.begin(), shelf.end(),
+                              [&, t = type](const auto& on_shelf) {
+                                const auto& tests = on_shelf.second.factory.applies_to;
+                                return on_shelf.second.factory.native == parameter.name &&
+                                       std::find(tests.begin(), tests.end(), t) != tests.end();
+                              }))
+          << parameter.name << " of " << type;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tunica::testing
