@@ -155,7 +155,7 @@ TEST_F(NativeInFiles, WhereTheTestHasNoSuchParameterItIsRefused) {
                 "with \"layers\""));
   EXPECT_EQ(refusal(layered("geometry_error")), "");
   EXPECT_THAT(refusal(file(clamped_tube, R"("mechanisms": [{"type": "residual_stress"}])")),
-              HasSubstr("residual_stress"));
+              HasSubstr("the mechanism 'residual_stress' does not apply to tests of type 'fe_pressurisation'"));
 }
 
 TEST_F(NativeInFiles, TheInterfaceOfTheMechanismIsThatOfTheTest) {
