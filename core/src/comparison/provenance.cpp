@@ -11,6 +11,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "data/sha256.hpp"
 #include "tunica/plugin.hpp"
@@ -20,13 +21,17 @@ namespace tunica::comparison {
 std::string version() { return TUNICA_VERSION; }
 
 Provenance provenance_of(const execution::Plan& plan) {
-  Provenance result;
-  const auto& experiment = *plan.experiment;
-  result.version = version();
   std::set<std::string> data;
   for (const auto& run : plan.runs) data.insert(run.assembly->data_hashes().begin(), run.assembly->data_hashes().end());
-  result.plugins = plan.plugins;
-  result.data.assign(data.begin(), data.end());
+  return provenance_of(*plan.experiment, plan.plugins, {data.begin(), data.end()});
+}
+
+Provenance provenance_of(const experiment::Experiment& experiment, std::vector<std::string> plugins,
+                         std::vector<std::string> data) {
+  Provenance result;
+  result.version = version();
+  result.plugins = std::move(plugins);
+  result.data = std::move(data);
   result.compiler = "g++ " __VERSION__;
   result.libraries = {
       {"boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},

@@ -24,5 +24,8 @@ struct Provenance {
 
 std::string version();
 Provenance provenance_of(const execution::Plan& plan);
+/// Of what was made from an experiment without a plan; `data` as Assembly::data_hashes() has them.
+Provenance provenance_of(const experiment::Experiment& experiment, std::vector<std::string> plugins,
+                         std::vector<std::string> data);
 
 }  // namespace tunica::comparison

@@ -158,8 +158,21 @@ json run_json(const RunSummary& run) {
 
 }  // namespace
 
+json provenance_json(const Provenance& provenance) {
+  json libraries = json::object();
+  for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
+  return {{"tunica", provenance.version},
+          {"plugins", provenance.plugins},
+          {"compiler", provenance.compiler},
+          {"libraries", std::move(libraries)},
+          {"seed", provenance.seed},
+          {"input_sha256", provenance.input_sha256},
+          {"data", provenance.data},
+          {"date", provenance.date}};
+}
+
 std::string result_json(const Summary& summary, const Provenance& provenance) {
-  json runs = json::array(), ranking = json::array(), libraries = json::object();
+  json runs = json::array(), ranking = json::array();
   for (const auto& run : summary.runs) runs.push_back(run_json(run));
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
@@ -173,22 +186,13 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                        {"failures", run.failures},
                        {"reason", run.status.reason()}});
   }
-  for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
   const json document = {{"format", 1},
                          {"name", summary.name},
                          {"warnings", summary.warnings},
                          {"ranking", std::move(ranking)},
                          {"identifiability", summary.identifiability},
                          {"runs", std::move(runs)},
-                         {"provenance",
-                          {{"tunica", provenance.version},
-                           {"plugins", provenance.plugins},
-                           {"compiler", provenance.compiler},
-                           {"libraries", std::move(libraries)},
-                           {"seed", provenance.seed},
-                           {"input_sha256", provenance.input_sha256},
-                           {"data", provenance.data},
-                           {"date", provenance.date}}}};
+                         {"provenance", provenance_json(provenance)}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

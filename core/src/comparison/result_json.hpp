@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "comparison/provenance.hpp"
 #include "comparison/summary.hpp"
 
@@ -11,5 +13,8 @@ namespace tunica::comparison {
 /// result.json, as schemas/tunica-result.schema.json says: warnings first, base units, `ci95` null where the data do
 /// not fix a parameter. Only seconds and date differ between two runs with the same input and seed.
 std::string result_json(const Summary& summary, const Provenance& provenance);
+
+/// `provenance` of result.json.
+nlohmann::ordered_json provenance_json(const Provenance& provenance);
 
 }  // namespace tunica::comparison

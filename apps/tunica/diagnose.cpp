@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "comparison/text.hpp"
+#include "diagnosis/outputs.hpp"
+#include "execution/files.hpp"
+#include "execution/run_directory.hpp"
+#include "exit_codes.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct DiagnoseOptions {
+  std::string file, directory;
+  unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
+  std::optional<std::uint64_t> seed;
+  std::optional<double> alpha;
+  std::vector<std::string> mechanisms;
+  bool quick = false, batch = false;
+};
+
+/// What is being done, on stderr: one line that is redrawn on a terminal, a line each elsewhere.
+void show(const std::string& what, double share) {
+  if (isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "\r\033[K{}", share >= 1 ? std::string() : fmt::format("{:3.0f} %  {}", 100 * share, what));
+  else if (share < 1)
+    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * share, what);
+}
+
+diagnosis::Settings settings_of(const experiment::Experiment& experiment, const Session& session,
+                                const DiagnoseOptions& options) {
+  diagnosis::Settings settings = diagnosis::settings_of(experiment, session.catalogue());
+  if (options.seed) settings.seed = *options.seed;
+  if (options.alpha) settings.alpha = *options.alpha;
+  settings.quick = options.quick;
+  for (const std::string& id : options.mechanisms) {
+    if (!session.catalogue().mechanisms().contains(id))
+      throw InputError(
+          fmt::format("--mechanisms: no loaded plugin provides the mechanism '{}'; `tunica list mechanisms` "
+                      "shows what there is",
+                      id));
+    settings.mechanisms = options.mechanisms;
+  }
+  return settings;
+}
+
+/// Everything that a diagnosis leaves behind, the verdict last.
+void write_outputs(const std::filesystem::path& directory, const diagnosis::Diagnosis& found,
+                   const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  execution::write_atomically(directory / "input.json", experiment.input_json);
+  if (const std::string text = diagnosis::extended_experiment(found, catalogue); !text.empty())
+    execution::write_atomically(directory / "extended.json", text);
+  diagnosis::write_tables(directory, found);
+  execution::write_atomically(directory / "result.json", diagnosis::result_document(found, experiment, catalogue));
+}
+
+int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  const Session session(global);
+  const auto experiment = session.read(options.file);
+  auto settings = settings_of(experiment, session, options);
+  if (!global.quiet) settings.progress = show;
+  auto directory = execution::RunDirectory::create(
+      options.directory.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.directory),
+      experiment.name);
+  const auto found = diagnosis::diagnose(experiment, settings, session.catalogue());
+  write_outputs(directory.path(), found, experiment, session.catalogue());
+  for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning, 100));
+  if (!found.warnings.empty()) fmt::print("\n");
+  fmt::print("{}\nResults:  {}\n", diagnosis::summary(found), (directory.path() / "result.json").string());
+  if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
+  return done;
+}
+
+/// Every folder with an experiment.json and without a result.json below it gets a diagnosis, several at a time; one
+/// that cannot be made is told of and leaves the others alone.
+int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  const Session session(global);
+  const std::filesystem::path root = options.file;
+  if (!std::filesystem::is_directory(root))
+    throw InputError(fmt::format("--batch {}: no such folder; name one that holds folders with an experiment.json each",
+                                 root.string()));
+  const std::filesystem::path into = options.directory.empty() ? root : std::filesystem::path(options.directory);
+  std::vector<std::filesystem::path> cases;
+  for (const auto& entry : std::filesystem::directory_iterator(root))
+    if (std::filesystem::exists(entry.path() / "experiment.json") &&
+        !std::filesystem::exists(into / entry.path().filename() / "result.json"))
+      cases.push_back(entry.path());
+  std::sort(cases.begin(), cases.end());
+  std::atomic<std::size_t> failures = 0, finished = 0;
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t k) {
+    // A diagnosis runs its own loops side by side; here its neighbours do.
+    tbb::this_task_arena::isolate([&] {
+      try {
+        const auto experiment = session.read(cases[k] / "experiment.json");
+        const auto found =
+            diagnosis::diagnose(experiment, settings_of(experiment, session, options), session.catalogue());
+        const std::filesystem::path directory = into / cases[k].filename();
+        std::filesystem::create_directories(directory);
+        write_outputs(directory, found, experiment, session.catalogue());
+      } catch (const std::exception& problem) {
+        ++failures;
+        fmt::print(stderr, "error: {}: {}\n", cases[k].string(), problem.what());
+      }
+    });
+    if (const std::size_t n = ++finished; !global.quiet && (n % 50 == 0 || n == cases.size()))
+      fmt::print(stderr, "{} of {} diagnoses\n", n, cases.size());
+  });
+  fmt::print("{} diagnoses made, {} failed\n", cases.size() - failures, failures.load());
+  return failures == 0 ? done : not_converged;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<DiagnoseOptions>();
+  auto* verb =
+      app.add_subcommand("diagnose", "Show what the simulation gets wrong, name the cause, extend, measure the gain");
+  verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
+      ->type_name("DIR");
+  verb->add_option("-j,--threads", options->threads, "Threads")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str()
+      ->type_name("N");
+  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
+      ->check(seed_number())
+      ->type_name("S");
+  verb->add_option("--alpha", options->alpha, "Share of false alarms that is accepted, instead of the file's")
+      ->check(CLI::Range(0.0001, 0.5))
+      ->type_name("A");
+  verb->add_option("--mechanisms", options->mechanisms, "Only these causes, names separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAMES");
+  verb->add_flag("--quick", options->quick,
+                 "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of half a "
+                 "minute");
+  verb->add_flag("--batch", options->batch,
+                 "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
+  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+  verb->footer(
+      "Examples:\n"
+      "  tunica diagnose experiment.json\n"
+      "  tunica diagnose experiment.json -o results/a --quick\n"
+      "  tunica diagnose experiment.json --mechanisms fibre_dispersion,force_offset\n"
+      "  tunica diagnose --batch --quick cases/\n\n"
+      "Writes result.json, extended.json (the experiment with the cause added: `tunica run` takes it), residuals.csv,\n"
+      "confusability.csv and input.json. Exit code 0 whatever the verdict.");
+  verb->callback([&global, &action, options] {
+    action = [&global, options] {
+      return options->batch ? diagnose_batch(global, *options) : diagnose(global, *options);
+    };
+  });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/base_fit.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include "calibration/refit.hpp"
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+/// The tests of the run that fits this model, or all.
+std::vector<std::string> tests_of(const experiment::Experiment& experiment, const std::string& model) {
+  for (const experiment::RunEntry& run : experiment.runs)
+    if (run.model == model) return run.tests;
+  std::vector<std::string> names;
+  for (const auto& test : experiment.tests) names.push_back(test.name);
+  return names;
+}
+
+std::vector<std::vector<double>> random_starts(const calibration::Assembly& assembly, std::size_t count,
+                                               std::uint64_t seed) {
+  boost::random::mt19937_64 generator(derive_seed(seed, "starts of the base fit"));
+  boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
+  std::vector<std::vector<double>> starts;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> unit(assembly.parameters().size()), free(unit.size());
+    for (double& x : unit) x = uniform(generator);
+    assembly.from_unit(unit, free);
+    starts.push_back(std::move(free));
+  }
+  return starts;
+}
+
+}  // namespace
+
+std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise) {
+  std::vector<Curve> curves;
+  Eigen::Index at = 0;
+  for (const calibration::ChannelView& view : assembly.channels()) {
+    Curve curve{view.test, view.observable, at, 0, {}, {}, {}};
+    for (std::size_t i = 0; i < view.count; ++i)
+      if (view.fitted[i]) curve.abscissa.push_back(view.abscissa[i]), curve.rows.push_back(i);
+    curve.count = static_cast<Eigen::Index>(curve.rows.size());
+    if (curve.count == 0) continue;
+    for (const NoiseSource& source : noise)
+      if (source.test == view.test && source.channel == view.observable) curve.noise = source;
+    at += curve.count;
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  d.experiment = experiment;
+  d.run.model = d.settings.model;
+  d.run.tests = tests_of(experiment, d.settings.model);
+  d.run.optimizer = d.settings.optimizer;
+  d.run.objective = experiment::ObjectiveType::least_squares;
+  d.noise = state_noise(d.experiment, d.run.tests, catalogue);
+  for (auto& test : d.experiment.tests) test.weights.clear();
+  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  d.curves = curves_of(*d.base, d.noise);
+  if (d.curves.empty()) throw InputError("diagnosis: every test is held out, so that there is nothing to diagnose");
+  if (d.base->parameters().size() >= d.base->residual_count())
+    throw InputError(
+        fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to judge by; fix "
+                    "parameters or give more rows",
+                    d.base->parameters().size(), d.base->residual_count()));
+  for (const NoiseSource& source : d.noise)
+    if (source.kind == NoiseSource::Kind::differences)
+      d.warnings.push_back(fmt::format(
+          "test '{}', channel '{}': no noise is stated; σ = {:.3g} {} from differences of neighbouring rows, "
+          "which takes them for independent: where they are not, the alarm comes too easily; state "
+          "noise.absolute, noise.relative and noise.correlation, or give replicates",
+          source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : source.unit));
+}
+
+void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
+  const calibration::Assembly& assembly = *d.base;
+  std::vector<Variable> variables;
+  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) variables.push_back({j});
+  std::vector<double> initial(assembly.parameters().size());
+  assembly.from_unit(assembly.initial_unit(), initial);
+  std::vector<std::vector<double>> starts = random_starts(assembly, d.settings.quick ? 3 : 8, d.settings.seed);
+  starts.insert(starts.begin(), initial);
+  if (!d.settings.quick && !d.settings.optimizer.empty()) {
+    const auto& entry = d.experiment.optimizer(d.settings.optimizer);
+    if (entry.stages.empty()) {
+      const calibration::LocalOptimizer optimizer{&catalogue.optimizers().find(entry.type)->second, entry.options};
+      const calibration::Target target{
+          assembly.blocks(), assembly.residual_count(),
+          [&assembly](auto free, double& objective, auto residuals, auto jacobian, auto& workspace) {
+            return assembly.evaluate(free, objective, {}, residuals, jacobian, workspace);
+          }};
+      const auto workspace = assembly.make_workspace();
+      const auto found =
+          calibration::refit(assembly, target, optimizer, initial, std::nullopt, d.settings.seed, *workspace);
+      if (found.status.ok()) starts.push_back(found.free);
+    }
+  }
+  std::vector<Fit> fits(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
+    const auto workspace = assembly.make_workspace();
+    fits[k] = least_squares(assembly, variables, starts[k], *workspace, 200);
+  });
+  const Fit* best = nullptr;
+  for (const Fit& fit : fits)
+    if (fit.status.ok() && (!best || fit.chi2 < best->chi2)) best = &fit;
+  if (!best)
+    throw std::runtime_error(fmt::format("diagnosis: the base model cannot be evaluated from any of {} starts: {}",
+                                         fits.size(), fits.front().status.reason()));
+  d.fit = *best;
+  // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < d.fit.jacobian.cols(); ++k)
+    if (!d.fit.at_bound[static_cast<std::size_t>(k)]) free.push_back(k);
+  const Projection projection(d.fit.jacobian(Eigen::all, free));
+  const double left = d.fit.chi2 - projection.off(d.fit.residuals).squaredNorm();
+  if (left > 0.1)
+    d.warnings.push_back(
+        fmt::format("the base fit is no clear optimum: a further step promises to lower |r|² by {:.2g}; "
+                    "scores are less sharp than they look",
+                    left));
+}
+
+}  // namespace tunica::diagnosis

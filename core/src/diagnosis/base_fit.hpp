@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace tunica::diagnosis {
+
+/// The experiment as diagnosis sees it: every channel with its noise, weights of one, whitened least squares of one
+/// model over all tests of the first run (all tests where there is none), no constraints. Fills experiment, run, noise,
+/// base, curves.
+void prepare(Diagnosis& diagnosis, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+
+/// The base model fitted from its initial values and from random points, by the optimiser that the settings name
+/// first unless it is quick; the best of all, checked: a gradient that is not zero is no optimum to judge from. Throws
+/// std::runtime_error where nothing could be evaluated.
+void fit_base(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
+
+/// The rows of the whitened residuals by channel.
+std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise);
+
+}  // namespace tunica::diagnosis

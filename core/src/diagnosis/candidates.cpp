@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "diagnosis/hypotheses.hpp"
+#include "plugins/guarded.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+using experiment::Experiment;
+using experiment::RunEntry;
+
+bool takes(const MechanismFactory& mechanism, const std::string& option) {
+  return std::any_of(mechanism.options.begin(), mechanism.options.end(),
+                     [&](const Option& declared) { return declared.name == option; });
+}
+
+/// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
+struct Clock {
+  double shortest = INFINITY, longest = 0;
+};
+Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
+  Clock clock;
+  for (const std::string& name : run.tests) {
+    const auto& entry = experiment.test(name);
+    const auto dataset = data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
+    if (dataset.time.size() < 2) continue;
+    clock.longest = std::max(clock.longest, dataset.time.back() - dataset.time.front());
+    for (std::size_t i = 1; i < dataset.time.size(); ++i)
+      if (const double step = dataset.time[i] - dataset.time[i - 1]; step > 0)
+        clock.shortest = std::min(clock.shortest, step);
+  }
+  return clock;
+}
+
+constexpr std::size_t clock_points = 6;
+
+/// Where to look for a mechanism: as it declares, or over the clock of the data for nuisance parameters in seconds.
+std::vector<MechanismFactory::Setting> settings_of(const MechanismFactory& mechanism, const Clock& clock) {
+  if (!mechanism.scan.empty()) return mechanism.scan;
+  std::vector<MechanismFactory::Setting> found;
+  for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) {
+    const Parameter& nuisance = mechanism.parameters[k];
+    if (nuisance.unit != "s" || !(clock.longest > 0)) continue;
+    const double low = std::clamp(clock.shortest, nuisance.min, nuisance.max),
+                 high = std::clamp(clock.longest, nuisance.min, nuisance.max);
+    for (std::size_t i = 0; i < clock_points; ++i)
+      found.push_back({{nuisance.name, low * std::pow(high / low, static_cast<double>(i) / (clock_points - 1))}});
+    break;
+  }
+  if (found.empty()) found.emplace_back();
+  return found;
+}
+
+bool needs_clock(const MechanismFactory& mechanism) {
+  return std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
+                     [](const Parameter& parameter) { return parameter.unit == "s"; });
+}
+
+/// Single tests and channels where the mechanism may act; nothing for one that acts on the model.
+std::vector<Target> single_targets(const MechanismFactory& mechanism, const Experiment& experiment, const RunEntry& run,
+                                   const calibration::Assembly& base) {
+  std::vector<Target> targets;
+  for (const std::string& name : run.tests) {
+    const auto& entry = experiment.test(name);
+    if (entry.hold_out.all) continue;
+    const auto& types = mechanism.applies_to;
+    if (!types.empty() && std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
+    if (!takes(mechanism, "channel")) {
+      targets.push_back({{name}});
+      continue;
+    }
+    for (const calibration::ChannelView& view : base.channels())
+      if (view.test == name && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
+        targets.push_back({{name}, view.observable});
+  }
+  return targets;
+}
+
+/// The signature of one part of an extension at the base fit, in whitened rows.
+///
+/// Exact where the Jacobian is. Else, and where the first derivative vanishes, from simulations: with f(δ) even,
+/// [f(δ) − f(0)]/δ² at a small δ; with one side only, the parabola through f(0), f(δ), f(2δ) at 0.
+Eigen::VectorXd signature_of(const Extended& extended, const MechanismFactory& mechanism,
+                             const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
+                             const Extended::Part& part, calibration::Assembly::Workspace& workspace) {
+  if (mechanism.side != MechanismFactory::Side::even && extended.assembly().jacobian_is_exact()) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(J.rows());
+    for (const std::size_t member : part.amplitude) sum += J.col(static_cast<Eigen::Index>(member));
+    return sum;
+  }
+  const double reach = std::max(mechanism.plausible_max - mechanism.null, mechanism.null - mechanism.plausible_min);
+  const auto at = [&](double step, Eigen::VectorXd& into) {
+    std::vector<double> free = null;
+    for (const std::size_t member : part.amplitude) free[member] = part.null + step;
+    return whitened(extended.assembly(), free, workspace, into, nullptr);
+  };
+  const bool even = mechanism.side == MechanismFactory::Side::even;
+  const double sign = mechanism.plausible_max > mechanism.null ? 1 : -1;
+  Eigen::VectorXd near, far;
+  for (double step = sign * (even ? 0.02 : 1e-3) * reach; std::abs(step) > 1e-9 * reach; step /= 10) {
+    if (!at(step, near).ok() || !at(2 * step, far).ok()) continue;
+    if (even) return (16 * (near - bare) - (far - bare)) / (12 * step * step);
+    return (4 * near - 3 * bare - far) / (2 * step);
+  }
+  return {};
+}
+
+/// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
+void add_rows(Candidate& candidate, const Hypothesis& whole, const calibration::Assembly& base,
+              std::vector<Hypothesis>& into) {
+  const std::size_t rows = base.residual_count(), predictions = base.prediction_count();
+  std::vector<double> unit(rows, 0.0), map(predictions);
+  // Row k of the whitening, read off its transpose.
+  std::vector<std::vector<std::pair<std::size_t, double>>> columns(predictions);
+  for (std::size_t k = 0; k < rows; ++k) {
+    unit[k] = 1;
+    base.transpose_residuals(unit, map);
+    unit[k] = 0;
+    for (std::size_t i = 0; i < predictions; ++i)
+      if (map[i] != 0) columns[i].emplace_back(k, map[i]);
+  }
+  for (const calibration::ChannelView& view : base.channels()) {
+    if (view.test != whole.addition.target.tests.front() || view.observable != whole.addition.target.channel) continue;
+    for (std::size_t i = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      Hypothesis one = whole;
+      one.addition.target.row = i;
+      one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
+      for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
+      into.push_back(std::move(one));
+    }
+  }
+  static_cast<void>(candidate);
+}
+
+/// Number options of a setting: different ones need different tests.
+std::string options_key(const MechanismFactory& mechanism, const MechanismFactory::Setting& setting) {
+  std::string key;
+  for (const auto& [name, value] : setting)
+    if (takes(mechanism, name)) key += fmt::format("{}={};", name, value);
+  return key;
+}
+
+bool already_there(const std::vector<experiment::MechanismEntry>& entries, const std::string& id) {
+  return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
+}
+
+class Search {
+ public:
+  Search(const Experiment& experiment, const RunEntry& run, const calibration::Assembly& base,
+         std::span<const double> fitted, const plugins::Catalogue& catalogue)
+      : experiment_(experiment),
+        run_(run),
+        base_(base),
+        fitted_(fitted),
+        catalogue_(catalogue),
+        clock_(clock_of(experiment, run, catalogue)) {}
+
+  Candidate find(const std::string& id, const MechanismFactory& mechanism) const {
+    Candidate candidate{id, &mechanism, {}, {}};
+    if (needs_clock(mechanism) && !(clock_.longest > 0)) {
+      candidate.absent = "the data have no time";
+      return candidate;
+    }
+    std::vector<Target> targets;
+    if (mechanism.stage < Stage::test) {
+      const auto& owner = experiment_.model(experiment_.models_of(run_).front());
+      if (already_there(owner.mechanisms, id)) {
+        candidate.absent = "the model has it already";
+        return candidate;
+      }
+      targets.emplace_back();
+    } else {
+      targets = single_targets(mechanism, experiment_, run_, base_);
+      std::erase_if(targets, [&](const Target& target) {
+        return already_there(experiment_.test(target.tests.front()).mechanisms, id);
+      });
+      if (targets.empty()) candidate.absent = "no test that it applies to";
+    }
+    const auto settings = settings_of(mechanism, clock_);
+    std::map<std::string, std::vector<MechanismFactory::Setting>> by_options;
+    for (const auto& setting : settings) by_options[options_key(mechanism, setting)].push_back(setting);
+    for (const auto& [key, alike] : by_options) {
+      std::vector<Hypothesis> singles;
+      for (const Target& target : targets) {
+        try {
+          add(mechanism, {id, target, alike.front()}, alike, singles);
+        } catch (const InputError& problem) {
+          if (candidate.absent.empty()) candidate.absent = problem.what();
+        }
+      }
+      const std::size_t count = singles.size();
+      if (mechanism.shared && targets.size() > 1) add_shared(singles, alike.size());
+      if (takes(mechanism, "rows"))
+        for (std::size_t k = 0; k < count; ++k) {
+          std::vector<Hypothesis> rows;
+          add_rows(candidate, singles[k], base_, rows);
+          std::move(rows.begin(), rows.end(), std::back_inserter(singles));
+        }
+      std::move(singles.begin(), singles.end(), std::back_inserter(candidate.hypotheses));
+    }
+    std::erase_if(candidate.hypotheses, [](const Hypothesis& hypothesis) {
+      return hypothesis.signature.size() == 0 || !hypothesis.signature.allFinite() ||
+             !(hypothesis.signature.norm() > 0);
+    });
+    if (!candidate.hypotheses.empty())
+      candidate.absent.clear();
+    else if (candidate.absent.empty())
+      candidate.absent = "it leaves no trace in these data";
+    return candidate;
+  }
+
+ private:
+  void add(const MechanismFactory& mechanism, const Addition& first,
+           const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
+    const Extended extended(experiment_, run_, {first}, catalogue_);
+    const auto workspace = extended.assembly().make_workspace();
+    Eigen::VectorXd bare;
+    Eigen::MatrixXd J;
+    for (const auto& setting : settings) {
+      Extended::Part part = extended.parts().front();
+      std::vector<double> null = extended.at_null(fitted_);
+      std::size_t k = 1;
+      for (const Variable& nuisance : part.nuisance) {
+        for (const auto& [name, value] : setting)
+          if (name == mechanism.parameters[k].name)
+            for (const std::size_t member : nuisance)
+              null[member] = std::clamp(value, extended.assembly().parameters()[member].min,
+                                        extended.assembly().parameters()[member].max);
+        ++k;
+      }
+      const bool exact = extended.assembly().jacobian_is_exact();
+      if (!whitened(extended.assembly(), null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
+      into.push_back({&mechanism,
+                      {first.id, first.target, setting},
+                      signature_of(extended, mechanism, null, bare, J, part, *workspace)});
+    }
+  }
+
+  /// One amplitude in all tests: signatures add up, as tests are independent rows.
+  static void add_shared(std::vector<Hypothesis>& singles, std::size_t settings) {
+    const std::size_t targets = settings == 0 ? 0 : singles.size() / settings;
+    if (targets < 2 || singles.size() != targets * settings) return;
+    for (std::size_t s = 0; s < settings; ++s) {
+      Hypothesis all = singles[s];
+      for (std::size_t t = 1; t < targets; ++t) {
+        const Hypothesis& other = singles[t * settings + s];
+        all.addition.target.tests.push_back(other.addition.target.tests.front());
+        all.signature += other.signature;
+      }
+      singles.push_back(std::move(all));
+    }
+  }
+
+  const Experiment& experiment_;
+  const RunEntry& run_;
+  const calibration::Assembly& base_;
+  std::span<const double> fitted_;
+  const plugins::Catalogue& catalogue_;
+  Clock clock_;
+};
+
+}  // namespace
+
+std::vector<Candidate> candidates(const Experiment& experiment, const RunEntry& run, const Settings& settings,
+                                  const calibration::Assembly& base, std::span<const double> fitted,
+                                  const plugins::Catalogue& catalogue) {
+  const Search search(experiment, run, base, fitted, catalogue);
+  std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
+  for (const auto& [id, entry] : catalogue.mechanisms())
+    if (settings.mechanisms.empty() ||
+        std::find(settings.mechanisms.begin(), settings.mechanisms.end(), id) != settings.mechanisms.end())
+      asked.push_back(&entry);
+  std::vector<Candidate> found(asked.size());
+  tbb::parallel_for(std::size_t{0}, asked.size(),
+                    [&](std::size_t k) { found[k] = search.find(asked[k]->factory.id, asked[k]->factory); });
+  return found;
+}
+
+}  // namespace tunica::diagnosis

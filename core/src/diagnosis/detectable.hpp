@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace tunica::diagnosis {
+
+/// For every mechanism the least amplitude that these data would show with 80 % power at the level alpha, where it
+/// shows best,
+///
+///   Λ = (√T_α + 0.84)²,  δ = √Λ/|s̃|   (even: δ² in place of δ),
+///
+/// and the least that they would tell from the mechanism most like it, projected correlation c, Λ = 5.41/(1 − |c|);
+/// infinite where |c| > 0.999.
+std::vector<Detectable> detectable(const Diagnosis& diagnosis, const Detection& detection);
+
+/// Largest absolute correlation between directions of two candidates.
+double likeness(const std::vector<Direction>& directions, std::size_t one, std::size_t other);
+
+}  // namespace tunica::diagnosis

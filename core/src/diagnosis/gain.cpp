@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <boost/math/distributions/chi_squared.hpp>
+
+namespace tunica::diagnosis {
+namespace {
+
+constexpr double extrapolated_from = 0.7;  ///< of the range of the abscissa
+
+struct Block {
+  std::string name;
+  std::vector<bool> counted;  ///< rows that are fitted
+};
+
+std::vector<Block> blocks_of(const Diagnosis& d) {
+  const auto rows = static_cast<std::size_t>(d.fit.residuals.size());
+  std::vector<Block> blocks;
+  const auto leave_out = [&](const std::string& name, const auto& left_out) {
+    Block block{name, std::vector<bool>(rows, true)};
+    std::size_t out = 0;
+    for (const Curve& curve : d.curves)
+      for (Eigen::Index i = 0; i < curve.count; ++i)
+        if (left_out(curve, static_cast<std::size_t>(i)))
+          block.counted[static_cast<std::size_t>(curve.first + i)] = false, ++out;
+    // What is left must be able to determine the parameters.
+    if (out > 0 && rows - out > 2 * d.base->parameters().size()) blocks.push_back(std::move(block));
+  };
+  std::vector<std::string> tests;
+  std::map<std::string, std::size_t> types;
+  for (const Curve& curve : d.curves)
+    if (std::find(tests.begin(), tests.end(), curve.test) == tests.end()) {
+      tests.push_back(curve.test);
+      ++types[d.experiment.test(curve.test).type];
+    }
+  if (tests.size() > 1)
+    for (const std::string& test : tests)
+      leave_out("test " + test, [&](const Curve& curve, std::size_t) { return curve.test == test; });
+  if (types.size() > 1)
+    for (const auto& [type, count] : types)
+      if (count > 1)
+        leave_out("protocol " + type,
+                  [&](const Curve& curve, std::size_t) { return d.experiment.test(curve.test).type == type; });
+  leave_out("beyond 70 % of the range", [](const Curve& curve, std::size_t i) {
+    const auto [low, high] = std::minmax_element(curve.abscissa.begin(), curve.abscissa.end());
+    return curve.abscissa[i] > *low + extrapolated_from * (*high - *low);
+  });
+  return blocks;
+}
+
+/// All residuals at a fit to some of the rows, and the Jacobian by the variables.
+struct Prediction {
+  bool ok = false;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+};
+
+Prediction predict(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
+                   std::span<const double> start, const std::vector<bool>& counted) {
+  const auto workspace = assembly.make_workspace();
+  const Fit fit = least_squares(assembly, variables, start, *workspace, 60, {nullptr, &counted});
+  Prediction prediction;
+  Eigen::MatrixXd all;
+  if (!fit.status.ok() || !whitened(assembly, fit.free, *workspace, prediction.residuals, &all).ok()) return prediction;
+  prediction.jacobian.setZero(all.rows(), static_cast<Eigen::Index>(variables.size()));
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    if (fit.at_bound[k]) continue;  // it says nothing, and leaves a column of zeros
+    for (const std::size_t member : variables[k])
+      prediction.jacobian.col(static_cast<Eigen::Index>(k)) += all.col(static_cast<Eigen::Index>(member));
+  }
+  prediction.ok = true;
+  return prediction;
+}
+
+double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index>& rows) {
+  return r(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
+}
+
+double predictive_p(const Prediction& prediction, const std::vector<Eigen::Index>& out,
+                    const std::vector<Eigen::Index>& in) {
+  Eigen::MatrixXd J = prediction.jacobian;
+  for (Eigen::Index k = 0; k < J.cols(); ++k)
+    if (const double length = J(in, k).norm(); length > 0) J.col(k) /= length;
+  const Eigen::MatrixXd J_in = J(in, Eigen::all), J_out = J(out, Eigen::all);
+  const Eigen::MatrixXd covariance = (J_in.transpose() * J_in).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::VectorXd r = prediction.residuals(out);
+  const Eigen::MatrixXd total = Eigen::MatrixXd::Identity(r.size(), r.size()) + J_out * covariance * J_out.transpose();
+  const double chi2 = r.dot(total.ldlt().solve(r));
+  return boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared(static_cast<double>(r.size())), std::max(chi2, 0.0)));
+}
+
+/// Whether the rows that are fitted show the amplitudes of the extension.
+bool shows(const Prediction& prediction, const Refitted& extension, const std::vector<Eigen::Index>& in) {
+  std::size_t at = extension.extended->base().size();
+  for (const Extended::Part& part : extension.extended->parts()) {
+    const auto column = prediction.jacobian.col(static_cast<Eigen::Index>(at));
+    if (column(in).norm() < 0.1 * column.norm()) return false;
+    at += 1 + part.nuisance.size();
+  }
+  return true;
+}
+
+}  // namespace
+
+void measure_gain(Diagnosis& d, const plugins::Catalogue& catalogue) {
+  static_cast<void>(catalogue);
+  if (!d.gain) d.gain.emplace();
+  Gain& gain = *d.gain;
+  const Refitted& extension = *d.extension;
+  gain.before = d.fit.chi2, gain.after = extension.fit.chi2;
+  const std::vector<Block> blocks = blocks_of(d);
+  std::vector<std::optional<HeldOut>> found(blocks.size());
+  std::vector<Variable> base;
+  for (std::size_t j = 0; j < d.base->parameters().size(); ++j) base.push_back({j});
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    std::vector<Eigen::Index> in, out;
+    for (std::size_t i = 0; i < blocks[b].counted.size(); ++i)
+      (blocks[b].counted[i] ? in : out).push_back(static_cast<Eigen::Index>(i));
+    const Prediction before = predict(*d.base, base, d.fit.free, blocks[b].counted);
+    const Prediction after =
+        predict(extension.extended->assembly(), extension.extended->variables(), extension.fit.free, blocks[b].counted);
+    if (!before.ok || !after.ok || !shows(after, extension, in)) return;
+    found[b] = HeldOut{blocks[b].name, root_mean_square(before.residuals, out), root_mean_square(after.residuals, out),
+                       predictive_p(after, out, in), out.size()};
+  });
+  for (auto& block : found)
+    if (block) gain.held_out.push_back(std::move(*block));
+}
+
+}  // namespace tunica::diagnosis

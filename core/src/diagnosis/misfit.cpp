@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/misfit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tunica::diagnosis {
+namespace {
+
+/// Means over windows of a fifth of the curve, along its rows, in standard errors of such a mean.
+std::vector<double> smoothed(const Eigen::VectorXd& r) {
+  const Eigen::Index n = r.size(), half = std::max<Eigen::Index>(1, n / 10);
+  std::vector<double> means;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index from = std::max<Eigen::Index>(0, i - half), to = std::min(n, i + half + 1);
+    means.push_back(r.segment(from, to - from).sum() / std::sqrt(static_cast<double>(to - from)));
+  }
+  return means;
+}
+
+/// The rows around the largest mean over which it keeps its sign and at least half its size.
+std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
+  const auto worst =
+      std::max_element(means.begin(), means.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  auto first = static_cast<std::size_t>(worst - means.begin()), last = first;
+  const auto alike = [&](std::size_t k) { return means[k] * *worst > 0 && std::abs(means[k]) > std::abs(*worst) / 2; };
+  while (first > 0 && alike(first - 1)) --first;
+  while (last + 1 < means.size() && alike(last + 1)) ++last;
+  return {first, last};
+}
+
+}  // namespace
+
+std::vector<Misfit> misfits(const Diagnosis& d) {
+  std::vector<std::size_t> order;
+  for (std::size_t c = 0; c < d.curves.size(); ++c) order.push_back(c);
+  const std::vector<double>& p = d.detection.by_curve;
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return p[a] < p[b]; });
+  std::vector<Misfit> found;
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const Curve& curve = d.curves[order[place]];
+    if (p[order[place]] * static_cast<double>(order.size() - place) > d.settings.alpha) break;
+    const Eigen::VectorXd r = -d.fit.residuals.segment(curve.first, curve.count);
+    const auto [first, last] = region(smoothed(r));
+    const auto from = std::min_element(curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
+                                       curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    const auto to = std::max_element(curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
+                                     curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    std::string name = "row", unit;
+    for (const auto& view : d.base->channels())
+      if (view.test == curve.test && view.observable == curve.channel)
+        name = view.abscissa_name, unit = view.abscissa_unit;
+    const double mean = r.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1)).mean();
+    Misfit misfit{curve.test, curve.channel, {}, p[order[place]], *from, *to};
+    misfit.where = fmt::format(
+        "{} {:.4g} … {:.4g}{}: measured lies {} the prediction, by {:.1f} σ in the mean of {} rows", name, *from, *to,
+        unit == "1" || unit.empty() ? "" : " " + unit, mean > 0 ? "above" : "below", std::abs(mean), last - first + 1);
+    found.push_back(std::move(misfit));
+  }
+  return found;
+}
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/noise_statement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "calibration/noise.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+/// Deviations from the row means, with what their variance loses by the mean: m/(m − 1) restores it.
+struct Deviations {
+  std::vector<double> level, square;  ///< |row mean|, unbiased square
+};
+
+/// Twice the negative log likelihood of squares about σ² = a² + (b y)², up to a constant.
+double misfit(const Deviations& d, double a2, double b2) {
+  double sum = 0;
+  for (std::size_t i = 0; i < d.square.size(); ++i) {
+    const double variance = a2 + b2 * d.level[i] * d.level[i];
+    sum += std::log(variance) + d.square[i] / variance;
+  }
+  return sum;
+}
+
+/// a² and b² of σ² = a² + (b y)²: for each ratio b²/a² on a grid the likeliest scale is a mean.
+data::Noise fit_variance(const Deviations& d) {
+  const auto scale = [&d](double absolute, double relative) {
+    double sum = 0;
+    for (std::size_t i = 0; i < d.square.size(); ++i)
+      sum += d.square[i] / (absolute + relative * d.level[i] * d.level[i]);
+    return sum / static_cast<double>(d.square.size());
+  };
+  const double constant = scale(1, 0), largest = *std::max_element(d.level.begin(), d.level.end());
+  double best = misfit(d, constant, 0) - 4, a2 = constant, b2 = 0;  // the price of a second parameter
+  for (double share = 0.1; largest > 0 && share < 100; share *= 1.3) {
+    const double relative = share / (largest * largest), s = scale(1, relative);
+    if (const double trial = misfit(d, s, s * relative); trial < best) best = trial, a2 = s, b2 = s * relative;
+  }
+  return {std::sqrt(a2), std::sqrt(b2), 0};
+}
+
+NoiseSource from_replicates(const data::Channel& channel) {
+  const double m = static_cast<double>(channel.replicates.size());
+  Deviations d;
+  for (std::size_t i = 0; i < channel.values.size(); ++i) {
+    double sum = 0;
+    for (const auto& replicate : channel.replicates) sum += std::pow(replicate[i] - channel.values[i], 2);
+    d.level.push_back(std::abs(channel.values[i])), d.square.push_back(sum / (m - 1));
+  }
+  if (!(*std::max_element(d.square.begin(), d.square.end()) > 0))
+    throw InputError(
+        fmt::format("channel '{}': the replicates are identical, so that they say nothing about noise; "
+                    "state noise.absolute or noise.relative",
+                    channel.observable));
+  NoiseSource source;
+  source.kind = NoiseSource::Kind::replicates;
+  source.noise = fit_variance(d);
+  source.freedom = (m - 1) * static_cast<double>(channel.values.size());
+  return source;
+}
+
+/// Σ d_k d_{k+1} and Σ d_k² of the standardised deviations of a channel.
+std::pair<double, double> neighbours(const data::Channel& channel, const data::Noise& noise) {
+  double products = 0, squares = 0;
+  for (const auto& replicate : channel.replicates) {
+    double before = 0;
+    for (std::size_t i = 0; i < replicate.size(); ++i) {
+      const double sd = std::hypot(noise.absolute, noise.relative * channel.values[i]);
+      const double now = (replicate[i] - channel.values[i]) / sd;
+      if (i > 0) products += before * now;
+      squares += now * now, before = now;
+    }
+  }
+  return {products, squares};
+}
+
+/// Effective degrees of freedom of the difference estimator: its terms overlap (Gasser et al. 1986: var = 35/18 σ⁴/n).
+constexpr double difference_share = 18.0 / 35;
+
+NoiseSource from_differences(const data::Channel& channel, const data::Dataset& dataset, const std::string& where) {
+  std::vector<double> abscissa;
+  if (!dataset.abscissae.empty())
+    abscissa = dataset.abscissae.front().second;
+  else
+    for (std::size_t i = 0; i < dataset.count; ++i) abscissa.push_back(static_cast<double>(i));
+  std::vector<std::string> said;
+  const auto model = calibration::noise_model(channel, abscissa, std::vector<bool>(dataset.count, true), where, said);
+  NoiseSource source;
+  source.kind = NoiseSource::Kind::differences;
+  source.noise.absolute = model.sd.front();
+  source.freedom = std::max(2.0, 2 * difference_share * static_cast<double>(dataset.count) / 2);
+  return source;
+}
+
+}  // namespace
+
+std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
+                                     const plugins::Catalogue& catalogue) {
+  std::vector<NoiseSource> sources;
+  for (experiment::TestEntry& entry : experiment.tests) {
+    if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
+    const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
+    const data::Dataset dataset = data::read_dataset(entry.data, observables);
+    double products = 0, squares = 0;
+    const std::size_t first = sources.size();
+    for (const data::Channel& channel : dataset.channels) {
+      NoiseSource source;
+      if (channel.noise)
+        source.noise = *channel.noise;
+      else if (channel.replicates.size() > 1)
+        source = from_replicates(channel);
+      else
+        source =
+            from_differences(channel, dataset, fmt::format("test '{}', channel '{}'", entry.name, channel.observable));
+      source.test = entry.name, source.channel = channel.observable, source.unit = channel.unit;
+      if (source.kind == NoiseSource::Kind::replicates) {
+        const auto [product, square] = neighbours(channel, source.noise);
+        products += product, squares += square;
+      }
+      sources.push_back(source);
+    }
+    double freedom = 0;
+    for (std::size_t k = first; k < sources.size(); ++k)
+      if (sources[k].kind == NoiseSource::Kind::replicates) freedom += sources[k].freedom;
+    const double correlation = squares > 0 ? products / squares : 0, sd = freedom > 0 ? 1 / std::sqrt(freedom) : 0;
+    entry.data.noise.clear();
+    for (std::size_t k = first; k < sources.size(); ++k) {
+      NoiseSource& source = sources[k];
+      if (source.kind == NoiseSource::Kind::replicates && std::abs(correlation) > 2 * sd) {
+        source.noise.correlation = correlation;
+        source.correlation_sd = sd * std::sqrt(1 - correlation * correlation);
+      }
+      entry.data.noise.emplace_back(source.channel, source.noise);
+    }
+  }
+  return sources;
+}
+
+}  // namespace tunica::diagnosis

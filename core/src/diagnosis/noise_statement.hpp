@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+namespace tunica::diagnosis {
+
+/// Where the noise of a channel is known from, and how well.
+struct NoiseSource {
+  enum class Kind { stated, replicates, differences };
+  std::string test, channel, unit;
+  Kind kind = Kind::stated;
+  data::Noise noise;          ///< of one measured value
+  double freedom = 0;         ///< degrees of freedom of σ²; 0 = known
+  double correlation_sd = 0;  ///< standard deviation of the estimated correlation
+};
+
+/// Makes every channel of the tests say how large its noise is, so that every model is judged by the same: what the
+/// file states stays. Else, never from residuals of a fit,
+///
+///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
+///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over the channels
+///               of one test, where it exceeds twice its standard deviation;
+///   else:       deviations from the line through neighbouring rows (calibration/noise.hpp), uncorrelated.
+///
+/// Throws InputError where nothing can be known.
+std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
+                                     const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "diagnosis/naming.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+/// The signature of an addition at the base fit, or null.
+const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addition) {
+  for (const Candidate& candidate : diagnosis.candidates)
+    for (const Hypothesis& hypothesis : candidate.hypotheses)
+      if (candidate.id == addition.id && hypothesis.addition.target == addition.target &&
+          hypothesis.addition.setting == addition.setting)
+        return &hypothesis;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Addition> additions,
+                                 std::span<const double> amplitudes, const plugins::Catalogue& catalogue) {
+  Refitted refitted;
+  refitted.additions = std::move(additions);
+  try {
+    refitted.extended = std::make_shared<Extended>(diagnosis.experiment, diagnosis.run, refitted.additions, catalogue);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  const Extended& extended = *refitted.extended;
+  const auto& parameters = extended.assembly().parameters();
+  const auto workspace = extended.assembly().make_workspace();
+  const std::vector<Variable> variables = extended.variables();
+
+  // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(diagnosis.fit.residuals.size());
+  for (std::size_t a = 0; a < refitted.additions.size(); ++a)
+    if (const Hypothesis* hypothesis = hypothesis_of(diagnosis, refitted.additions[a]))
+      moved += hypothesis->signature * amplitudes[a];
+  Eigen::MatrixXd scaled = diagnosis.fit.jacobian;
+  std::vector<double> lengths;
+  for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
+    lengths.push_back(std::max(scaled.col(k).norm(), 1e-300));
+    scaled.col(k) /= lengths.back();
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+  qr.setThreshold(1e-6);
+  const Eigen::VectorXd shift = scaled.cols() > 0 ? Eigen::VectorXd(qr.solve(-moved)) : Eigen::VectorXd();
+
+  bool found = false;
+  for (const double share : {1.0, 0.3}) {
+    std::vector<double> base = diagnosis.fit.free;
+    for (std::size_t j = 0; j < base.size(); ++j) {
+      const auto& parameter = diagnosis.base->parameters()[j];
+      double step = share * shift[static_cast<Eigen::Index>(j)] / lengths[j];
+      if (parameter.scale == Scale::log)  // as far as the straight line can be believed
+        base[j] *= std::exp(std::clamp(step / base[j], -1.0, 1.0));
+      else
+        base[j] += std::clamp(step, -0.3 * (parameter.max - parameter.min), 0.3 * (parameter.max - parameter.min));
+      base[j] = std::clamp(base[j], parameter.min, parameter.max);
+    }
+    std::vector<double> start = extended.at_null(base);
+    for (std::size_t a = 0; a < extended.parts().size(); ++a) {
+      const Extended::Part& part = extended.parts()[a];
+      const bool even =
+          catalogue.mechanisms().at(refitted.additions[a].id).factory.side == MechanismFactory::Side::even;
+      const double amplitude = share * (even ? std::sqrt(std::max(amplitudes[a], 0.0)) : amplitudes[a]);
+      for (const std::size_t member : part.amplitude)
+        start[member] = std::clamp(part.null + amplitude, parameters[member].min, parameters[member].max);
+    }
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    if (!fit.status.ok()) continue;
+    if (!found || fit.chi2 < refitted.fit.chi2) refitted.fit = std::move(fit), found = true;
+    if (diagnosis.settings.quick && refitted.fit.chi2 < diagnosis.fit.chi2) break;
+  }
+  if (!found) return std::nullopt;
+  return refitted;
+}
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/settings.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "data/nearest.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::diagnosis {
+
+Settings settings_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  Settings settings;
+  settings.seed = experiment.seed;
+  if (!experiment.runs.empty()) settings.model = experiment.runs.front().model;
+  if (experiment.diagnosis_json.empty()) return settings;
+  const auto json = nlohmann::json::parse(experiment.diagnosis_json);
+  settings.model = json.value("model", settings.model);
+  settings.optimizer = json.value("optimizer", std::string());
+  settings.alpha = json.value("alpha", settings.alpha);
+  settings.admissibility = json.value("admissibility", false);
+  if (const auto names = json.find("mechanisms"); names != json.end() && names->is_array())
+    settings.mechanisms = names->get<std::vector<std::string>>();
+  std::vector<std::string> known;
+  for (const auto& [id, entry] : catalogue.mechanisms()) known.push_back(id);
+  for (const std::string& id : settings.mechanisms)
+    if (!catalogue.mechanisms().contains(id))
+      throw InputError(fmt::format("/diagnosis/mechanisms: no loaded plugin provides the mechanism '{}'. {}", id,
+                                   data::suggestion(id, known)));
+  return settings;
+}
+
+}  // namespace tunica::diagnosis
