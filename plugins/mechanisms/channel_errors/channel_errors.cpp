@@ -132,7 +132,7 @@ std::vector<MechanismFactory> of_chosen_channels() {
                 {"Some readings, or one whole curve, do not belong to the others: a slip, a bubble, a mistyped number.",
                  {"force_offset", "signal_drift"},
                  "the same test once more",
-                 "Cook, Weisberg, Residuals and Influence in Regression (1982), section 2.2.2"});
+                 "Cook, Weisberg, Residuals and Influence in Regression (1982)"});
   outliers.stage = tunica::Stage::data;
   outliers.options = {channel_option(), rows_option()};
   return {partly_shifted(std::move(drift),

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Mullins effect by a pseudo-energy (Ogden, Roxburgh 1999, Proc. R. Soc. A 455:2861, eqs. 3.1 and 4.1, with the
-// width of the error function relative to the largest energy, as Dorfmann, Ogden 2003, Int. J. Solids Struct. 40:2699,
-// scale it): the stress of the base times
+// The Mullins effect by a pseudo-energy (Ogden, Roxburgh 1999, Proc. R. Soc. A 455:2861): the stress of the base times
 //
 //   η = 1 − s erf((Wmax − W)/(m Wmax)),
 //
 // W the energy of the base counted from the unloaded state, Wmax the largest so far. On a path that has never been
-// further η is 1, and the stress that of the base. The factor also multiplies whatever pressure the energy carries,
+// further η is 1, and the stress that of the base. The width of the error function is
+// relative to Wmax here, so that m has no unit. The factor also multiplies whatever pressure the energy carries,
 // which the pressure of an incompressible material takes up. Order of rows is enough, time is not needed.
 #include <algorithm>
 #include <cmath>
@@ -21,7 +20,7 @@ namespace tunica::stress_softening {
 namespace {
 
 std::vector<Parameter> own_parameters() {
-  const char* const source = "Ogden, Roxburgh 1999, eq. 4.1";
+  const char* const source = "Ogden, Roxburgh 1999";
   return {{"s", "1", 0.2, 0, 1, Scale::linear, "Largest share of the stress that can be lost.", source},
           {"m", "1", 0.5, 0.01, 10, Scale::log,
            "Part of the largest energy, by which the material has to be unloaded to lose 84 % of that share.", source}};
