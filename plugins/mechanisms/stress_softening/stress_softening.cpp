@@ -4,9 +4,9 @@
 //   η = 1 − s erf((Wmax − W)/(m Wmax)),
 //
 // W the energy of the base counted from the unloaded state, Wmax the largest so far. On a path that has never been
-// further η is 1, and the stress that of the base. The width of the error function is
-// relative to Wmax here, so that m has no unit. The factor also multiplies whatever pressure the energy carries,
-// which the pressure of an incompressible material takes up. Order of rows is enough, time is not needed.
+// further η is 1, and the stress that of the base. The width of the error function is relative to Wmax here, so that m
+// has no unit. The factor also multiplies whatever pressure the energy carries, which the pressure of an incompressible
+// material takes up. Order of rows is enough, time is not needed.
 #include <algorithm>
 #include <cmath>
 #include <memory>
