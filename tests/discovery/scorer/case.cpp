@@ -48,7 +48,10 @@ const Json& part(const Json& object, const char* key) {
 
 /// A target that is no single test – null, or a list – is that of a shared effect.
 Target target_of(const Json& object) {
-  return object.is_object() ? Target{word(object, "test"), word(object, "channel")} : Target{};
+  if (!object.is_object()) return {};
+  Target target{word(object, "test"), word(object, "channel")};
+  if (const auto row = number(object, "row")) target.row = static_cast<std::size_t>(*row);
+  return target;
 }
 
 Truth read_truth(const Json& from) {

@@ -16,10 +16,14 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Where an effect sits; empty: the material, all tubes, every channel.
+/// Where an effect sits; empty: the material, all tubes, every channel, all rows.
 struct Target {
   std::string test, channel;
-  bool operator==(const Target&) const = default;
+  std::optional<std::size_t> row = {};
+  /// A verdict's target is this one: it may say a channel where the truth needs none.
+  [[nodiscard]] bool met_by(const Target& found) const {
+    return test == found.test && (channel.empty() || channel == found.channel) && row == found.row;
+  }
 };
 
 struct TrueEffect {

@@ -179,7 +179,7 @@ void amplitudes(const Cases& cases, std::vector<Figure>& table) {
       const TrueEffect& truth = one.truth.effects.front();
       if (!named_first(verdict, truth.id)) continue;
       const Cause& cause = verdict.causes.front();
-      if (!cause.amplitude || cause.target != truth.target) continue;
+      if (!cause.amplitude || !truth.target.met_by(cause.target)) continue;
       const double sign = truth.even && *cause.amplitude * truth.amplitude < 0 ? -1 : 1;
       squares += std::pow((sign * *cause.amplitude - truth.amplitude) / (truth.amplitude - truth.null), 2), ++count;
       if (!cause.low || !cause.high) continue;

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "execution/folder.hpp"
+#include "scorer/table.hpp"
+#include "seal.hpp"
+
+using namespace blind::score;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using tunica::trial::Folder;
+using tunica::trial::message_of;
+
+namespace {
+
+/// A case as scored: what is hidden, and what was said of it.
+Case single(const std::string& id, double lambda, const std::string& verdict, const std::vector<std::string>& said) {
+  Case one;
+  one.truth.set = "singles", one.truth.noise = "white", one.truth.asked = lambda;
+  one.truth.effects = {{.id = id, .target = {}, .amplitude = 2}};
+  one.verdict.verdict = verdict;
+  if (!said.empty())
+    one.verdict.causes = {
+        {.id = said.front(), .target = {}, .probability = {}, .amplitude = {}, .low = {}, .high = {}}};
+  one.verdict.ambiguity_set = said;
+  return one;
+}
+Case of_set(const std::string& set, const std::string& noise, const std::string& verdict) {
+  Case one;
+  one.truth.set = set, one.truth.noise = noise;
+  one.verdict.verdict = verdict;
+  return one;
+}
+std::vector<Case> times(std::size_t count, const Case& one) { return std::vector<Case>(count, one); }
+std::vector<Case> together(std::initializer_list<std::vector<Case>> parts) {
+  std::vector<Case> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+Figure figure(const std::vector<Case>& cases, const std::string& name, const LookAlikes& look_alikes = {}) {
+  for (const Figure& one : figures(cases, look_alikes))
+    if (one.name == name) return one;
+  throw std::runtime_error("no figure " + name);
+}
+
+/// Writes one case and its sealed truth; a verdict unless empty.
+void write_case(const Folder& folder, const std::string& name, const json& truth, const json& diagnosis) {
+  std::filesystem::create_directories(folder.path() / name);
+  std::filesystem::create_directories(folder.path() / "sealed");
+  const std::string text = truth.dump();
+  folder.write("sealed/" + name + ".json", text);
+  folder.write(name + "/truth.sha256", blind::sha256(text) + "\n");
+  if (!diagnosis.is_null()) folder.write(name + "/result.json", json{{"diagnosis", diagnosis}}.dump());
+}
+json null_truth() {
+  return {{"set", "nulls"},
+          {"noise", {{"kind", "white"}}},
+          {"lambda_asked", 0},
+          {"gross_errors", json::array()},
+          {"effects", json::array()}};
+}
+
+}  // namespace
+
+// 5 of 100: Wilson 1927; figures as tabulated by Newcombe, Stat. Med. 17:857 (1998), method 3, for 81/263 and 0/20.
+TEST(Scorer, GivesWilsonIntervals) {
+  const Share newcombe{81, 263}, nothing{0, 20}, empty;
+  EXPECT_NEAR(newcombe.low(), 0.2553, 5e-5);
+  EXPECT_NEAR(newcombe.high(), 0.3662, 5e-5);
+  EXPECT_NEAR(nothing.low(), 0, 1e-12);
+  EXPECT_NEAR(nothing.high(), 0.1611, 5e-5);
+  EXPECT_EQ(empty.low(), 0);
+  EXPECT_EQ(empty.high(), 1);
+}
+
+TEST(Scorer, CountsFalseAlarmsByNoise) {
+  const auto cases = together(
+      {times(95, of_set("nulls", "white", "nothing_detected")), times(5, of_set("nulls", "relative", "unknown")),
+       times(9, of_set("nulls", "ar1", "nothing_detected")), times(1, of_set("nulls", "ar1", "named"))});
+  const Figure plain = figure(cases, "false alarms at α = 0.05");
+  EXPECT_EQ(plain.cases, 100U);
+  EXPECT_NEAR(plain.value, 0.05, 1e-12);
+  EXPECT_FALSE(plain.missed());
+  const Figure correlated = figure(cases, "false alarms, ρ = 0.3, covariance from replicates");
+  EXPECT_NEAR(correlated.value, 0.1, 1e-12);
+  EXPECT_TRUE(correlated.missed());
+  EXPECT_FALSE(correlated.surely_missed());  // one of ten may be chance
+  EXPECT_NEAR(figure(cases, "false alarms, noise relative").value, 1, 1e-12);
+}
+
+TEST(Scorer, TakesNamingOfGrossErrorsThatAreThereForNoAlarm) {
+  Case contaminated = of_set("nulls", "outliers", "suspect_data");
+  contaminated.truth.contaminated = true;
+  contaminated.verdict.causes = {
+      {.id = "outliers", .target = {}, .probability = {}, .amplitude = {}, .low = {}, .high = {}}};
+  EXPECT_FALSE(judged(contaminated).detected());
+  Case clean = contaminated;
+  clean.truth.contaminated = false;
+  EXPECT_TRUE(judged(clean).detected());
+  contaminated.verdict.causes.push_back(contaminated.verdict.causes.front());
+  contaminated.verdict.causes.back().id = "active_tone";
+  EXPECT_TRUE(judged(contaminated).detected());
+  EXPECT_EQ(judged(contaminated).causes.size(), 1U);
+}
+
+TEST(Scorer, CountsANameByItselfOrWithADeclaredLookAlikeThatTheDataCannotTellApart) {
+  Case tied = single("b", 60, "indistinguishable", {"a", "b"});
+  const LookAlikes declared{{"a", {"b"}}};
+  EXPECT_FALSE(named_first(tied.verdict, "b"));
+  EXPECT_TRUE(named_first(tied.verdict, "a"));
+  EXPECT_FALSE(named_with_look_alike(tied.verdict, "b", declared)) << "no correlation on these data";
+  tied.verdict.confusable[{"a", "b"}] = 0.89;
+  EXPECT_FALSE(named_with_look_alike(tied.verdict, "b", declared));
+  tied.verdict.confusable[{"a", "b"}] = 0.95;
+  EXPECT_TRUE(named_with_look_alike(tied.verdict, "b", declared));
+  EXPECT_FALSE(named_with_look_alike(tied.verdict, "b", {{"a", {"c"}}})) << "not declared";
+  tied.verdict.ambiguity_set = {"a", "c"};
+  EXPECT_FALSE(named_with_look_alike(tied.verdict, "b", declared)) << "not in the set";
+
+  tied.verdict.ambiguity_set = {"a", "b"};
+  const auto cases =
+      together({times(3, single("a", 60, "named", {"a"})), times(1, tied),
+                times(1, single("a", 60, "nothing_detected", {})), times(1, single("a", 60, "unknown", {}))});
+  const Figure right = figure(cases, "right name first given detection, Λ 60", declared);
+  EXPECT_EQ(right.cases, 5U) << "undetected cases are not asked";
+  EXPECT_NEAR(right.value, 0.8, 1e-12);
+  EXPECT_THAT(right.remark, HasSubstr("first alone 0.600"));
+}
+
+TEST(Scorer, CallsAClaimWrongOnlyWhereItExcludesTheTruth) {
+  const auto cases =
+      together({times(7, single("a", 10, "named", {"a"})), times(1, single("a", 10, "indistinguishable", {"b", "a"})),
+                times(1, single("a", 10, "named", {"b"})), times(1, single("a", 10, "unknown", {}))});
+  EXPECT_NEAR(figure(cases, "wrong (truth excluded), Λ 10").value, 0.1, 1e-12);
+  const Figure held = figure(cases, "ambiguity set holds the truth (Λ ≥ 10)");
+  EXPECT_EQ(held.cases, 9U) << "unknown claims nothing";
+  EXPECT_NEAR(held.value, 8. / 9, 1e-12);
+  const auto sized = together(
+      {times(1, single("a", 25, "named", {"a"})), times(1, single("a", 25, "indistinguishable", {"b", "a", "c"}))});
+  EXPECT_NEAR(figure(sized, "mean size of the set at Λ 25").value, 2, 1e-12);
+}
+
+TEST(Scorer, LeavesOutEffectsThatNoPlausibleAmplitudeShowsButListsThem) {
+  Case faint = single("a", 60, "nothing_detected", {});
+  faint.truth.effects.front().reached = false;
+  const auto cases =
+      together({times(2, faint), times(1, single("a", 60, "named", {"a"})), times(1, single("a", 60, "named", {"b"}))});
+  EXPECT_EQ(figure(cases, "right name first given detection, Λ 60").cases, 2U);
+  const auto rows = effects(cases, {});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].unreached, 2U);
+  EXPECT_EQ(rows[0].detected.total, 2U);
+  EXPECT_EQ(rows[0].named.hits, 1U);
+  ASSERT_EQ(rows[0].confused_with.size(), 1U);
+  EXPECT_EQ(rows[0].confused_with[0], (std::pair<std::string, std::size_t>("b", 1)));
+  EXPECT_THAT(markdown("# here", figures(cases, {}), rows),
+              HasSubstr("| `a` | 60 | 2 | 2 | 1.00 | 0.50 | 0.50 | 1.00 | b 1 |"));
+}
+
+TEST(Scorer, ComparesDetectionWithTheOracleOnTheSameCases) {
+  auto cases = together({times(9, single("a", 25, "named", {"a"})), times(1, single("a", 25, "nothing_detected", {}))});
+  EXPECT_EQ(figure(cases, "detected, as a share of the oracle's, Λ ≥ 25").cases, 0U) << "no oracle, no figure";
+  for (Case& one : cases) one.oracle = Oracle{true, "a"};
+  EXPECT_NEAR(figure(cases, "detected, as a share of the oracle's, Λ ≥ 25").value, 0.9, 1e-12);
+  cases[0].oracle->detected = false;
+  EXPECT_NEAR(figure(cases, "detected, as a share of the oracle's, Λ ≥ 25").value, 1, 1e-12);
+}
+
+TEST(Scorer, WantsBothOfAPairAndNothingElse) {
+  Case pair = of_set("pairs", "white", "named");
+  pair.truth.asked = 60, pair.truth.effects = {{.id = "a", .target = {}}, {.id = "b", .target = {}}};
+  const auto saying = [&](const std::vector<std::string>& ids) {
+    Case one = pair;
+    for (const auto& id : ids)
+      one.verdict.causes.push_back({.id = id, .target = {}, .probability = {}, .amplitude = {}, .low = {}, .high = {}});
+    return one;
+  };
+  const std::vector<Case> cases{saying({"b", "a"}), saying({"a"}), saying({"a", "b", "c"}), saying({"a", "c"})};
+  EXPECT_NEAR(figure(cases, "two effects, exact pair, Λ 60 each").value, 0.25, 1e-12);
+  EXPECT_NEAR(figure(cases, "two effects, false discoveries among the causes named").value, 2. / 8, 1e-12);
+  EXPECT_NEAR(figure(cases, "two effects, both among the causes").value, 0.5, 1e-12);
+}
+
+TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
+  Case far = single("friction", 60, "unknown", {});
+  far.truth.set = "outside", far.truth.remainder = 40;
+  Case set = far, name = far;
+  set.verdict = single("", 0, "indistinguishable", {"a", "b"}).verdict;
+  name.verdict = single("", 0, "named", {"a"}).verdict;
+  EXPECT_NEAR(figure({far, set, name}, "outside the catalogue, remainder ≥ 25: unknown or a set").value, 2. / 3, 1e-12);
+
+  const std::string near_row = "outside, remainder below: in a set with its look-alike, or \"consistent with\"";
+  for (Case* one : {&far, &set, &name}) one->truth.remainder = 5, one->truth.look_alike = "b";
+  EXPECT_NEAR(figure({far, set, name}, near_row).value, 2. / 3, 1e-12);
+  set.truth.look_alike = "elsewhere";
+  EXPECT_NEAR(figure({set, name}, near_row).value, 0, 1e-12);
+  name.verdict.causes.front().hedged = true;
+  EXPECT_NEAR(figure({set, name}, near_row).value, 0.5, 1e-12);
+}
+
+TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
+  Case one = single("a", 25, "named", {"a"});
+  one.truth.effects.front().amplitude = 1.5, one.truth.effects.front().null = 1;
+  Cause& cause = one.verdict.causes.front();
+  cause.amplitude = 1.6, cause.low = 1.4, cause.high = 1.8;
+  Case off = one;
+  off.verdict.causes.front().amplitude = 1.4, off.verdict.causes.front().low = 1.3,
+  off.verdict.causes.front().high = 1.45;
+  Case elsewhere = one;
+  elsewhere.verdict.causes.front().target.test = "another", elsewhere.verdict.causes.front().amplitude = 100;
+  const std::vector<Case> cases{one, off, elsewhere};
+  EXPECT_EQ(figure(cases, "amplitude, relative rms at Λ 25").cases, 2U);
+  EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").value, 0.2, 1e-12);
+  EXPECT_NEAR(figure(cases, "amplitude, coverage of the 95 % interval").value, 0.5, 1e-12);
+
+  Case even = single("m", 60, "named", {"m"});
+  even.truth.effects.front().even = true;
+  even.verdict.causes.front().amplitude = -2.2, even.verdict.causes.front().low = -2.5,
+  even.verdict.causes.front().high = -1.9;
+  EXPECT_NEAR(figure({even}, "amplitude, relative rms at Λ 60").value, 0.1, 1e-12) << "its sign means nothing";
+  EXPECT_NEAR(figure({even}, "amplitude, coverage of the 95 % interval").value, 1, 1e-12);
+}
+
+TEST(Scorer, HoldsStatedProbabilitiesAgainstWhatCameTrue) {
+  std::vector<Case> cases =
+      together({times(8, single("a", 60, "named", {"a"})), times(2, single("a", 60, "named", {"b"}))});
+  for (Case& one : cases) one.verdict.causes.front().probability = 0.85;
+  const Figure error = figure(cases, "expected calibration error of the stated probability");
+  EXPECT_EQ(error.cases, 10U);
+  EXPECT_NEAR(error.value, 0.05, 1e-12);
+}
+
+TEST(Scorer, CountsHeldOutBlocksOfTheRightNames) {
+  Case right = single("a", 60, "named", {"a"}), wrong = single("a", 60, "named", {"b"});
+  right.verdict.held_out = {0.3, 0.04, 0.9, 0.6}, wrong.verdict.held_out = {0.001};
+  const Figure blocks = figure({right, wrong}, "held-out predictive p-value above 0.05 with the named mechanism");
+  EXPECT_EQ(blocks.cases, 4U);
+  EXPECT_NEAR(blocks.value, 0.75, 1e-12);
+}
+
+TEST(Scorer, OpensATruthOnlyWithItsVerdictAndItsSeal) {
+  const Folder folder;
+  const auto open = [&](bool partial) {
+    return message_of<InputError>([&] { (void)open_cases(folder.path(), folder.path(), partial); });
+  };
+  EXPECT_THAT(open(false), HasSubstr("holds no case"));
+  const json verdict{{"verdict", "nothing_detected"}};
+  write_case(folder, "case-1", null_truth(), verdict);
+  write_case(folder, "case-2", null_truth(), {});
+  EXPECT_THAT(open(false), HasSubstr("1 of 2 cases have no verdict, the first being case-2"));
+  EXPECT_EQ(open(true), "");
+  EXPECT_EQ(open_cases(folder.path(), folder.path(), true).sealed, 1U);
+  folder.write("case-2/result.json", "{\"runs\": []}");
+  EXPECT_THAT(open(false), HasSubstr("there is no object 'diagnosis'"));
+  folder.write("case-2/result.json", json{{"diagnosis", {{"verdict", "maybe"}}}}.dump());
+  EXPECT_THAT(open(false), HasSubstr("found the verdict 'maybe', expected one of nothing_detected"));
+  folder.write("case-2/result.json", json{{"diagnosis", verdict}}.dump());
+  EXPECT_EQ(open_cases(folder.path(), folder.path(), false).cases.size(), 2U);
+  json changed = null_truth();
+  changed["lambda_asked"] = 60;
+  folder.write("sealed/case-1.json", changed.dump());
+  EXPECT_THAT(open(false), HasSubstr("the truth was changed after the data were written"));
+  EXPECT_THAT(message_of<InputError>([&] { (void)open_cases(folder.path() / "nowhere", folder.path(), false); }),
+              HasSubstr("is no folder of cases"));
+}
+
+TEST(Scorer, ReadsWhatAVerdictSays) {
+  const Folder folder;
+  json truth = null_truth();
+  truth["set"] = "singles", truth["lambda_asked"] = 25;
+  truth["effects"].push_back({{"id", "outliers"},
+                              {"target", {{"test", "t"}, {"channel", "axial_force"}, {"row", 4}}},
+                              {"amplitude", 2.0},
+                              {"null", 0},
+                              {"even", false},
+                              {"reached", true}});
+  const json diagnosis = json::parse(R"({"verdict": "indistinguishable", "ambiguity_set": ["outliers", "b"],
+    "causes": [{"id": "outliers", "target": {"test": "t", "channel": "axial_force", "row": 4}, "probability": 0.7,
+                "amplitude": {"value": 2.2, "unit": "mN", "ci95": [1.5, 2.9]}, "explanation": "consistent with"}],
+    "confusable": [{"id": "outliers", "with": "b", "correlation": 0.97}],
+    "gain": {"held_out": [{"block": "t", "p_value": 0.4}, {"block": "u", "p_value": null}]}})");
+  write_case(folder, "case-1", truth, diagnosis);
+  folder.write("case-1/oracle.json", R"({"detected": true, "first": "outliers"})");
+  const Case one = open_cases(folder.path(), folder.path(), false).cases.at(0);
+  const Cause& cause = one.verdict.causes.at(0);
+  EXPECT_TRUE(one.truth.effects.at(0).target.met_by(cause.target));
+  EXPECT_FALSE(one.truth.effects.at(0).target.met_by({"t", "axial_force", 5}));
+  EXPECT_TRUE(cause.hedged);
+  EXPECT_EQ(cause.low, 1.5);
+  EXPECT_EQ(one.verdict.held_out, std::vector<double>{0.4});
+  EXPECT_EQ(one.verdict.confusable.at({"b", "outliers"}), 0.97);
+  EXPECT_EQ(one.oracle->first, "outliers");
+  folder.write("alike.json", R"({"a": ["b"]})");
+  EXPECT_EQ(read_look_alikes(folder.path() / "alike.json").at("a"), std::vector<std::string>{"b"});
+  folder.write("alike.json", R"(["b"])");
+  EXPECT_THAT(message_of<InputError>([&] { (void)read_look_alikes(folder.path() / "alike.json"); }),
+              HasSubstr("expected {\"id\": [\"look-alike\""));
+}
