@@ -60,7 +60,7 @@ int main(int count, char** arguments) {
   std::uint64_t seed = 1;
   std::vector<std::string> effects, noise{"white", "relative", "quantised"};
   std::vector<double> lambdas;
-  bool only_list = false;
+  bool only_list = false, oracle = false;
   app.add_option("--out", out, "folder of the cases; truths go to its folder 'sealed'");
   app.add_option("--seed", seed, "root of all random numbers");
   app.add_option("--set", set, "what is hidden")->check(CLI::IsMember({"nulls", "singles", "pairs", "outside"}));
@@ -70,6 +70,7 @@ int main(int count, char** arguments) {
       ->check(CLI::PositiveNumber);
   app.add_option("--noise", noise, "kinds to draw from; default: white relative quantised")
       ->check(CLI::IsMember(noise_kinds()));
+  app.add_flag("--oracle", oracle, "write beside each truth what could be found by who knew noise and base parameters");
   app.add_flag("--list", only_list, "list the effects and end");
   try {
     app.parse(count, arguments);
@@ -81,7 +82,7 @@ int main(int count, char** arguments) {
     for (const std::string& id : effects) (void)effect(id);
     std::size_t written = 0;
     const auto all = orders(set, effects, lambdas, range(cases), seed, noise);
-    for (const Order& order : all) written += write(order, out);
+    for (const Order& order : all) written += write(order, out, oracle);
     fmt::print("{} cases in {}, {} of them new\n", all.size(), out, written);
     return 0;
   } catch (const CLI::ParseError& problem) {

@@ -38,7 +38,8 @@ struct SealedCase {
 SealedCase make(const Order& order);
 
 /// DIR/<name>/: experiment.json, data, truth.sha256; and DIR/sealed/<name>.json. The case folder appears at once and
-/// last, so that an interrupted run leaves none that is incomplete. True unless it was there already.
-bool write(const Order& order, const std::filesystem::path& folder);
+/// last, so that an interrupted run leaves none that is incomplete. With `oracle` also DIR/sealed/<name>.oracle.json.
+/// True unless all was there already.
+bool write(const Order& order, const std::filesystem::path& folder, bool oracle = false);
 
 }  // namespace blind

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "oracle.hpp"
 #include "seal.hpp"
 #include "sealed_case.hpp"
 
@@ -182,14 +183,23 @@ Json sealed(const SealedCase& made, const std::string& name) {
 
 }  // namespace
 
-bool write(const Order& order, const fs::path& folder) {
+bool write(const Order& order, const fs::path& folder, bool oracle) {
   const std::string name = order.name();
-  const fs::path place = folder / name, truth = folder / "sealed" / (name + ".json");
-  if (fs::exists(place) && fs::exists(truth)) return false;
+  const fs::path place = folder / name, truth = folder / "sealed" / (name + ".json"),
+                 known = folder / "sealed" / (name + ".oracle.json");
+  const bool written = fs::exists(place) && fs::exists(truth);
+  if (written && (!oracle || fs::exists(known))) return false;
   const SealedCase made = make(order);
+  fs::create_directories(folder / "sealed");
+  if (oracle) {
+    const OracleVerdict verdict = ask_oracle(made);
+    const Json text{{"detected", verdict.detected}, {"p_value", verdict.p_value}, {"first", verdict.first}};
+    write_text(known, text.dump() + "\n");
+  }
+  if (written) return true;
   const fs::path unfinished = folder / fmt::format(".{}-{}", name, ::getpid());
   fs::remove_all(unfinished), fs::remove_all(place);
-  fs::create_directories(unfinished), fs::create_directories(folder / "sealed");
+  fs::create_directories(unfinished);
   const std::string text = sealed(made, name).dump(1) + "\n";
   write_text(truth, text);
   write_text(unfinished / "truth.sha256", sha256(text) + "\n");

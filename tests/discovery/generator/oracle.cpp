@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/special_functions/legendre.hpp>
+#include <cmath>
+
+namespace blind {
+namespace {
+
+constexpr int draws = 2000;
+constexpr double alpha = 0.05;
+
+/// Legendre columns of degree 0 to 2 of every curve over what is prescribed, whitened, without what the base model's
+/// parameters absorb; orthonormal.
+Eigen::MatrixXd smooth_columns(const Protocol& protocol, const Noise& noise, const Eigen::MatrixXd& jacobian) {
+  const auto layout = channels(protocol);
+  const auto n = noise.sd.size();
+  Eigen::MatrixXd all(n, 3 * static_cast<Eigen::Index>(channel_count));
+  for (std::size_t k = 0; k < channel_count; ++k) {
+    const auto& path = k < strip_count ? protocol.strips[k].stretch : protocol.tubes[(k - strip_count) / 2].pressure;
+    const auto [low, high] = std::minmax_element(path.begin(), path.end());
+    for (int degree = 0; degree <= 2; ++degree) {
+      std::vector<double> column(static_cast<std::size_t>(n), 0.0);
+      for (std::size_t i = 0; i < layout[k].count; ++i) {
+        const std::size_t at = layout[k].first + i;
+        column[at] = noise.sd[static_cast<Eigen::Index>(at)] *
+                     boost::math::legendre_p(degree, 2 * (path[i] - *low) / (*high - *low) - 1);
+      }
+      all.col(3 * static_cast<Eigen::Index>(k) + degree) = projected(jacobian, whiten(protocol, noise, column));
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
+  qr.setThreshold(1e-6);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
+}
+
+/// The largest one- or two-sided score of every column of r, and whose it is.
+struct Largest {
+  Eigen::VectorXd score;
+  std::vector<std::size_t> whose;
+};
+Largest largest(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& r) {
+  const Eigen::MatrixXd z = shapes.transpose() * r;
+  Largest found{Eigen::VectorXd::Zero(r.cols()), std::vector<std::size_t>(static_cast<std::size_t>(r.cols()), 0)};
+  for (Eigen::Index d = 0; d < r.cols(); ++d) {
+    for (Eigen::Index m = 0; m < z.rows(); ++m) {
+      const double size = all[static_cast<std::size_t>(m)].one_sided ? std::max(0.0, z(m, d)) : std::abs(z(m, d));
+      if (size <= found.score[d]) continue;
+      found.score[d] = size, found.whose[static_cast<std::size_t>(d)] = static_cast<std::size_t>(m);
+    }
+  }
+  return found;
+}
+
+/// Share of the sorted values that are at least as large.
+double upper_share(const std::vector<double>& sorted, double value) {
+  const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value);
+  return (1 + static_cast<double>(above)) / (1 + static_cast<double>(sorted.size()));
+}
+
+}  // namespace
+
+OracleVerdict ask_oracle(const SealedCase& made) {
+  const Protocol& protocol = made.specimen.protocol;
+  const Noise noise = made.noise.about(protocol, made.truth);
+  const Tissue& base = made.specimen.tissue;
+  // The Jacobian at the truth: that of a fit to what the truth predicts.
+  const auto bare = observe(protocol, {base, {}, {}, {}, {}});
+  const Eigen::MatrixXd jacobian = refit(protocol, noise, bare, base).jacobian;
+  const auto all = signatures(made.specimen, base, noise, jacobian);
+  Eigen::MatrixXd shapes(noise.sd.size(), static_cast<Eigen::Index>(all.size()));
+  for (std::size_t m = 0; m < all.size(); ++m) shapes.col(static_cast<Eigen::Index>(m)) = all[m].shape;
+  const Eigen::MatrixXd smooth = smooth_columns(protocol, noise, jacobian);
+
+  std::vector<double> error(bare.size());
+  for (std::size_t i = 0; i < bare.size(); ++i) {
+    double mean = 0;
+    for (const auto& replicate : made.records.replicates) mean += replicate[i];
+    error[i] = mean / static_cast<double>(made.records.replicates.size()) - bare[i];
+  }
+  const Eigen::VectorXd r = projected(jacobian, whiten(protocol, noise, error));
+
+  // Column 0: the data; the others: nothing but noise.
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd columns(r.size(), 1 + draws);
+  columns.col(0) = r;
+  for (Eigen::Index d = 1; d <= draws; ++d)
+    for (Eigen::Index i = 0; i < r.size(); ++i) columns(i, d) = normal(random);
+  const Largest scores = largest(all, shapes, columns);  // shapes are projected already
+  const Eigen::VectorXd omnibus = (smooth.transpose() * columns).colwise().squaredNorm();
+  std::vector<double> sorted(scores.score.data() + 1, scores.score.data() + 1 + draws);
+  std::sort(sorted.begin(), sorted.end());
+  const boost::math::chi_squared chi(static_cast<double>(smooth.cols()));
+  const auto smaller_p = [&](Eigen::Index d) {
+    return std::min(boost::math::cdf(boost::math::complement(chi, omnibus[d])), upper_share(sorted, scores.score[d]));
+  };
+  int as_small = 0;
+  const double mine = smaller_p(0);
+  for (Eigen::Index d = 1; d <= draws; ++d) as_small += smaller_p(d) <= mine;
+  OracleVerdict verdict;
+  verdict.p_value = (1.0 + as_small) / (1.0 + draws);
+  verdict.detected = verdict.p_value <= alpha;
+  verdict.first = all[scores.whose[0]].effect->id;
+  return verdict;
+}
+
+}  // namespace blind

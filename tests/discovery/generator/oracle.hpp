@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "sealed_case.hpp"
+
+namespace blind {
+
+/// What the data allow to whoever knows the noise and the base parameters: the scores of the method – a smooth omnibus
+/// and the largest projected score of the catalogue, calibrated jointly – at the truth, on the very data of the case.
+struct OracleVerdict {
+  double p_value = 1;
+  bool detected = false;  ///< at 5 %
+  std::string first;      ///< the effect with the largest score
+};
+OracleVerdict ask_oracle(const SealedCase& made);
+
+}  // namespace blind
