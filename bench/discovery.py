@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The blind benchmark of diagnosis, one command: hide effects, diagnose, then open the sealed truths and score.
+
+    bench/discovery.py OUT                  development seed, the same numbers of cases; look at it as often as you like
+    bench/discovery.py OUT --scored         the scored seed, once: verdicts of another build in OUT are refused
+    bench/discovery.py OUT --reduced        few cases with a fixed seed, for the test suite
+
+Every stage leaves alone what is there, so that an interrupted run is taken up by the same command. Exit code 1: a figure
+that has to be met is missed (with --reduced: by more than chance)."""
+import argparse
+import concurrent.futures
+import datetime
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+DEVELOPMENT_SEED, SCORED_SEED, REDUCED_SEED = 101, 2027, 7
+STATED = ["white", "relative", "quantised"]
+BEGIN, END = "<!-- blind benchmark: begin -->", "<!-- blind benchmark: end -->"
+
+
+def plan(reduced):
+    """(set, cases, kinds of noise, Λ, whether the oracle is asked), each for every effect and Λ of the set."""
+    if reduced:
+        return [("nulls", range(0, 60), STATED, [], False), ("singles", range(0, 1), STATED, [60], True),
+                ("pairs", range(0, 4), STATED, [60], False), ("outside", range(0, 1), STATED, [60], False)]
+    return [("nulls", range(0, 1000), STATED, [], False), ("nulls", range(0, 300), ["ar1"], [], False),
+            ("nulls", range(0, 200), ["outliers"], [], False),
+            ("singles", range(0, 30), STATED, [10, 25, 60, 150], True),
+            ("singles", range(30, 35), ["ar1"], [10, 25, 60, 150], True),
+            ("singles", range(35, 40), ["outliers"], [10, 25, 60, 150], True),
+            ("pairs", range(0, 80), STATED, [60], False), ("outside", range(0, 4), STATED, [25, 60, 150], False)]
+
+
+def chunks(stages, size):
+    """Stages cut into pieces of `size` cases an effect and Λ, so that work is shared and progress is seen."""
+    for what, cases, noise, lambdas, oracle in stages:
+        step = size if what in ("nulls", "pairs") else max(1, size // 50)
+        for first in range(cases.start, cases.stop, step):
+            yield what, range(first, min(first + step, cases.stop)), noise, lambdas, oracle
+
+
+def generate(generator, out, seed, chunk):
+    what, cases, noise, lambdas, oracle = chunk
+    command = [generator, "--out", out, "--seed", seed, "--set", what, "--cases", f"{cases.start}:{cases.stop}"]
+    command += ["--noise", *noise] + (["--lambda", *lambdas] if lambdas else []) + (["--oracle"] if oracle else [])
+    subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
+    return f"{what} {cases.start}:{cases.stop} {'+'.join(noise)}"
+
+
+def tunica(build):
+    return [str(build / "bin/tunica"), "--allow-world-writable-plugins"]
+
+
+def fingerprint(build):
+    """SHA-256 over the program and its plugins."""
+    digest = hashlib.sha256()
+    for file in [build / "bin/tunica", *sorted((build / "lib/tunica/plugins").glob("*.so"))]:
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+def look_alikes(build):
+    """Declared look-alikes of every mechanism, as `tunica describe` tells them."""
+    run = lambda *words: subprocess.run([*tunica(build), *words], check=True, capture_output=True, text=True).stdout
+    ids = re.findall(r"^  (\S+)", run("list", "mechanisms"), re.MULTILINE)
+    declared = {}
+    for name in ids:
+        told = re.search(r"looks like:(.*?)(?:isolated by:|\Z)", run("describe", name), re.DOTALL)
+        declared[name] = re.findall(r"\w+", told.group(1)) if told else []
+        if len(declared[name]) > 3:
+            sys.exit(f"discovery.py: {name} declares {len(declared[name])} look-alikes, and at most three count")
+    return declared
+
+
+def refuse_another_build(out, seed, build, scored):
+    """The scored seed runs once, with thresholds frozen before: all its verdicts come from one build."""
+    note, mine = out / "run.json", {"seed": seed, "scored": scored, "program": fingerprint(build)}
+    if note.exists():
+        found = json.loads(note.read_text())
+        if found["seed"] != seed:
+            sys.exit(f"discovery.py: {out} holds cases of seed {found['seed']}, not {seed}; choose another folder")
+        if scored and found["program"] != mine["program"]:
+            sys.exit(f"discovery.py: {out} holds verdicts of another build of the scored seed, which runs once; "
+                     "go on with that build, or take a new scored seed (--seed) and say so beside the table")
+        mine["begun"] = found["begun"]
+    mine.setdefault("begun", datetime.date.today().isoformat())
+    note.write_text(json.dumps(mine, indent=1) + "\n")
+    return mine["begun"]
+
+
+def put_into(document, table):
+    text = document.read_text()
+    if BEGIN not in text or END not in text:
+        sys.exit(f"discovery.py: {document} has no lines '{BEGIN}' and '{END}' for the table to stand between")
+    head, tail = text.split(BEGIN)[0], text.split(END)[1]
+    document.write_text(f"{head}{BEGIN}\n{table}{END}{tail}")
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("out", type=pathlib.Path, help="folder for cases, verdicts and table")
+    ask.add_argument("--build", type=pathlib.Path, default=root / "build/release", help="build folder")
+    ask.add_argument("--jobs", type=int, default=os.cpu_count(), help="cores to use")
+    ask.add_argument("--seed", type=int, help="another seed than the fixed ones")
+    ask.add_argument("--scored", action="store_true", help="the scored seed instead of the one for development")
+    ask.add_argument("--reduced", action="store_true", help="few cases, for the test suite")
+    ask.add_argument("--docs", type=pathlib.Path, help="put the table into this document, between its marks")
+    told = ask.parse_args()
+    if told.reduced and told.scored:
+        ask.error("--reduced and --scored exclude each other")
+    seed = told.seed if told.seed is not None else (
+        SCORED_SEED if told.scored else REDUCED_SEED if told.reduced else DEVELOPMENT_SEED)
+    cases = told.out / "cases"
+    cases.mkdir(parents=True, exist_ok=True)
+    begun = refuse_another_build(told.out, seed, told.build, told.scored)
+
+    work = list(chunks(plan(told.reduced), 100))
+    with concurrent.futures.ThreadPoolExecutor(told.jobs) as pool:
+        futures = [pool.submit(generate, told.build / "bin/discovery_generator", cases, seed, chunk) for chunk in work]
+        for done, future in enumerate(concurrent.futures.as_completed(futures), 1):
+            print(f"generated {done} of {len(work)}: {future.result()}", file=sys.stderr)
+
+    subprocess.run([*tunica(told.build), "diagnose", "--quick", "--batch", "-j", str(told.jobs), str(cases)], check=True)
+
+    alike = told.out / "look_alikes.json"
+    alike.write_text(json.dumps(look_alikes(told.build), indent=1) + "\n")
+    table = told.out / "table.md"
+    kind = "scored" if told.scored else "reduced" if told.reduced else "development"
+    count = sum(1 for folder in cases.iterdir() if (folder / "truth.sha256").exists())
+    heading = f"{begun}, {kind} seed {seed}, {count} cases, written by `bench/discovery.py`."
+    score = [str(told.build / "bin/discovery_score"), str(cases), "--look-alikes", str(alike), "--heading", heading,
+             "--markdown", str(table), "--json", str(told.out / "score.json")]
+    code = subprocess.run(score + (["--reduced"] if told.reduced else [])).returncode
+    if told.docs and code in (0, 1):
+        put_into(told.docs, table.read_text())
+    sys.exit(code)
+
+
+main()
