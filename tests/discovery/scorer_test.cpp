@@ -217,6 +217,11 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
   EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").value, 0.2, 1e-12);
   EXPECT_NEAR(figure(cases, "amplitude, coverage of the 95 % interval").value, 0.5, 1e-12);
 
+  off.truth.effects.front().nuisance = true;
+  EXPECT_EQ(figure({one, off}, "amplitude, relative rms at Λ 25").cases, 1U);
+  EXPECT_NEAR(figure({one, off}, "amplitude, relative rms at Λ 25, effects with a nuisance parameter").value, 0.2,
+              1e-12);
+
   Case even = single("m", 60, "named", {"m"});
   even.truth.effects.front().even = true;
   even.verdict.causes.front().amplitude = -2.2, even.verdict.causes.front().low = -2.5,

@@ -58,12 +58,12 @@ std::vector<Effect> of_the_material() {
                       [](World& world, const Protocol&, const Hidden& hidden) {
                         world.tissue.axial_k = hidden.amplitude(), world.tissue.axial_k2 = hidden.nuisance.at("k2");
                       },
-                      {{"k2", 0.3, 3}}),
+                      {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("circumferential_fibres", "kPa", 0, 50,
                       [](World& world, const Protocol&, const Hidden& hidden) {
                         world.tissue.around_k = hidden.amplitude(), world.tissue.around_k2 = hidden.nuisance.at("k2");
                       },
-                      {{"k2", 0.3, 3}}),
+                      {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("matrix_stiffening", "1", 0, 5, set_tissue<&Tissue::stiffening>),
           of_material("chain_extensibility", "1", 0, 0.2, set_tissue<&Tissue::inverse_limit>),
           of_material("second_invariant", "kPa", 0, 50, set_tissue<&Tissue::second_invariant>),
@@ -74,12 +74,12 @@ std::vector<Effect> of_the_material() {
                         world.tissue.softening = hidden.amplitude(),
                         world.tissue.softening_width = hidden.nuisance.at("m");
                       },
-                      {{"m", 0.2, 1}}),
+                      {{"m", 0.2, 1, {0.1, 0.3, 1, 3}}}),
           of_material("viscoelasticity", "1", 0, 3,
                       [](World& world, const Protocol&, const Hidden& hidden) {
                         world.tissue.branch = hidden.amplitude(), world.tissue.relaxation = hidden.nuisance.at("tau");
                       },
-                      {{"tau", 2, 60}})};
+                      {{"tau", 2, 60, {0.5, 2, 6, 20, 60, 200}}})};
 }
 
 std::vector<Effect> of_the_tubes() {
@@ -100,7 +100,7 @@ std::vector<Effect> of_the_tubes() {
                  .null = 1,
                  .low = 0.1,
                  .high = 10,
-                 .nuisances = {{"interface", 0, 1, {1. / 2, 2. / 3}}},
+                 .nuisances = {{"interface", 0, 1, {1. / 2, 2. / 3}, {1. / 2, 2. / 3}}},
                  .logarithmic = true,
                  .apply = [](World& world, const Protocol&, const Hidden& hidden) {
                    for (TubeFaults& tube : world.tubes)

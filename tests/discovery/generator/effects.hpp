@@ -34,7 +34,8 @@ struct Effect {
   enum class Where { material, all_tubes, tube_or_all, strip, channel, points };
   struct Nuisance {
     std::string name;
-    double low, high;
+    double low, high;                  ///< hidden values lie between
+    std::vector<double> grid;          ///< where it is looked for by who judges what the catalogue can explain
     std::vector<double> choices = {};  ///< instead of a range
   };
   std::string id, unit;

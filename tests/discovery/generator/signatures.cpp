@@ -28,15 +28,6 @@ std::vector<Target> targets(const Effect& effect) {
   return all;
 }
 
-std::vector<double> grid(const Effect::Nuisance& nuisance) {
-  if (!nuisance.choices.empty()) return nuisance.choices;
-  std::vector<double> all;
-  constexpr int points = 4;
-  for (int i = 0; i < points; ++i)
-    all.push_back(nuisance.low * std::pow(nuisance.high / nuisance.low, double(i) / (points - 1)));
-  return all;
-}
-
 }  // namespace
 
 Eigen::VectorXd projected(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& v) {
@@ -59,7 +50,7 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
     std::vector<std::map<std::string, double>> settings{{}};
     for (const Effect::Nuisance& nuisance : effect.nuisances) {
       settings.clear();
-      for (const double value : grid(nuisance)) settings.push_back({{nuisance.name, value}});
+      for (const double value : nuisance.grid) settings.push_back({{nuisance.name, value}});
     }
     for (const Target& target : targets(effect)) {
       for (const auto& nuisance : settings) {

@@ -64,7 +64,7 @@ Truth read_truth(const Json& from) {
               .nearest = {}};
   for (const Json& one : from.at("effects"))
     truth.effects.push_back({one.at("id"), target_of(one.at("target")), one.at("amplitude"), one.at("null"),
-                             one.at("even"), one.at("reached")});
+                             one.at("even"), one.at("reached"), !part(one, "nuisance").empty()});
   if (const Json& outside = part(from, "outside"); !outside.is_null()) {
     truth.look_alike = outside.at("look_alike"), truth.nearest = outside.at("best");
     truth.remainder = outside.at("remainder");

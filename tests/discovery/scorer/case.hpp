@@ -31,6 +31,7 @@ struct TrueEffect {
   Target target;
   double amplitude = 0, null = 0;
   bool even = false, reached = true;
+  bool nuisance = false;  ///< another unknown comes with it, and trades with the amplitude
 };
 
 struct Truth {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// The generator from outside, and what its cases promise.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/process.hpp"
+#include "execution/folder.hpp"
+#include "oracle.hpp"
+#include "seal.hpp"
+
+using ::testing::HasSubstr;
+using tunica::trial::Ended;
+using tunica::trial::Folder;
+using tunica::trial::text_of;
+
+namespace {
+
+Ended generator(std::vector<std::string> arguments, const Folder& folder) {
+  arguments.insert(arguments.begin(), DISCOVERY_GENERATOR);
+  return tunica::trial::Process(std::move(arguments), folder.path()).wait();
+}
+
+std::map<std::string, std::string> everything_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) all[std::filesystem::relative(entry.path(), folder).string()] = text_of(entry.path());
+  return all;
+}
+
+double lambda_of(const blind::SealedCase& made) {
+  return blind::refit_with(made.specimen, made.noise, {made.hidden.at(0).hidden}, made.specimen.tissue).misfit;
+}
+
+}  // namespace
+
+TEST(Generator, MakesTheSameCasesFromTheSameOrdersAndLeavesThemAlone) {
+  const Folder folder;
+  const std::vector<std::string> order{"--out", "a",       "--set", "singles", "--effect", "active_tone", "--lambda",
+                                       "25",    "--cases", "0:2",   "--noise", "white",    "ar1"};
+  auto elsewhere = order;
+  elsewhere[1] = "b";
+  EXPECT_EQ(generator(order, folder).out, "2 cases in a, 2 of them new\n");
+  EXPECT_EQ(generator(elsewhere, folder).code, 0);
+  const auto first = everything_in(folder.path() / "a");
+  EXPECT_EQ(first, everything_in(folder.path() / "b"));
+  EXPECT_EQ(generator(order, folder).out, "2 cases in a, 0 of them new\n");
+  for (const auto& [file, text] : first)
+    if (!file.starts_with("sealed")) EXPECT_EQ(text.find("active_tone"), text.npos) << file << " tells what is hidden";
+}
+
+TEST(Generator, SealsTheTruthWithItsHash) {
+  const Folder folder;
+  ASSERT_EQ(generator({"--out", ".", "--set", "nulls", "--cases", "0:1", "--oracle"}, folder).code, 0);
+  std::size_t seals = 0;
+  for (const auto& [file, text] : everything_in(folder.path())) {
+    if (!file.ends_with("truth.sha256")) continue;
+    const std::string name = file.substr(0, file.find('/'));
+    EXPECT_EQ(text, blind::sha256(text_of(folder.path() / "sealed" / (name + ".json"))) + "\n");
+    EXPECT_TRUE(
+        nlohmann::json::parse(text_of(folder.path() / "sealed" / (name + ".oracle.json"))).contains("detected"));
+    ++seals;
+  }
+  EXPECT_EQ(seals, 1U);
+  EXPECT_EQ(blind::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
+}
+
+TEST(Generator, SaysWhatItCannotDo) {
+  const Folder folder;
+  const auto message = [&](const std::vector<std::string>& arguments) {
+    const Ended ended = generator(arguments, folder);
+    EXPECT_EQ(ended.code, 2);
+    return ended.err + ended.out;
+  };
+  EXPECT_THAT(message({"--set", "nulls"}), HasSubstr("--out is required"));
+  EXPECT_THAT(message({"--out", "a", "--cases", "5"}), HasSubstr("found '5', expected \"first:last\""));
+  EXPECT_THAT(message({"--out", "a", "--set", "singles", "--effect", "active_ton"}),
+              HasSubstr("no effect 'active_ton'; known: fibre_dispersion"));
+  EXPECT_THAT(message({"--out", "a", "--noise", "pink"}), HasSubstr("pink"));
+}
+
+TEST(Generator, DialsEveryEffectToTheMisfitThatWasAsked) {
+  for (const char* id : {"viscoelasticity", "specimen_misalignment", "layered_wall", "outliers"}) {
+    const blind::SealedCase made = blind::make({3, "singles", id, 25, 0, {"relative"}});
+    ASSERT_TRUE(made.hidden.at(0).reached) << id;
+    EXPECT_NEAR(lambda_of(made) / 25, 1, 0.02) << id;
+  }
+}
+
+// The opening angle is almost invisible in these tests: no plausible one shows this much.
+TEST(Generator, SaysWhereNoPlausibleAmplitudeShowsEnough) {
+  const blind::SealedCase made = blind::make({3, "singles", "residual_stress", 1e5, 0, {"white"}});
+  EXPECT_FALSE(made.hidden.at(0).reached);
+  EXPECT_LT(made.hidden.at(0).lambda, 1e5);
+  EXPECT_LE(made.hidden.at(0).hidden.distance, made.hidden.at(0).hidden.largest);
+}
+
+TEST(Generator, SolvesTheTubeToATenThousandthOfTheNoise) {
+  const blind::SealedCase made = blind::make({3, "singles", "layered_wall", 60, 1, {"white"}});
+  const blind::World world = blind::world_with(made.specimen, {made.hidden.at(0).hidden});
+  const auto layout = blind::channels(made.specimen.protocol);
+  const blind::Noise noise = made.noise.about(made.specimen.protocol, made.truth);
+  for (std::size_t i = 0; i < blind::tube_count; ++i) {
+    const auto fine = blind::record(made.specimen.protocol.tubes[i], world.tissue, world.tubes[i], 400);
+    const blind::Channel& force = layout[blind::strip_count + 2 * i + 1];
+    for (std::size_t row = 0; row < force.count; ++row)
+      EXPECT_NEAR(made.truth[force.first + row], fine.force[row],
+                  1e-4 * noise.sd[static_cast<Eigen::Index>(force.first + row)]);
+  }
+}
+
+// 20 nulls of 204 whitened observations, seed 3: their sum of squares is χ² with 4080 degrees of freedom, sd 90; within
+// 360 of its mean with probability 0.99994.
+TEST(Generator, AddsTheNoiseThatItStates) {
+  for (const char* kind : {"white", "relative", "quantised", "ar1"}) {
+    double squares = 0;
+    for (std::size_t index = 0; index < 20; ++index) {
+      const blind::SealedCase made = blind::make({3, "nulls", "", 0, index, {kind}});
+      std::vector<double> error(made.truth.size(), 0.0);
+      for (const auto& replicate : made.records.replicates)
+        for (std::size_t i = 0; i < error.size(); ++i)
+          error[i] += (replicate[i] - made.truth[i]) / static_cast<double>(made.records.replicates.size());
+      const auto noise = made.noise.about(made.specimen.protocol, made.truth);
+      squares += blind::whiten(made.specimen.protocol, noise, error).squaredNorm();
+    }
+    EXPECT_NEAR(squares, 4080, 360) << kind;
+  }
+}
+
+// κ of von Mises fibres comes out of the angular integration; the trace of H is 1.
+TEST(Generator, FindsTheScatterThatHasTheDispersionAskedFor) {
+  for (const double kappa : {1e-6, 1e-3, 0.1, 0.226, 0.33}) {
+    const blind::Scatter found = blind::scatter(kappa);
+    EXPECT_NEAR(found.across, kappa, 1e-10 * (1 + 1 / kappa) * kappa);
+    EXPECT_NEAR(found.along + 2 * found.across, 1, 1e-12);
+  }
+}
+
+TEST(Generator, KeepsTheEffectsOfAPairApart) {
+  const blind::SealedCase made = blind::make({3, "pairs", "", 60, 0, {"white"}});
+  ASSERT_EQ(made.hidden.size(), 2U);
+  EXPECT_NE(made.hidden[0].hidden.effect->id, made.hidden[1].hidden.effect->id);
+  EXPECT_GE(60 * (1 - made.correlation * made.correlation), 25);
+}
+
+// At Λ = 150 the power of a score at 5 % among some 400 exceeds 0.999.
+TEST(Oracle, FindsWhatIsPlain) {
+  const blind::OracleVerdict verdict = blind::ask_oracle(blind::make({3, "singles", "active_tone", 150, 0, {"white"}}));
+  EXPECT_TRUE(verdict.detected);
+  EXPECT_EQ(verdict.first, "active_tone");
+}
