@@ -118,11 +118,22 @@ void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, 
                                layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
 }
 
-/// What mechanisms that stand for native imperfections say of the test's options.
-void override_options(Options& options, const std::vector<Layer>& mechanisms) {
-  for (const Layer& layer : mechanisms)
-    for (const auto& [name, value] : layer.entry->options.values())
-      if (!layer.mechanism->factory.native.empty() && options.has(name)) options.set(name, value);
+/// What mechanisms that stand for native imperfections say of the test's options. A default says nothing against what
+/// the test's own entry says.
+void override_options(Options& options, const std::vector<Option>& of_test, const std::vector<Layer>& mechanisms) {
+  const auto is_default = [](const std::vector<Option>& declared, const std::string& name, const Option::Value& value) {
+    return std::any_of(declared.begin(), declared.end(), [&](const Option& option) {
+      return option.name == name && option.fallback == std::optional(value);
+    });
+  };
+  for (const Layer& layer : mechanisms) {
+    const MechanismFactory& factory = layer.mechanism->factory;
+    for (const auto& [name, value] : layer.entry->options.values()) {
+      if (factory.native.empty() || !options.has(name)) continue;
+      const Option::Value& own = options.values().find(name)->second;
+      if (!is_default(factory.options, name, value) || is_default(of_test, name, own)) options.set(name, value);
+    }
+  }
 }
 
 /// Gives the test's own parameter to the mechanism that stands for it: under its name, and free unless fixed.
@@ -170,7 +181,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
   try {
     composed.dataset = data::read_dataset(entry.data, on_shelf.factory.observables);
     TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
-    override_options(setup.options, mechanisms);
+    override_options(setup.options, on_shelf.factory.options, mechanisms);
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {

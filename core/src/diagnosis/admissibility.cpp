@@ -10,7 +10,8 @@
 
 #include "comparison/stability_report.hpp"
 #include "diagnosis/causes.hpp"
-#include "diagnosis/naming.hpp"
+#include "diagnosis/groups.hpp"
+#include "diagnosis/refits.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -104,7 +105,7 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
     if (trial.chi2 - trials.front().chi2 > set_width) continue;
     Cause cause = cause_of(d, *trial.refitted, 0, d.directions[trial.direction], catalogue);
     cause.p_value = d.detection.by_candidate[trial.candidate];
-    d.ambiguity_set.push_back(cause.id);
+    d.ambiguity_set.push_back(cause.id), d.rivals.push_back(*trial.refitted);
     d.causes.push_back(std::move(cause));
   }
   for (Cause& cause : d.causes) cause.probability = 1.0 / static_cast<double>(d.causes.size());

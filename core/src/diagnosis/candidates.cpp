@@ -83,38 +83,64 @@ std::vector<Target> single_targets(const MechanismFactory& mechanism, const Expe
   return targets;
 }
 
-/// The signature of one part of an extension at the base fit, in whitened rows.
+/// What an amplitude does near the null, one entry a side it can go to.
+struct Slope {
+  Eigen::VectorXd signature;
+  MechanismFactory::Side side;
+  double sign = 1;
+};
+
+/// The signature of an extension at the base fit, in whitened rows.
 ///
-/// Exact where the Jacobian is. Else, and where the first derivative vanishes, from simulations: with f(δ) even,
-/// [f(δ) − f(0)]/δ² at a small δ; with one side only, the parabola through f(0), f(δ), f(2δ) at 0.
-Eigen::VectorXd signature_of(const Extended& extended, const MechanismFactory& mechanism,
+/// Two-sided: exact where the Jacobian is, unless the simulation has a kink at the null (an opening angle, where fibres
+/// only pull): then one for each side. Else from simulations: with f(δ) even, [f(δ) − f(0)]/δ² at a small δ; with one
+/// side only, the parabola through f(0), f(δ), f(2δ) at 0.
+std::vector<Slope> slopes_of(const Extended& extended, const MechanismFactory& mechanism,
                              const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
-                             const Extended::Part& part, calibration::Assembly::Workspace& workspace) {
-  if (mechanism.side != MechanismFactory::Side::even && extended.assembly().jacobian_is_exact()) {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(J.rows());
-    for (const std::size_t member : part.amplitude) sum += J.col(static_cast<Eigen::Index>(member));
-    return sum;
-  }
+                             calibration::Assembly::Workspace& workspace) {
+  using Side = MechanismFactory::Side;
+  const Extended::Part& part = extended.parts().front();
   const double reach = std::max(mechanism.plausible_max - mechanism.null, mechanism.null - mechanism.plausible_min);
   const auto at = [&](double step, Eigen::VectorXd& into) {
     std::vector<double> free = null;
     for (const std::size_t member : part.amplitude) free[member] = part.null + step;
     return whitened(extended.assembly(), free, workspace, into, nullptr);
   };
-  const bool even = mechanism.side == MechanismFactory::Side::even;
-  const double sign = mechanism.plausible_max > mechanism.null ? 1 : -1;
-  Eigen::VectorXd near, far;
-  for (double step = sign * (even ? 0.02 : 1e-3) * reach; std::abs(step) > 1e-9 * reach; step /= 10) {
-    if (!at(step, near).ok() || !at(2 * step, far).ok()) continue;
-    if (even) return (16 * (near - bare) - (far - bare)) / (12 * step * step);
-    return (4 * near - 3 * bare - far) / (2 * step);
+  const auto one_sided = [&](double sign) -> Eigen::VectorXd {
+    Eigen::VectorXd near, far;
+    for (double step = sign * 1e-3 * reach; std::abs(step) > 1e-9 * reach; step /= 10)
+      if (at(step, near).ok() && at(2 * step, far).ok()) return (4 * near - 3 * bare - far) / (2 * std::abs(step));
+    return {};
+  };
+  if (mechanism.side == Side::even) {
+    Eigen::VectorXd near, far;
+    for (double step = 0.02 * reach; step > 1e-6 * reach; step /= 10)
+      if (at(step, near).ok() && at(2 * step, far).ok())
+        return {{(16 * (near - bare) - (far - bare)) / (12 * step * step), Side::even}};
+    return {};
   }
-  return {};
+  const double sign = mechanism.plausible_max > mechanism.null ? 1 : -1;
+  Eigen::VectorXd exact = Eigen::VectorXd::Zero(bare.size());
+  if (extended.assembly().jacobian_is_exact()) {
+    for (const std::size_t member : part.amplitude) exact += J.col(static_cast<Eigen::Index>(member));
+    if (mechanism.side == Side::positive || mechanism.native.empty()) return {{exact, mechanism.side}};
+    Eigen::VectorXd up = one_sided(1), down = one_sided(-1);
+    constexpr double kink = 0.02;
+    if (up.size() == 0 || down.size() == 0 || (up + down).norm() < kink * (up.norm() + down.norm()))
+      return {{exact, mechanism.side}};
+    return {{std::move(up), Side::positive, 1}, {std::move(down), Side::positive, -1}};
+  }
+  if (mechanism.side == Side::positive) {
+    Eigen::VectorXd slope = one_sided(sign);
+    return {{std::move(slope), mechanism.side, sign}};
+  }
+  Eigen::VectorXd up = one_sided(1);
+  if (up.size() == 0) up = -one_sided(-1);
+  return {{std::move(up), mechanism.side}};
 }
 
 /// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
-void add_rows(Candidate& candidate, const Hypothesis& whole, const calibration::Assembly& base,
-              std::vector<Hypothesis>& into) {
+void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into) {
   const std::size_t rows = base.residual_count(), predictions = base.prediction_count();
   std::vector<double> unit(rows, 0.0), map(predictions);
   // Row k of the whitening, read off its transpose.
@@ -137,7 +163,6 @@ void add_rows(Candidate& candidate, const Hypothesis& whole, const calibration::
       into.push_back(std::move(one));
     }
   }
-  static_cast<void>(candidate);
 }
 
 /// Number options of a setting: different ones need different tests.
@@ -197,11 +222,11 @@ class Search {
         }
       }
       const std::size_t count = singles.size();
-      if (mechanism.shared && targets.size() > 1) add_shared(singles, alike.size());
+      if (mechanism.shared && targets.size() > 1) add_shared(singles);
       if (takes(mechanism, "rows"))
         for (std::size_t k = 0; k < count; ++k) {
           std::vector<Hypothesis> rows;
-          add_rows(candidate, singles[k], base_, rows);
+          add_rows(singles[k], base_, rows);
           std::move(rows.begin(), rows.end(), std::back_inserter(singles));
         }
       std::move(singles.begin(), singles.end(), std::back_inserter(candidate.hypotheses));
@@ -225,7 +250,7 @@ class Search {
     Eigen::VectorXd bare;
     Eigen::MatrixXd J;
     for (const auto& setting : settings) {
-      Extended::Part part = extended.parts().front();
+      const Extended::Part& part = extended.parts().front();
       std::vector<double> null = extended.at_null(fitted_);
       std::size_t k = 1;
       for (const Variable& nuisance : part.nuisance) {
@@ -238,25 +263,29 @@ class Search {
       }
       const bool exact = extended.assembly().jacobian_is_exact();
       if (!whitened(extended.assembly(), null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
-      into.push_back({&mechanism,
-                      {first.id, first.target, setting},
-                      signature_of(extended, mechanism, null, bare, J, part, *workspace)});
+      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace))
+        into.push_back(
+            {&mechanism, {first.id, first.target, setting}, std::move(slope.signature), slope.side, slope.sign});
     }
   }
 
-  /// One amplitude in all tests: signatures add up, as tests are independent rows.
-  static void add_shared(std::vector<Hypothesis>& singles, std::size_t settings) {
-    const std::size_t targets = settings == 0 ? 0 : singles.size() / settings;
-    if (targets < 2 || singles.size() != targets * settings) return;
-    for (std::size_t s = 0; s < settings; ++s) {
-      Hypothesis all = singles[s];
-      for (std::size_t t = 1; t < targets; ++t) {
-        const Hypothesis& other = singles[t * settings + s];
-        all.addition.target.tests.push_back(other.addition.target.tests.front());
-        all.signature += other.signature;
+  /// One amplitude in all tests: signatures add up, as tests are independent rows. Of every test the hypotheses with
+  /// the same setting and sign.
+  static void add_shared(std::vector<Hypothesis>& singles) {
+    std::vector<Hypothesis> sums;
+    for (const Hypothesis& one : singles) {
+      const auto alike = std::find_if(sums.begin(), sums.end(), [&](const Hypothesis& sum) {
+        return sum.addition.setting == one.addition.setting && sum.side == one.side && sum.sign == one.sign;
+      });
+      if (alike == sums.end()) {
+        sums.push_back(one);
+      } else if (one.signature.size() > 0 && alike->signature.size() > 0) {
+        alike->addition.target.tests.push_back(one.addition.target.tests.front());
+        alike->signature += one.signature;
       }
-      singles.push_back(std::move(all));
     }
+    for (Hypothesis& sum : sums)
+      if (sum.addition.target.tests.size() > 1) singles.push_back(std::move(sum));
   }
 
   const Experiment& experiment_;

@@ -45,6 +45,17 @@ Eigen::MatrixXd interior(const Fit& fit) {
   return fit.jacobian(Eigen::all, free);
 }
 
+std::pair<double, double> plausible_range(const Diagnosis& diagnosis, const MechanismFactory& mechanism,
+                                          const Target& target) {
+  if (target.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
+  for (const calibration::ChannelView& view : diagnosis.base->channels())
+    if (view.test == target.tests.front() && view.observable == target.channel) {
+      const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
+      return {*low - *high, *high - *low};
+    }
+  return {-INFINITY, INFINITY};
+}
+
 Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t which, const Direction& direction,
                const plugins::Catalogue& catalogue) {
   const Addition& addition = refitted.additions[which];
@@ -70,7 +81,8 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
     if (k == 0) {
       // An amplitude at its null is no bound to worry about; beyond what is plausible by more than its uncertainty is.
       amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
-      amplitude.plausible = amplitude.high >= mechanism.plausible_min && amplitude.low <= mechanism.plausible_max;
+      const auto [lowest, highest] = plausible_range(diagnosis, mechanism, addition.target);
+      amplitude.plausible = amplitude.high >= lowest && amplitude.low <= highest;
       if (mechanism.side == MechanismFactory::Side::positive) amplitude.low = std::max(amplitude.low, mechanism.null);
       cause.amplitude = amplitude;
     } else {

@@ -10,6 +10,11 @@ namespace tunica::diagnosis {
 Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t which, const Direction& direction,
                const plugins::Catalogue& catalogue);
 
+/// Plausible amplitudes: as declared; of a mechanism that acts on a channel, whose unit it cannot know, what the
+/// channel spans.
+std::pair<double, double> plausible_range(const Diagnosis& diagnosis, const MechanismFactory& mechanism,
+                                          const Target& target);
+
 /// The Jacobian of a fit without the variables that lie at a bound.
 Eigen::MatrixXd interior(const Fit& fit);
 

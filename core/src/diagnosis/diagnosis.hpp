@@ -50,6 +50,15 @@ struct Cause {
   std::vector<Shift> shifts;
 };
 
+/// A mechanism as the only explanation, among all that were tried.
+struct Ranked {
+  std::string id;
+  Target target;  ///< of its best hypothesis
+  double probability = 0;
+  double score = 0;            ///< T at the null, of the best hypothesis
+  std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
+};
+
 /// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.
 struct Detectable {
   std::string id, unit, absent;  ///< absent: why it leaves no trace; else empty
@@ -111,13 +120,15 @@ struct Diagnosis {
   std::optional<double> p_refits;    ///< of the detection, from full refits
   std::vector<std::string> reasons;  ///< of the verdict, in sentences
   std::vector<Misfit> misfit;
-  std::vector<Cause> causes;  ///< of the best explanation first, then rivals
-  std::size_t named = 0;      ///< how many of the causes make up the best explanation
+  std::vector<Cause> causes;    ///< of the best explanation first, then rivals
+  std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm
+  std::size_t named = 0;        ///< how many of the causes make up the best explanation
   std::vector<std::string> ambiguity_set;
   std::vector<std::pair<std::string, std::string>> alternatives;
   Admissibility admissibility;
   std::vector<Detectable> detectable;
   std::optional<Refitted> extension;
+  std::vector<Refitted> rivals;  ///< the extension, and what explains the misfit as well
   std::optional<Gain> gain;
   std::optional<NextExperiment> next;
   std::vector<std::string> warnings;

@@ -104,6 +104,13 @@ json diagnosis_json(const Diagnosis& d) {
                           {"closest", one.closest.empty() ? json(nullptr) : json(one.closest)},
                           {"correlation", one.correlation},
                           {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)}});
+  json ranking = json::array();
+  for (const Ranked& one : d.ranking)
+    ranking.push_back({{"id", one.id},
+                       {"target", target_json(one.target)},
+                       {"probability", one.probability},
+                       {"score", one.score},
+                       {"gain", or_null(one.gain)}});
   for (std::size_t a = 0; a < d.candidates.size(); ++a) {
     if (d.detection.direction[a] < d.directions.size())
       scores.push_back(
@@ -155,6 +162,7 @@ json diagnosis_json(const Diagnosis& d) {
                    {"rows", d.fit.residuals.size()}}},
                  {"noise", std::move(noise)},
                  {"scores", std::move(scores)},
+                 {"ranking", std::move(ranking)},
                  {"confusable", std::move(confusable)}};
   if (d.extension) result["extension"] = std::move(extension);
   if (d.extension && d.gain) result["gain"] = gain_json(*d.gain);

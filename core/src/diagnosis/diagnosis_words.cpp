@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "comparison/text.hpp"
+#include "diagnosis/causes.hpp"
 #include "diagnosis/outputs.hpp"
 
 namespace tunica::diagnosis {
@@ -43,7 +44,8 @@ std::string could_hide(const Diagnosis& d) {
   for (std::size_t c = 0; c < d.detectable.size(); ++c) {
     const Detectable& one = d.detectable[c];
     const MechanismFactory& mechanism = *d.candidates[c].mechanism;
-    const double reach = std::max(mechanism.plausible_max - mechanism.null, mechanism.null - mechanism.plausible_min);
+    const auto [low, high] = plausible_range(d, mechanism, one.target);
+    const double reach = std::max(high - mechanism.null, mechanism.null - low);
     if (!one.absent.empty())
       invisible.push_back(one.id);
     else if (one.detectable > 0.3 * reach)

@@ -68,6 +68,8 @@ struct Hypothesis {
   const MechanismFactory* mechanism = nullptr;
   Addition addition;
   Eigen::VectorXd signature;  ///< ∂ whitened prediction/∂ amplitude at the null (even: by its square)
+  MechanismFactory::Side side = MechanismFactory::Side::both;
+  double sign = 1;  ///< −1: a positive score means an amplitude below the null
 };
 
 /// A mechanism that takes part, or why it does not.

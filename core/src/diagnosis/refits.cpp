@@ -4,18 +4,19 @@
 
 #include <Eigen/QR>
 
-#include "diagnosis/naming.hpp"
+#include "diagnosis/refits.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::diagnosis {
 namespace {
 
-/// The signature of an addition at the base fit, or null.
-const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addition) {
+/// The signature of an addition at the base fit, on the side of the amplitude; or null.
+const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addition, double amplitude) {
   for (const Candidate& candidate : diagnosis.candidates)
     for (const Hypothesis& hypothesis : candidate.hypotheses)
       if (candidate.id == addition.id && hypothesis.addition.target == addition.target &&
-          hypothesis.addition.setting == addition.setting)
+          hypothesis.addition.setting == addition.setting &&
+          (hypothesis.side == MechanismFactory::Side::both || hypothesis.sign * amplitude >= 0))
         return &hypothesis;
   return nullptr;
 }
@@ -39,8 +40,8 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
   // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(diagnosis.fit.residuals.size());
   for (std::size_t a = 0; a < refitted.additions.size(); ++a)
-    if (const Hypothesis* hypothesis = hypothesis_of(diagnosis, refitted.additions[a]))
-      moved += hypothesis->signature * amplitudes[a];
+    if (const Hypothesis* hypothesis = hypothesis_of(diagnosis, refitted.additions[a], amplitudes[a]))
+      moved += hypothesis->signature * (hypothesis->sign * amplitudes[a]);
   Eigen::MatrixXd scaled = diagnosis.fit.jacobian;
   std::vector<double> lengths;
   for (Eigen::Index k = 0; k < scaled.cols(); ++k) {

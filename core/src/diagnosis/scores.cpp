@@ -66,7 +66,8 @@ std::vector<Direction> directions(const std::vector<Candidate>& candidates, cons
       const Eigen::VectorXd left = projection.off(s);
       const double length = left.norm(), retained = length / s.norm();
       if (!(retained > invisible)) continue;
-      found.push_back({c, h, left / length, length, retained, candidates[c].mechanism->side});
+      const Hypothesis& hypothesis = candidates[c].hypotheses[h];
+      found.push_back({c, h, left / length, length, retained, hypothesis.side, hypothesis.sign});
     }
   return found;
 }
@@ -74,7 +75,7 @@ std::vector<Direction> directions(const std::vector<Candidate>& candidates, cons
 Score score(const Direction& direction, const Eigen::VectorXd& residuals) {
   const double t = direction.unit.dot(residuals);
   if (direction.side != MechanismFactory::Side::both && t < 0) return {0, 0};
-  return {t * t, t / direction.length};
+  return {t * t, direction.sign * t / direction.length};
 }
 
 Eigen::MatrixXf noise_draws(const std::vector<Curve>& curves, Eigen::Index rows, std::size_t draws,

@@ -40,6 +40,7 @@ struct Direction {
   double length = 0;     ///< |s̃|
   double retained = 0;   ///< |s̃|/|s|
   MechanismFactory::Side side = MechanismFactory::Side::both;
+  double sign = 1;  ///< of the amplitude where the score is positive
 };
 
 /// Signatures that a refit absorbs but for this share are invisible: 0/0 would decide about them.

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/groups.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+#include "diagnosis/causes.hpp"
+#include "diagnosis/refits.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+using Side = MechanismFactory::Side;
+
+constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitude
+constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
+constexpr std::size_t triples_tried = 6;
+constexpr double alike = 0.02;  ///< 1 − c² below which two are one
+
+class Search {
+ public:
+  Search(const Diagnosis& d, const Detection& detection, const plugins::Catalogue& catalogue)
+      : d_(d), detection_(detection), catalogue_(catalogue) {}
+
+  std::vector<Group> pairs(const Single& best_single) {
+    const std::vector<std::size_t> pool = pool_of(best_single);
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < pool.size(); ++i)
+      for (std::size_t j = i + 1; j < pool.size(); ++j)
+        if (auto pair = linear_pair(pool[i], pool[j])) groups.push_back(std::move(*pair));
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return a.linear_gain > b.linear_gain; });
+    // Of two mechanisms the two best places.
+    std::map<std::set<std::size_t>, int> seen;
+    std::erase_if(groups, [&](const Group& group) {
+      std::set<std::size_t> candidates;
+      for (const std::size_t k : group.directions) candidates.insert(d_.directions[k].candidate);
+      return ++seen[candidates] > 2;
+    });
+    groups.resize(std::min(groups.size(), d_.settings.quick ? quick_pairs : full_pairs));
+    return refitted(std::move(groups));
+  }
+
+  std::vector<Group> triples(const Group& pair) {
+    std::vector<Group> groups;
+    std::set<std::size_t> seen;
+    for (const std::size_t k : pair.directions) seen.insert(d_.directions[k].candidate);
+    for (const auto& [T, k, amplitude] : what_is_left(*pair.refitted)) {
+      if (groups.size() >= triples_tried) break;
+      if (!seen.insert(d_.directions[k].candidate).second) continue;
+      Group triple = pair;
+      triple.refitted.reset();
+      triple.directions.push_back(k), triple.additions.push_back(hypothesis(k).addition);
+      triple.amplitudes.push_back(amplitude);
+      groups.push_back(std::move(triple));
+    }
+    return refitted(std::move(groups));
+  }
+
+ private:
+  [[nodiscard]] const Hypothesis& hypothesis(std::size_t direction) const {
+    const Direction& chosen = d_.directions[direction];
+    return d_.candidates[chosen.candidate].hypotheses[chosen.hypothesis];
+  }
+
+  /// T, direction and amplitude of what explains most of the residuals of a refit, on admissible sides; best first.
+  [[nodiscard]] std::vector<std::tuple<double, std::size_t, double>> what_is_left(const Refitted& refitted) const {
+    const Projection projection(interior(refitted.fit));
+    std::vector<std::tuple<double, std::size_t, double>> ranking;
+    for (std::size_t k = 0; k < d_.directions.size(); ++k) {
+      const Direction& direction = d_.directions[k];
+      const Eigen::VectorXd& whole = hypothesis(k).signature;
+      const Eigen::VectorXd s = projection.off(whole);
+      if (!(s.norm() > invisible * whole.norm())) continue;
+      const double t = -s.dot(refitted.fit.residuals) / s.norm();
+      if (direction.side == Side::both || t > 0) ranking.emplace_back(t * t, k, direction.sign * t / s.norm());
+    }
+    std::stable_sort(ranking.begin(), ranking.end(),
+                     [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
+    return ranking;
+  }
+
+  /// The best hypotheses of every candidate, alone and beside the best single one.
+  [[nodiscard]] std::vector<std::size_t> pool_of(const Single& best_single) const {
+    std::vector<std::pair<double, std::size_t>> alone;
+    for (std::size_t k = 0; k < d_.directions.size(); ++k)
+      alone.emplace_back(-score(d_.directions[k], -d_.fit.residuals).T, k);
+    std::stable_sort(alone.begin(), alone.end());
+    std::set<std::size_t> pool;
+    std::map<std::size_t, std::size_t> taken;
+    const auto take = [&](std::size_t k) {
+      if (taken[d_.directions[k].candidate]++ < pool_of_each) pool.insert(k);
+    };
+    for (const auto& [minus_T, k] : alone) take(k);
+    taken.clear();
+    for (const auto& [T, k, amplitude] : what_is_left(*best_single.best)) take(k);
+    return {pool.begin(), pool.end()};
+  }
+
+  /// The largest gain of two amplitudes on their admissible sides; none where one of them is better left out.
+  [[nodiscard]] std::optional<Group> linear_pair(std::size_t i, std::size_t j) const {
+    const Direction &a = d_.directions[i], &b = d_.directions[j];
+    if (a.candidate == b.candidate) return std::nullopt;
+    const double c = a.unit.dot(b.unit), ta = -a.unit.dot(d_.fit.residuals), tb = -b.unit.dot(d_.fit.residuals);
+    if (1 - c * c < alike) return std::nullopt;
+    const double xa = (ta - c * tb) / (1 - c * c), xb = (tb - c * ta) / (1 - c * c);
+    if ((a.side != Side::both && xa <= 0) || (b.side != Side::both && xb <= 0)) return std::nullopt;
+    return Group{{i, j},
+                 {hypothesis(i).addition, hypothesis(j).addition},
+                 {a.sign * xa / a.length, b.sign * xb / b.length},
+                 ta * xa + tb * xb + 2 * (log_prior(d_, i) + log_prior(d_, j)),
+                 0,
+                 std::nullopt};
+  }
+
+  std::vector<Group> refitted(std::vector<Group> groups) const {
+    std::vector<char> needed(groups.size(), 0);
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+      groups[g].refitted = fit_with(d_, groups[g].additions, groups[g].amplitudes, catalogue_);
+      if (groups[g].refitted) groups[g].log_weight = (d_.fit.chi2 - groups[g].refitted->fit.chi2) / 2;
+      for (const std::size_t k : groups[g].directions) groups[g].log_weight += log_prior(d_, k);
+      needed[g] = groups[g].refitted && all_needed(groups[g]);
+    });
+    std::vector<Group> kept;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (needed[g]) kept.push_back(std::move(groups[g]));
+    std::stable_sort(kept.begin(), kept.end(),
+                     [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
+    return kept;
+  }
+
+  /// Each member loses significantly when it is taken out: the rest is fitted again without it.
+  [[nodiscard]] bool all_needed(const Group& group) const {
+    for (std::size_t out = 0; out < group.additions.size(); ++out) {
+      std::vector<Addition> rest;
+      std::vector<double> amplitudes;
+      for (std::size_t k = 0; k < group.additions.size(); ++k)
+        if (k != out) rest.push_back(group.additions[k]), amplitudes.push_back(group.amplitudes[k]);
+      const auto without = fit_with(d_, rest, amplitudes, catalogue_);
+      const double before = without ? std::min(without->fit.chi2, d_.fit.chi2) : d_.fit.chi2;
+      const std::size_t candidate = d_.directions[group.directions[out]].candidate;
+      if (before - group.refitted->fit.chi2 < detection_.threshold(candidate, second_alpha)) return false;
+    }
+    return true;
+  }
+
+  const Diagnosis& d_;
+  const Detection& detection_;
+  const plugins::Catalogue& catalogue_;
+};
+
+}  // namespace
+
+std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const Single& best_single,
+                             const plugins::Catalogue& catalogue) {
+  return Search(diagnosis, detection, catalogue).pairs(best_single);
+}
+
+std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, const Group& pair,
+                               const plugins::Catalogue& catalogue) {
+  return Search(diagnosis, detection, catalogue).triples(pair);
+}
+
+}  // namespace tunica::diagnosis

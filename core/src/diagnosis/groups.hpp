@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "diagnosis/singles.hpp"
+
+namespace tunica::diagnosis {
+
+/// Two or three mechanisms together, each of which loses significantly when it is taken out.
+struct Group {
+  std::vector<std::size_t> directions;  ///< of each member
+  std::vector<Addition> additions;
+  std::vector<double> amplitudes;  ///< as the linearisation has them
+  double linear_gain = 0;
+  double log_weight = 0;  ///< gain of |r|²/2, and the prior shares of its hypotheses
+  std::optional<Refitted> refitted;
+};
+
+/// All pairs in the linearisation, the best of them at finite amplitude; best first. A forward search would stay with
+/// the best single mechanism, which often belongs to no pair.
+std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const Single& best_single,
+                             const plugins::Catalogue& catalogue);
+
+/// The pair with a third that explains most of what it leaves; empty where no third is needed.
+std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, const Group& pair,
+                               const plugins::Catalogue& catalogue);
+
+/// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md.
+constexpr double set_width = 5.4;  ///< of 2 ln w
+/// Residuals that have been explained by one mechanism are looked at again below this p-value, and another is accepted
+/// with fewer false alarms than the other.
+constexpr double look_again = 0.05, second_alpha = 0.01;
+
+}  // namespace tunica::diagnosis

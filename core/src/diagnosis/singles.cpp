@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/singles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "diagnosis/refits.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+using Side = MechanismFactory::Side;
+
+constexpr std::size_t quick_refits = 10;  ///< candidates
+constexpr double quick_reach = 9;         ///< of ln w, beyond the first four
+
+double log_side(Side side, double T) {
+  return side == Side::both ? 0 : std::log(std::erfc(-std::sqrt(std::max(T, 0.0) / 2)));
+}
+
+class Search {
+ public:
+  Search(const Diagnosis& d, const plugins::Catalogue& catalogue) : d_(d), catalogue_(catalogue) {
+    for (const Direction& direction : d.directions) scores_.push_back(score(direction, -d.fit.residuals));
+    of_.resize(d.candidates.size());
+    for (std::size_t k = 0; k < d.directions.size(); ++k) of_[d.directions[k].candidate].push_back(k);
+  }
+
+  std::vector<Single> run() {
+    const std::size_t C = d_.candidates.size();
+    std::vector<Single> singles;
+    for (std::size_t c = 0; c < C; ++c)
+      if (!of_[c].empty()) singles.push_back({c, weight(c, {}), of_[c].front(), std::nullopt});
+    const auto by_weight = [](const Single& a, const Single& b) { return a.log_weight > b.log_weight; };
+    std::stable_sort(singles.begin(), singles.end(), by_weight);
+
+    std::vector<Job> jobs;
+    for (std::size_t place = 0; place < singles.size(); ++place) {
+      const bool far = singles[place].log_weight < singles.front().log_weight - quick_reach;
+      if (d_.settings.quick && (place >= quick_refits || (place >= 4 && far))) break;
+      for (const std::size_t k : likeliest(of_[singles[place].candidate])) jobs.push_back({place, k});
+    }
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+      jobs[j].refitted = fit_with(d_, {hypothesis(jobs[j].direction).addition},
+                                  std::array{start_amplitude(jobs[j].direction)}, catalogue_);
+    });
+    std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain
+    for (Job& job : jobs) {
+      if (!job.refitted) continue;
+      gains[job.single][job.direction] = d_.fit.chi2 - job.refitted->fit.chi2;
+      Single& single = singles[job.single];
+      if (!single.best || job.refitted->fit.chi2 < single.best->fit.chi2)
+        single.best = std::move(job.refitted), single.direction = job.direction;
+    }
+    for (const auto& [place, gain] : gains) singles[place].log_weight = weight(singles[place].candidate, gain);
+    std::stable_sort(singles.begin(), singles.end(), by_weight);
+    std::stable_partition(singles.begin(), singles.end(), [](const Single& single) { return single.best.has_value(); });
+    return singles;
+  }
+
+ private:
+  struct Job {
+    std::size_t single, direction;
+    std::optional<Refitted> refitted = {};
+  };
+
+  [[nodiscard]] const Hypothesis& hypothesis(std::size_t direction) const {
+    const Direction& chosen = d_.directions[direction];
+    return d_.candidates[chosen.candidate].hypotheses[chosen.hypothesis];
+  }
+
+  /// ln w, with gains at finite amplitude in place of T where they are known.
+  [[nodiscard]] double weight(std::size_t candidate, const std::map<std::size_t, double>& gains) const {
+    std::array<std::vector<double>, 2> logs;  // whole curves, single rows
+    for (const std::size_t k : of_[candidate]) {
+      const auto found = gains.find(k);
+      const double T = found == gains.end() ? scores_[k].T : std::max(found->second, 0.0);
+      logs[hypothesis(k).addition.target.row ? 1 : 0].push_back(T / 2 + log_side(d_.directions[k].side, T));
+    }
+    std::vector<double> means;
+    for (const auto& kind : logs)
+      if (!kind.empty()) means.push_back(log_sum(kind) - std::log(static_cast<double>(kind.size())));
+    return log_sum(means) - std::log(static_cast<double>(means.size()));
+  }
+
+  /// The best hypothesis of a candidate, and of other targets those nearly as good.
+  [[nodiscard]] std::vector<std::size_t> likeliest(const std::vector<std::size_t>& of) const {
+    std::vector<std::size_t> sorted = of, chosen;
+    std::stable_sort(sorted.begin(), sorted.end(), [&](auto a, auto b) { return scores_[a].T > scores_[b].T; });
+    std::vector<Target> seen;
+    for (const std::size_t k : sorted) {
+      const Target& target = hypothesis(k).addition.target;
+      if (std::find(seen.begin(), seen.end(), target) != seen.end()) continue;
+      if (!chosen.empty() && scores_[k].T < scores_[chosen.front()].T - 6) break;
+      if (chosen.size() >= (d_.settings.quick ? 2u : 4u)) break;
+      seen.push_back(target), chosen.push_back(k);
+    }
+    return chosen;
+  }
+
+  /// Where the linearisation sees nothing on the admissible side, a tenth of a standard error of it.
+  [[nodiscard]] double start_amplitude(std::size_t direction) const {
+    const Direction& chosen = d_.directions[direction];
+    return scores_[direction].T > 0 ? scores_[direction].amplitude : chosen.sign * 0.1 / chosen.length;
+  }
+
+  const Diagnosis& d_;
+  const plugins::Catalogue& catalogue_;
+  std::vector<Score> scores_;                 ///< of each direction
+  std::vector<std::vector<std::size_t>> of_;  ///< directions of each candidate
+};
+
+}  // namespace
+
+double log_sum(const std::vector<double>& logs) {
+  if (logs.empty()) return -INFINITY;
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  if (!std::isfinite(largest)) return largest;
+  double sum = 0;
+  for (const double value : logs) sum += std::exp(value - largest);
+  return largest + std::log(sum);
+}
+
+double log_prior(const Diagnosis& d, std::size_t direction) {
+  const Direction& own = d.directions[direction];
+  const auto row = [&d](const Direction& other) {
+    return d.candidates[other.candidate].hypotheses[other.hypothesis].addition.target.row.has_value();
+  };
+  std::size_t alike = 0, others = 0;
+  for (const Direction& other : d.directions)
+    if (other.candidate == own.candidate) ++(row(other) == row(own) ? alike : others);
+  return -std::log(static_cast<double>(alike * (others > 0 ? 2 : 1))) + (own.side == Side::both ? 0 : std::log(2.0));
+}
+
+std::vector<Single> fit_singles(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue) {
+  return Search(diagnosis, catalogue).run();
+}
+
+}  // namespace tunica::diagnosis

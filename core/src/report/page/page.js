@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws every figure, the first screen first, and follows the theme, the width and the printer.
+"use strict";
+(() => {
+  const root = document.documentElement, began = performance.now();
+  const charts = JSON.parse(document.getElementById("charts").textContent);
+  const figures = [];
+  let vega = null, failed = 0;
+
+  const fail = (element, problem) => {
+    ++failed;
+    console.error("chart " + element.dataset.chart + ": " + problem);
+    element.querySelector(".plot").textContent = "This chart could not be drawn (" + problem + "); its values are in the tables beside the report.";
+  };
+  const pause = () => new Promise((resolve) => setTimeout(resolve));
+
+  const all = async (look) => {
+    for (const figure of figures) {
+      await figure.draw(look).catch((problem) => fail(figure.element, problem));
+      if (!look) await pause();
+    }
+  };
+
+  const start = async () => {
+    for (const element of document.querySelectorAll("figure[data-chart]")) {
+      try {
+        vega = vega || tunicaReport.vega();
+        const figure = new tunicaReport.Figure(element, charts[Number(element.dataset.chart)], vega);
+        await figure.draw();
+        figures.push(figure);
+      } catch (problem) {
+        fail(element, problem);
+      }
+      await pause();
+    }
+    root.dataset.drawn = figures.length;
+    root.dataset.failed = failed;
+    root.dataset.milliseconds = Math.round(performance.now() - began);
+  };
+
+  document.getElementById("theme").addEventListener("click", () => {
+    root.dataset.theme = tunicaReport.marks.theme() === tunicaReport.marks.themes.dark ? "light" : "dark";
+    figures.forEach((figure) => figure.legend());
+    all();
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { figures.forEach((figure) => figure.legend()); all(); });
+  let width = innerWidth, waiting = 0;
+  addEventListener("resize", () => {
+    if (innerWidth === width) return;
+    width = innerWidth;
+    clearTimeout(waiting);
+    waiting = setTimeout(() => all(), 150);
+  });
+  // On paper: light, and nothing folded away.
+  const opened = [];
+  addEventListener("beforeprint", () => {
+    for (const fold of document.querySelectorAll("details:not([open])")) { fold.open = true; opened.push(fold); }
+    all(tunicaReport.marks.themes.light);
+  });
+  addEventListener("afterprint", () => { opened.splice(0).forEach((fold) => { fold.open = false; }); all(); });
+
+  globalThis.tunicaFigures = figures;
+  start();
+})();

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what the program says of a chart (kind, axes, series) to a Vega specification.
+"use strict";
+tunicaReport.specs = (() => {
+  const {colour, dash, shape} = tunicaReport.marks;
+
+  const finite = (value) => typeof value === "number" && Number.isFinite(value);
+  const usable = (value, axis) => finite(value) && !(axis && axis.log && value <= 0);
+  const text = (value) => {
+    if (!finite(value)) return "–";
+    const size = Math.abs(value);
+    return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(3) : String(Number(value.toPrecision(5)));
+  };
+
+  /// The range of the values with a margin, or what the axis asks for.
+  const span = (values, axis) => {
+    const seen = values.filter((value) => usable(value, axis));
+    for (const value of axis.include || []) seen.push(value);
+    if (axis.domain) return axis.domain;
+    if (!seen.length) return axis.log ? [0.1, 10] : [0, 1];
+    let low = Infinity, high = -Infinity;
+    for (const value of seen) { low = Math.min(low, value); high = Math.max(high, value); }
+    if (axis.log) return low === high ? [low / 2, high * 2] : [low / (high / low) ** 0.04, high * (high / low) ** 0.04];
+    const margin = low === high ? Math.abs(low) * 0.1 || 1 : (high - low) * 0.04;
+    return [low - margin, high + margin];
+  };
+
+  const config = (look) => ({
+    background: look.background,
+    axis: {domainColor: look.muted, tickColor: look.muted, gridColor: look.grid, labelColor: look.text,
+           titleColor: look.text, labelFontSize: 12, titleFontSize: 13, titleFontWeight: 500, titlePadding: 8,
+           labelFont: "sans-serif", titleFont: "sans-serif", labelOverlap: "greedy"},
+    legend: {labelColor: look.text, titleColor: look.text, labelFontSize: 12, titleFontSize: 12, labelFont: "sans-serif",
+             titleFont: "sans-serif", labelLimit: 400},
+    title: {color: look.text, font: "sans-serif"},
+    text: {font: "sans-serif"},
+  });
+
+  const frame = (chart, size) => ({
+    $schema: "https://vega.github.io/schema/vega/v5.json", description: chart.about, width: size.width,
+    height: size.height, padding: 4, autosize: {type: size.fixed ? "pad" : "fit", contains: "padding"},
+  });
+
+  const axes = (chart, size, more = {}) => [
+    {orient: "bottom", scale: "x", title: chart.x.title, grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
+     ...(chart.x.log ? {format: "~g"} : {}), ...more.x},
+    {orient: "left", scale: "y", title: chart.y.title, grid: true, tickCount: 6,
+     ...(chart.y.log ? {format: "~g"} : {}), ...more.y},
+  ];
+
+  const lines = (series, k, look) => {
+    const scaled = {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, defined: {signal: "isValid(datum.y)"}};
+    const ink = {value: colour(look, series.style)}, faint = series.faint ? 0.35 : 1;
+    const made = [];
+    if (series.mark === "band")
+      made.push({type: "area", clip: true, from: {data: "s" + k}, encode: {update: {
+        x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, fill: ink,
+        fillOpacity: {value: 0.22}}}});
+    if (["line", "step", "both"].includes(series.mark))
+      made.push({type: "line", clip: true, from: {data: "s" + k}, encode: {update: {
+        ...scaled, stroke: ink, strokeOpacity: {value: faint}, strokeWidth: {value: series.faint ? 1.2 : 2},
+        strokeDash: {value: dash(series.style)}, interpolate: {value: series.mark === "step" ? "step-after" : "linear"}}}});
+    if (["points", "both"].includes(series.mark))
+      made.push({type: "symbol", clip: true, from: {data: "s" + k}, encode: {update: {
+        x: scaled.x, y: scaled.y, size: {value: series.x.length > 150 ? 18 : 34}, shape: {value: shape(series.style)},
+        stroke: ink, strokeWidth: {value: 1.2}, fill: {value: series.style < 0 ? "transparent" : colour(look, series.style)},
+        fillOpacity: {value: series.style < 0 ? 0 : 0.75}}}});
+    return made;
+  };
+
+  /// Rows without a place on the axes leave a gap.
+  const rows = (series, chart) => series.x.map((x, i) => {
+    const row = {x, y: usable(series.y[i], chart.y) ? series.y[i] : null};
+    if (series.low) Object.assign(row, {low: series.low[i], high: series.high[i]});
+    return row;
+  }).filter((row) => usable(row.x, chart.x) && (series.mark !== "band" || (usable(row.low, chart.y) && usable(row.high, chart.y))));
+
+  const reference = (chart, look) => {
+    const made = [];
+    (chart.bands || []).forEach((band) => {
+      const along = band.axis || "x", other = along === "x" ? {y: {value: 0}, y2: {signal: "height"}} : {x: {value: 0}, x2: {signal: "width"}};
+      made.push({type: "rect", clip: true, encode: {update: {...other, [along]: {scale: along, value: band.from},
+        [along + "2"]: {scale: along, value: band.to}, fill: {value: look.band}, fillOpacity: {value: 0.14}}}});
+    });
+    (chart.rules || []).forEach((rule) => {
+      const across = rule.axis === "x" ? {x: {scale: "x", value: rule.at}, y: {value: 0}, y2: {signal: "height"}}
+                                       : {y: {scale: "y", value: rule.at}, x: {value: 0}, x2: {signal: "width"}};
+      made.push({type: "rule", clip: true, encode: {update: {...across, stroke: {value: look.muted}, strokeDash: {value: [4, 3]}}}});
+      if (rule.label) made.push({type: "text", clip: true, encode: {update: {
+        ...(rule.axis === "x" ? {x: {scale: "x", value: rule.at, offset: 4}, y: {value: 12}}
+                              : {x: {value: 6}, y: {scale: "y", value: rule.at, offset: -5}}),
+        text: {value: rule.label}, fill: {value: look.muted}, fontSize: {value: 11}}}});
+    });
+    return made;
+  };
+
+  const xy = (chart, look, size, hidden) => {
+    const shown = chart.series.map((series, k) => ({series, k})).filter(({series}) => !hidden.has(series.name));
+    const values = (key) => shown.flatMap(({series}) => key === "x" ? series.x : [...(series.y || []), ...(series.low || []), ...(series.high || [])]);
+    const signals = [{name: "xdom", value: span(values("x"), chart.x)}, {name: "ydom", value: span(values("y"), chart.y)}];
+    const scale = (name, axis) => ({name, type: axis.log ? "log" : "linear", range: name === "x" ? "width" : "height",
+                                    domain: {signal: name + "dom"}, zero: false, nice: false});
+    const sources = shown.map(({series, k}) => ({name: "s" + k, values: rows(series, chart)}));
+    const scales = [scale("x", chart.x), scale("y", chart.y)];
+    const marks = [...reference(chart, look), ...shown.flatMap(({series, k}) => lines(series, k, look)),
+                   {type: "symbol", name: "cursor", clip: true, from: {data: "cursor"}, encode: {update: {
+                     x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, size: {value: 130}, fill: {value: "transparent"},
+                     stroke: {value: look.text}, strokeWidth: {value: 2}}}}];
+    const contours = chart.field ? field(chart, look) : null;
+    if (contours) { sources.unshift(...contours.data); scales.push(...contours.scales); marks.unshift(...contours.marks); }
+    return {...frame(chart, size), config: config(look), signals, scales, marks, data: [...sources, {name: "cursor", values: []}],
+            axes: axes(chart, size), ...(contours ? {legends: contours.legends} : {})};
+  };
+
+  /// Isocontours of a square grid of values. Vega counts grid cells from the corner, half a cell outside the nodes.
+  const field = (chart, look) => ({
+    data: [{name: "grid", values: [{width: chart.field.columns, height: chart.field.rows, values: chart.field.values}]},
+           {name: "contours", source: "grid", transform: [{type: "isocontour", field: "datum", as: "contour",
+             thresholds: chart.field.levels, scale: {expr: "width / " + chart.field.columns}}]}],
+    scales: [{name: "level", type: "log", domain: [chart.field.levels[0], chart.field.levels[chart.field.levels.length - 1]],
+              range: {scheme: "cividis"}}],
+    marks: [{type: "path", clip: true, from: {data: "contours"}, transform: [{type: "geopath", field: "datum.contour"}],
+             encode: {update: {fill: {scale: "level", field: "contour.value"}, fillOpacity: {value: 0.55},
+                               stroke: {value: look.background}, strokeWidth: {value: 0.7}}}}],
+    legends: [{fill: "level", title: chart.field.title, format: "~g", gradientLength: 160}],
+  });
+
+  /// One row a category: a bar or an interval, and values on it.
+  const rowsSpec = (chart, look, size, hidden) => {
+    const shown = chart.series.filter((series) => !hidden.has(series.name));
+    const points = [], bars = [];
+    for (const series of shown)
+      series.rows.forEach((row, i) => {
+        const at = {...row, label: chart.labels[i], style: series.style};
+        if (usable(row.value, chart.x)) points.push(at);
+        if (usable(row.low, chart.x) && usable(row.high, chart.x)) bars.push(at);
+      });
+    const reach = span([...points.map((p) => p.value), ...bars.flatMap((b) => [b.low, b.high])], chart.x);
+    const paint = (channel) => shown.map((series) => ({test: "datum.style === " + series.style, [channel]: series})).map(
+        ({test}, k) => ({test, value: channel === "shape" ? shape(shown[k].style) : colour(look, shown[k].style)}));
+    const middle = {scale: "y", field: "label", band: 0.5};
+    return {
+      ...frame(chart, size), config: config(look), signals: [{name: "xdom", value: reach}],
+      data: [{name: "points", values: points}, {name: "bars", values: bars}],
+      scales: [{name: "x", type: chart.x.log ? "log" : "linear", domain: {signal: "xdom"}, range: "width", zero: false},
+               {name: "y", type: "band", domain: chart.labels, range: "height", padding: 0.2}],
+      axes: axes(chart, size, {y: {labelLimit: Math.min(240, size.width * 0.38), grid: false}}),
+      marks: [
+        ...reference(chart, look),
+        {type: "rule", clip: true, from: {data: "bars"}, encode: {update: {
+          x: {scale: "x", field: "low"}, x2: {scale: "x", field: "high"}, y: middle, strokeWidth: {value: chart.bars ? 9 : 3},
+          strokeOpacity: {value: chart.bars ? 0.55 : 0.8}, stroke: paint("stroke")}}},
+        {type: "symbol", clip: true, from: {data: "points"}, encode: {update: {
+          x: {scale: "x", field: "value"}, y: middle, size: {value: 60}, shape: paint("shape"), fill: paint("fill"),
+          stroke: {value: look.background}, strokeWidth: {value: 0.8}}}}],
+    };
+  };
+
+  const heat = (chart, look, size) => {
+    const cells = [];
+    chart.values.forEach((row, i) => row.forEach((value, j) => {
+      if (finite(value)) cells.push({x: chart.columns[j], y: chart.labels[i], value});
+    }));
+    const room = size.width / chart.columns.length > 58 && chart.labels.length <= 12;
+    return {
+      ...frame(chart, size), config: config(look), data: [{name: "cells", values: cells}],
+      scales: [{name: "x", type: "band", domain: chart.columns, range: "width"},
+               {name: "y", type: "band", domain: chart.labels, range: "height"},
+               {name: "heat", type: "linear", domain: chart.domain, range: {scheme: "cividis"}, clamp: true}],
+      axes: [{orient: "bottom", scale: "x", title: chart.x.title, labelAngle: -60, labelAlign: "right", labelLimit: 150,
+              labelBaseline: "middle", labelOverlap: chart.numeric ? "greedy" : false},
+             {orient: "left", scale: "y", title: chart.y.title, labelLimit: Math.min(200, size.width * 0.36),
+              labelOverlap: chart.numeric ? "greedy" : false}],
+      marks: [{type: "rect", from: {data: "cells"}, encode: {update: {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"},
+                width: {scale: "x", band: 1}, height: {scale: "y", band: 1}, fill: {scale: "heat", field: "value"}}}},
+              ...(room ? [{type: "text", from: {data: "cells"}, encode: {update: {
+                x: {scale: "x", field: "x", band: 0.5}, y: {scale: "y", field: "y", band: 0.5}, align: {value: "center"},
+                baseline: {value: "middle"}, text: {signal: "format(datum.value, '.2f')"}, fontSize: {value: 11},
+                fill: {signal: "datum.value > " + (chart.domain[0] + 0.55 * (chart.domain[1] - chart.domain[0])) + " ? '#000' : '#fff'"}}}}] : [])],
+      legends: [{fill: "heat", title: chart.legend, gradientLength: Math.min(200, size.height * 0.7)}],
+    };
+  };
+
+  const make = (chart, look, size, hidden) =>
+      chart.kind === "heat" ? heat(chart, look, size) : chart.kind === "rows" ? rowsSpec(chart, look, size, hidden)
+                                                                              : xy(chart, look, size, hidden);
+  return {make, usable, text, finite};
+})();
