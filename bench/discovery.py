@@ -6,8 +6,9 @@
     bench/discovery.py OUT --scored         the scored seed, once: verdicts of another build in OUT are refused
     bench/discovery.py OUT --reduced        few cases with a fixed seed, for the test suite
 
-Every stage leaves alone what is there, so that an interrupted run is taken up by the same command. Exit code 1: a figure
-that has to be met is missed (with --reduced: by more than chance)."""
+Every stage leaves alone what is there, so that an interrupted run is taken up by the same command; cases and verdicts of
+another build are made anew. Exit code 1: a figure that has to be met is missed; with --reduced, by more than chance: its
+whole 95 % interval misses."""
 import argparse
 import concurrent.futures
 import datetime
@@ -16,6 +17,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -57,10 +59,10 @@ def tunica(build):
     return [str(build / "bin/tunica"), "--allow-world-writable-plugins"]
 
 
-def fingerprint(build):
-    """SHA-256 over the program and its plugins."""
+def fingerprint(files):
+    """SHA-256 over the contents of files."""
     digest = hashlib.sha256()
-    for file in [build / "bin/tunica", *sorted((build / "lib/tunica/plugins").glob("*.so"))]:
+    for file in files:
         digest.update(file.read_bytes())
     return digest.hexdigest()
 
@@ -78,18 +80,28 @@ def look_alikes(build):
     return declared
 
 
-def refuse_another_build(out, seed, build, scored):
-    """The scored seed runs once, with thresholds frozen before: all its verdicts come from one build."""
-    note, mine = out / "run.json", {"seed": seed, "scored": scored, "program": fingerprint(build)}
+def take_up(out, seed, build, scored):
+    """What stands in `out` belongs to this seed and these programs, or goes: cases of another generator, verdicts of
+    another build. But the scored seed runs once, with thresholds frozen before: there it is refused. The day it began."""
+    program = [build / "bin/tunica", *sorted((build / "lib/tunica/plugins").glob("*.so"))]
+    mine = {"seed": seed, "scored": scored, "generator": fingerprint([build / "bin/discovery_generator"]),
+            "program": fingerprint(program), "begun": datetime.date.today().isoformat()}
+    note, cases = out / "run.json", out / "cases"
     if note.exists():
         found = json.loads(note.read_text())
-        if found["seed"] != seed:
-            sys.exit(f"discovery.py: {out} holds cases of seed {found['seed']}, not {seed}; choose another folder")
-        if scored and found["program"] != mine["program"]:
+        if found["seed"] != seed or found["scored"] != scored:
+            sys.exit(f"discovery.py: {out} holds another run, of seed {found['seed']}; choose another folder")
+        if scored and (found["program"], found["generator"]) != (mine["program"], mine["generator"]):
             sys.exit(f"discovery.py: {out} holds verdicts of another build of the scored seed, which runs once; "
-                     "go on with that build, or take a new scored seed (--seed) and say so beside the table")
-        mine["begun"] = found["begun"]
-    mine.setdefault("begun", datetime.date.today().isoformat())
+                     "go on with that build, or take a new seed (--seed) and say so beside the table")
+        if found["generator"] != mine["generator"]:
+            shutil.rmtree(cases, ignore_errors=True)
+        elif found["program"] != mine["program"]:
+            for verdict in cases.glob("*/result.json"):
+                verdict.unlink()
+        else:
+            mine["begun"] = found["begun"]
+    cases.mkdir(parents=True, exist_ok=True)
     note.write_text(json.dumps(mine, indent=1) + "\n")
     return mine["begun"]
 
@@ -118,8 +130,7 @@ def main():
     seed = told.seed if told.seed is not None else (
         SCORED_SEED if told.scored else REDUCED_SEED if told.reduced else DEVELOPMENT_SEED)
     cases = told.out / "cases"
-    cases.mkdir(parents=True, exist_ok=True)
-    begun = refuse_another_build(told.out, seed, told.build, told.scored)
+    begun = take_up(told.out, seed, told.build, told.scored)
 
     work = list(chunks(plan(told.reduced), 100))
     with concurrent.futures.ThreadPoolExecutor(told.jobs) as pool:

@@ -216,6 +216,9 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
   EXPECT_EQ(figure(cases, "amplitude, relative rms at Λ 25").cases, 2U);
   EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").value, 0.2, 1e-12);
   EXPECT_NEAR(figure(cases, "amplitude, coverage of the 95 % interval").value, 0.5, 1e-12);
+  // χ² of 2 degrees of freedom: 0.0506 and 7.378 at 2.5 % and 97.5 %.
+  EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").low, 0.2 * std::sqrt(2 / 7.378), 1e-4);
+  EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").high, 0.2 * std::sqrt(2 / 0.0506), 1e-3);
 
   off.truth.effects.front().nuisance = true;
   EXPECT_EQ(figure({one, off}, "amplitude, relative rms at Λ 25").cases, 1U);
@@ -237,6 +240,7 @@ TEST(Scorer, HoldsStatedProbabilitiesAgainstWhatCameTrue) {
   const Figure error = figure(cases, "expected calibration error of the stated probability");
   EXPECT_EQ(error.cases, 10U);
   EXPECT_NEAR(error.value, 0.05, 1e-12);
+  EXPECT_LT(error.low, 0.01) << "ten cases cannot miss a bar by so little";
 }
 
 TEST(Scorer, CountsHeldOutBlocksOfTheRightNames) {

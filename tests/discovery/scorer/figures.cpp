@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -176,7 +177,17 @@ void amplitudes(const Cases& cases, std::vector<Figure>& table) {
     double squares = 0;
     std::size_t count = 0;
     void add(double error) { squares += error * error, ++count; }
-    [[nodiscard]] double rms() const { return count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count)); }
+    /// With the interval of the standard deviation of so many normal errors.
+    [[nodiscard]] Figure figure(std::string name, std::optional<Bar> pass, std::optional<Bar> stretch,
+                                std::string remark) const {
+      if (count == 0) return number(std::move(name), 0, 0, pass, stretch);
+      const double n = static_cast<double>(count);
+      Figure made = number(std::move(name), count, std::sqrt(squares / n), pass, stretch, std::move(remark));
+      const boost::math::chi_squared chi(n);
+      made.low = std::sqrt(squares / boost::math::quantile(chi, 0.975));
+      made.high = std::sqrt(squares / boost::math::quantile(chi, 0.025));
+      return made;
+    }
   };
   const auto row = [&](double lambda, double pass, double stretch) {
     Spread alone, with_nuisance;
@@ -195,10 +206,9 @@ void amplitudes(const Cases& cases, std::vector<Figure>& table) {
       covered.add(low <= truth.amplitude && truth.amplitude <= high);
     }
     const std::string name = fmt::format("amplitude, relative rms at Λ {:g}", lambda);
-    table.push_back(number(name, alone.count, alone.rms(), at_most(pass), at_most(stretch),
-                           fmt::format("1/√Λ = {:.2f} is the limit", 1 / std::sqrt(lambda))));
-    table.push_back(
-        number(name + ", effects with a nuisance parameter", with_nuisance.count, with_nuisance.rms(), {}, {}));
+    table.push_back(alone.figure(name, at_most(pass), at_most(stretch),
+                                 fmt::format("1/√Λ = {:.2f} is the limit", 1 / std::sqrt(lambda))));
+    table.push_back(with_nuisance.figure(name + ", effects with a nuisance parameter", {}, {}, {}));
   };
   row(25, 0.28, 0.23);
   row(60, 0.17, 0.145);
@@ -221,11 +231,18 @@ void calibration(const Cases& cases, std::vector<Figure>& table) {
     Bin& bin = bins[std::min<std::size_t>(9, static_cast<std::size_t>(10 * std::clamp(p, 0.0, 1.0)))];
     bin.stated += p, bin.right.add(verdict.causes.front().id == hidden(one)), ++count;
   }
-  double error = 0;
-  for (const Bin& bin : bins)
-    if (bin.right.total > 0) error += std::abs(bin.stated - static_cast<double>(bin.right.hits));
-  table.push_back(number("expected calibration error of the stated probability", count,
-                         count == 0 ? 0 : error / static_cast<double>(count), at_most(0.05), at_most(0.03)));
+  double error = 0, chance = 0;
+  for (const Bin& bin : bins) {
+    if (bin.right.total == 0) continue;
+    error += std::abs(bin.stated - static_cast<double>(bin.right.hits));
+    const double n = static_cast<double>(bin.right.total), p = std::clamp(bin.stated / n, 0.02, 0.98);
+    chance += std::sqrt(n * p * (1 - p));
+  }
+  const double n = count == 0 ? 1 : static_cast<double>(count);
+  Figure figure = number("expected calibration error of the stated probability", count, error / n, at_most(0.05),
+                         at_most(0.03), "interval: two binomial deviations of every bin");
+  figure.low = std::max(0.0, (error - 2 * chance) / n), figure.high = (error + 2 * chance) / n;
+  table.push_back(figure);
 }
 
 void held_out(const Cases& cases, std::vector<Figure>& table) {

@@ -29,7 +29,7 @@ struct Bar {
 struct Figure {
   std::string name;
   std::size_t cases = 0;                ///< what it is made of; 0: not measured
-  double value = 0, low = 0, high = 0;  ///< with its interval where it is a share; else low = high = value
+  double value = 0, low = 0, high = 0;  ///< with its 95 % interval where there is one; else low = high = value
   std::optional<Bar> pass, stretch;     ///< none: told, not judged
   std::string remark = {};
   [[nodiscard]] bool missed() const { return pass && cases > 0 && !pass->holds(value); }
