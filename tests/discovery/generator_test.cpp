@@ -69,6 +69,19 @@ TEST(Generator, SealsTheTruthWithItsHash) {
   EXPECT_EQ(blind::sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
 }
 
+TEST(Generator, IncludesNothingOfTheProgramItTests) {
+  const std::filesystem::path folder = std::filesystem::path(TUNICA_SOURCE_DIR) / "tests/discovery/generator";
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+    const std::string text = text_of(entry.path());
+    EXPECT_EQ(text.find("tunica/"), text.npos) << entry.path();
+    EXPECT_EQ(text.find("tunica::"), text.npos) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 20U);
+}
+
 TEST(Generator, SaysWhatItCannotDo) {
   const Folder folder;
   const auto message = [&](const std::vector<std::string>& arguments) {
