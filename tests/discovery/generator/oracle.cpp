@@ -9,7 +9,7 @@
 namespace blind {
 namespace {
 
-constexpr int draws = 2000;
+constexpr int draws = 4000;
 constexpr double alpha = 0.05;
 
 /// Legendre columns of degree 0 to 2 of every curve over what is prescribed, whitened, without what the base model's
@@ -36,22 +36,17 @@ Eigen::MatrixXd smooth_columns(const Protocol& protocol, const Noise& noise, con
   return qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
 }
 
-/// The largest one- or two-sided score of every column of r, and whose it is.
-struct Largest {
-  Eigen::VectorXd score;
-  std::vector<std::size_t> whose;
-};
-Largest largest(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& r) {
+/// The largest one- or two-sided score of every effect in every column of r: effects × columns.
+Eigen::MatrixXd largest_scores(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes,
+                               const Eigen::MatrixXd& r) {
   const Eigen::MatrixXd z = shapes.transpose() * r;
-  Largest found{Eigen::VectorXd::Zero(r.cols()), std::vector<std::size_t>(static_cast<std::size_t>(r.cols()), 0)};
-  for (Eigen::Index d = 0; d < r.cols(); ++d) {
-    for (Eigen::Index m = 0; m < z.rows(); ++m) {
-      const double size = all[static_cast<std::size_t>(m)].one_sided ? std::max(0.0, z(m, d)) : std::abs(z(m, d));
-      if (size <= found.score[d]) continue;
-      found.score[d] = size, found.whose[static_cast<std::size_t>(d)] = static_cast<std::size_t>(m);
-    }
+  Eigen::MatrixXd score = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(catalogue().size()), r.cols());
+  for (Eigen::Index m = 0; m < z.rows(); ++m) {
+    const Signature& one = all[static_cast<std::size_t>(m)];
+    auto best = score.row(one.effect - catalogue().data());
+    best = best.cwiseMax(one.one_sided ? Eigen::RowVectorXd(z.row(m)) : Eigen::RowVectorXd(z.row(m).cwiseAbs()));
   }
-  return found;
+  return score;
 }
 
 /// Share of the sorted values that are at least as large.
@@ -89,21 +84,29 @@ OracleVerdict ask_oracle(const SealedCase& made) {
   columns.col(0) = r;
   for (Eigen::Index d = 1; d <= draws; ++d)
     for (Eigen::Index i = 0; i < r.size(); ++i) columns(i, d) = normal(random);
-  const Largest scores = largest(all, shapes, columns);  // shapes are projected already
+  const Eigen::MatrixXd score = largest_scores(all, shapes, columns);  // shapes are projected already
   const Eigen::VectorXd omnibus = (smooth.transpose() * columns).colwise().squaredNorm();
-  std::vector<double> sorted(scores.score.data() + 1, scores.score.data() + 1 + draws);
-  std::sort(sorted.begin(), sorted.end());
   const boost::math::chi_squared chi(static_cast<double>(smooth.cols()));
-  const auto smaller_p = [&](Eigen::Index d) {
-    return std::min(boost::math::cdf(boost::math::complement(chi, omnibus[d])), upper_share(sorted, scores.score[d]));
-  };
-  int as_small = 0;
-  const double mine = smaller_p(0);
-  for (Eigen::Index d = 1; d <= draws; ++d) as_small += smaller_p(d) <= mine;
+  // Every effect by its own distribution, so that one with many places to sit does not drown the others.
+  std::vector<double> smallest(1 + draws);
+  for (Eigen::Index d = 0; d <= draws; ++d)
+    smallest[static_cast<std::size_t>(d)] = boost::math::cdf(boost::math::complement(chi, omnibus[d]));
+  for (Eigen::Index e = 0; e < score.rows(); ++e) {
+    std::vector<double> sorted;
+    for (Eigen::Index d = 1; d <= draws; ++d) sorted.push_back(score(e, d));
+    std::sort(sorted.begin(), sorted.end());
+    for (Eigen::Index d = 0; d <= draws; ++d) {
+      double& p = smallest[static_cast<std::size_t>(d)];
+      p = std::min(p, upper_share(sorted, score(e, d)));
+    }
+  }
+  const auto as_small = std::count_if(smallest.begin() + 1, smallest.end(), [&](double p) { return p <= smallest[0]; });
   OracleVerdict verdict;
-  verdict.p_value = (1.0 + as_small) / (1.0 + draws);
+  verdict.p_value = (1.0 + static_cast<double>(as_small)) / (1.0 + draws);
   verdict.detected = verdict.p_value <= alpha;
-  verdict.first = all[scores.whose[0]].effect->id;
+  Eigen::Index first = 0;
+  score.col(0).maxCoeff(&first);
+  verdict.first = catalogue()[static_cast<std::size_t>(first)].id;
   return verdict;
 }
 
