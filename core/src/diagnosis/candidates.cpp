@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/hypotheses.hpp"
+#include "diagnosis/scores.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
@@ -180,11 +181,12 @@ bool already_there(const std::vector<experiment::MechanismEntry>& entries, const
 class Search {
  public:
   Search(const Experiment& experiment, const RunEntry& run, const calibration::Assembly& base,
-         std::span<const double> fitted, const plugins::Catalogue& catalogue)
+         std::span<const double> fitted, const Projection& projection, const plugins::Catalogue& catalogue)
       : experiment_(experiment),
         run_(run),
         base_(base),
         fitted_(fitted),
+        projection_(projection),
         catalogue_(catalogue),
         clock_(clock_of(experiment, run, catalogue)) {}
 
@@ -263,9 +265,40 @@ class Search {
       }
       const bool exact = extended.assembly().jacobian_is_exact();
       if (!whitened(extended.assembly(), null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
-      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace))
-        into.push_back(
-            {&mechanism, {first.id, first.target, setting}, std::move(slope.signature), slope.side, slope.sign});
+      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace)) {
+        Hypothesis tangent{
+            &mechanism, {first.id, first.target, setting}, std::move(slope.signature), slope.side, slope.sign};
+        if (tangent.signature.size() > 0 && tangent.side != MechanismFactory::Side::even)
+          for (const double sign : {1.0, -1.0}) add_secant(extended, tangent, sign, null, bare, *workspace, into);
+        into.push_back(std::move(tangent));
+      }
+    }
+  }
+
+  /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
+  /// tangent: then it is one more place to look at.
+  void add_secant(const Extended& extended, const Hypothesis& tangent, double sign, const std::vector<double>& null,
+                  const Eigen::VectorXd& bare, calibration::Assembly::Workspace& workspace,
+                  std::vector<Hypothesis>& into) const {
+    const MechanismFactory& mechanism = *tangent.mechanism;
+    if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
+    // A channel's unit is not the mechanism's to know; what acts on data rows is linear.
+    if (!tangent.addition.target.channel.empty()) return;
+    const double reach = sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.null - mechanism.plausible_min;
+    if (!(reach > 0)) return;
+    const Extended::Part& part = extended.parts().front();
+    Eigen::VectorXd there;
+    for (const double share : {0.5, 0.2}) {
+      std::vector<double> free = null;
+      for (const std::size_t member : part.amplitude) free[member] = part.null + sign * share * reach;
+      if (!whitened(extended.assembly(), free, workspace, there, nullptr).ok()) continue;
+      Hypothesis secant = tangent;
+      secant.signature = (there - bare) / (share * reach);
+      secant.side = MechanismFactory::Side::positive, secant.sign = sign, secant.at_large = true;
+      const Eigen::VectorXd a = projection_.off(secant.signature), b = projection_.off(tangent.signature);
+      constexpr double another_shape = 0.97;
+      if (std::abs(a.dot(b)) < another_shape * a.norm() * b.norm()) into.push_back(std::move(secant));
+      return;
     }
   }
 
@@ -275,7 +308,8 @@ class Search {
     std::vector<Hypothesis> sums;
     for (const Hypothesis& one : singles) {
       const auto alike = std::find_if(sums.begin(), sums.end(), [&](const Hypothesis& sum) {
-        return sum.addition.setting == one.addition.setting && sum.side == one.side && sum.sign == one.sign;
+        return sum.addition.setting == one.addition.setting && sum.side == one.side && sum.sign == one.sign &&
+               sum.at_large == one.at_large;
       });
       if (alike == sums.end()) {
         sums.push_back(one);
@@ -292,6 +326,7 @@ class Search {
   const RunEntry& run_;
   const calibration::Assembly& base_;
   std::span<const double> fitted_;
+  const Projection& projection_;
   const plugins::Catalogue& catalogue_;
   Clock clock_;
 };
@@ -300,8 +335,8 @@ class Search {
 
 std::vector<Candidate> candidates(const Experiment& experiment, const RunEntry& run, const Settings& settings,
                                   const calibration::Assembly& base, std::span<const double> fitted,
-                                  const plugins::Catalogue& catalogue) {
-  const Search search(experiment, run, base, fitted, catalogue);
+                                  const Projection& projection, const plugins::Catalogue& catalogue) {
+  const Search search(experiment, run, base, fitted, projection, catalogue);
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : catalogue.mechanisms())
     if (settings.mechanisms.empty() ||

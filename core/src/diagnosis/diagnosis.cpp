@@ -51,8 +51,8 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   report(d, "fitting the base model", 0.05);
   fit_base(d, catalogue);
   report(d, "signatures of the mechanisms", 0.1);
-  d.candidates = candidates(d.experiment, d.run, settings, *d.base, d.fit.free, catalogue);
   const Projection projection(interior(d.fit));
+  d.candidates = candidates(d.experiment, d.run, settings, *d.base, d.fit.free, projection, catalogue);
   d.directions = directions(d.candidates, projection);
   const Shapes shapes = smooth_shapes(d.curves, d.fit.residuals.size());
   const Eigen::MatrixXf draws = noise_draws(d.curves, d.fit.residuals.size(), linear_draws, settings.seed);

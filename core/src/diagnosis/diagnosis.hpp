@@ -115,10 +115,11 @@ struct Diagnosis {
   std::vector<NoiseSource> noise;
 
   Verdict verdict = Verdict::nothing_detected;
-  Detection::Verdict detection;      ///< of the base fit
-  double p_after = 1;                ///< of the residuals with the causes added
-  std::optional<double> p_refits;    ///< of the detection, from full refits
-  std::vector<std::string> reasons;  ///< of the verdict, in sentences
+  Detection::Verdict detection;        ///< of the base fit
+  double p_after = 1;                  ///< of the residuals with the causes added
+  std::optional<double> p_refits;      ///< of the detection, from full refits
+  std::optional<double> noise_factor;  ///< times the stated noise at which what is left would be clean
+  std::vector<std::string> reasons;    ///< of the verdict, in sentences
   std::vector<Misfit> misfit;
   std::vector<Cause> causes;    ///< of the best explanation first, then rivals
   std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm

@@ -167,6 +167,7 @@ json diagnosis_json(const Diagnosis& d) {
   if (d.extension) result["extension"] = std::move(extension);
   if (d.extension && d.gain) result["gain"] = gain_json(*d.gain);
   if (d.extension) result["p_after"] = d.p_after;
+  if (d.noise_factor) result["noise_factor"] = *d.noise_factor;
   if (d.next)
     result["next_experiment"] = {
         {"description", d.next->description}, {"separates", d.next->separates}, {"repeats", or_null(d.next->repeats)}};

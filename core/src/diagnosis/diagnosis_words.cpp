@@ -35,7 +35,7 @@ std::string verdict_line(const Diagnosis& d) {
     case Verdict::unknown:
       break;
   }
-  return fmt::format("UNKNOWN: something is wrong, and {}", fmt::join(d.reasons, "; "));
+  return fmt::format("UNKNOWN: {}", fmt::join(d.reasons, "; "));
 }
 
 /// The mechanisms that could still hide: least detectable amplitudes beyond what is plausible, or no trace at all.

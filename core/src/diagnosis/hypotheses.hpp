@@ -13,6 +13,8 @@
 
 namespace tunica::diagnosis {
 
+class Projection;
+
 /// Where a mechanism acts.
 struct Target {
   std::vector<std::string> tests;       ///< empty: the model; several: one amplitude in all of them
@@ -70,6 +72,9 @@ struct Hypothesis {
   Eigen::VectorXd signature;  ///< ∂ whitened prediction/∂ amplitude at the null (even: by its square)
   MechanismFactory::Side side = MechanismFactory::Side::both;
   double sign = 1;  ///< −1: a positive score means an amplitude below the null
+  /// The signature of amplitudes half as large as plausible ones, per unit of amplitude, where it is another than at
+  /// the null.
+  bool at_large = false;
 };
 
 /// A mechanism that takes part, or why it does not.
@@ -80,10 +85,11 @@ struct Candidate {
   std::string absent;                  ///< why, in words
 };
 
-/// Every mechanism that was asked for with all its targets and settings, and its signatures at the base fit. Mechanisms
-/// side by side; the outcome does not depend on threads.
+/// Every mechanism that was asked for with all its targets and settings, and its signatures at the base fit, where a
+/// refit absorbs what `projection` says. Mechanisms side by side; the outcome does not depend on threads.
 std::vector<Candidate> candidates(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                                   const Settings& settings, const calibration::Assembly& base,
-                                  std::span<const double> fitted, const plugins::Catalogue& catalogue);
+                                  std::span<const double> fitted, const Projection& projection,
+                                  const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::diagnosis

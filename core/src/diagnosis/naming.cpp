@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "diagnosis/causes.hpp"
 #include "diagnosis/groups.hpp"
 
 namespace tunica::diagnosis {
 namespace {
+
+constexpr double most_of_it = 0.8;
 
 class Naming {
  public:
@@ -31,8 +35,7 @@ class Naming {
     groups_ = fit_pairs(d_, detection_, singles_.front(), catalogue_);
     if (groups_.empty()) {
       one(p_one);
-      if (p_one > second_alpha) return judge();
-      return unexplained(fmt::format("the residuals are not clean after the best mechanism (p = {:.2g})", p_one));
+      return p_one > second_alpha ? judge() : not_clean();
     }
     double p = p_of_rest(*groups_.front().refitted);
     if (p <= second_alpha) {
@@ -41,9 +44,17 @@ class Naming {
         p = p_of_rest(*groups_.front().refitted);
       }
     }
-    several(p);
-    if (p > second_alpha) return judge();
-    unexplained(fmt::format("the residuals are not clean after the best {} together (p = {:.2g})", d_.named, p));
+    if (p > second_alpha) {
+      several(p);
+      return judge();
+    }
+    // Nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little more.
+    const double rows = static_cast<double>(d_.fit.residuals.size());
+    if (d_.fit.chi2 - singles_.front().best->fit.chi2 > most_of_it * (d_.fit.chi2 - rows))
+      one(p_one);
+    else
+      several(p);
+    not_clean();
   }
 
  private:
@@ -51,16 +62,26 @@ class Naming {
     return d_.candidates[d_.directions[direction].candidate].id;
   }
 
-  /// The p-value of what is left with the additions, among all that was not added.
-  [[nodiscard]] double p_of_rest(const Refitted& refitted) const {
+  /// What is left with the additions, as a test among all that was not added.
+  struct Rest {
+    std::vector<Candidate> others;
+    std::vector<Direction> directions;
+    std::unique_ptr<Detection> detection;
+  };
+  [[nodiscard]] Rest rest_of(const Refitted& refitted) const {
     const Projection projection(interior(refitted.fit));
-    std::vector<Candidate> others = d_.candidates;
-    for (Candidate& candidate : others)
+    Rest rest;
+    rest.others = d_.candidates;
+    for (Candidate& candidate : rest.others)
       for (const Addition& addition : refitted.additions)
         if (candidate.id == addition.id) candidate.hypotheses.clear();
-    const auto left = directions(others, projection);
-    const Detection detection(projection, left, others.size(), shapes_, draws_);
-    return detection.judge(-refitted.fit.residuals).p;
+    rest.directions = directions(rest.others, projection);
+    rest.detection = std::make_unique<Detection>(projection, rest.directions, rest.others.size(), shapes_, draws_);
+    return rest;
+  }
+  [[nodiscard]] double p_of_rest(const Refitted& refitted) const {
+    const Rest rest = rest_of(refitted);
+    return rest.detection->judge(-refitted.fit.residuals).p;
   }
 
   void rank() {
@@ -165,6 +186,27 @@ class Naming {
     if (const std::string curve = carrier(d_, d_.directions[singles_.front().direction], -d_.fit.residuals);
         !curve.empty())
       suspect("the effect should show in several curves and is carried by one: " + curve);
+  }
+
+  /// Unknown, with the share that the causes take, and how much larger than it is said to be the noise would have to be
+  /// for the rest to be clean: where the alarm stands at that noise too, the causes may be all there is.
+  void not_clean() {
+    std::vector<std::string> ids;
+    for (std::size_t k = 0; k < d_.named; ++k) ids.push_back(d_.causes[k].id);
+    const double rows = static_cast<double>(d_.fit.residuals.size());
+    const double share = (d_.fit.chi2 - d_.extension->fit.chi2) / std::max(d_.fit.chi2 - rows, 1.0);
+    unexplained(fmt::format("{} {} {:.0f} % of the misfit; what is left is no noise (p {})", fmt::join(ids, " and "),
+                            ids.size() == 1 ? "takes" : "take", 100 * std::min(share, 1.0),
+                            d_.p_after < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", d_.p_after)));
+    const Rest rest = rest_of(*d_.extension);
+    for (double factor = 1.1; factor < 20; factor *= 1.1) {
+      if (rest.detection->judge(-d_.extension->fit.residuals / factor).p <= look_again) continue;
+      const double alarm = detection_.judge(-d_.fit.residuals / factor).p;
+      d_.noise_factor = factor;
+      d_.reasons.push_back(fmt::format("with noise {:.1f} times as large it would be, and the base model {}", factor,
+                                       alarm <= d_.settings.alpha ? "would still be wrong" : "would be right too"));
+      return;
+    }
   }
 
   void unexplained(std::string why) {

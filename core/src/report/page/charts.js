@@ -30,8 +30,9 @@ tunicaReport.Figure = class {
     const bar = this.element.querySelector(".legend");
     bar.replaceChildren();
     if (this.chart.kind === "heat") return;
-    if (this.chart.series.length < 2 && !this.chart.legend) return;
-    for (const series of this.chart.series) {
+    const names = new Map(this.chart.series.map((series) => [series.name, series]));
+    if (names.size < 2 && !this.chart.legend) return;
+    for (const series of names.values()) {
       const button = this.add("button", "series", bar);
       button.type = "button";
       button.setAttribute("aria-pressed", String(!this.hidden.has(series.name)));
@@ -78,7 +79,13 @@ tunicaReport.Figure = class {
 
   view(spec, options) {
     const expr = this.vega.expressionInterpreter;
-    return new this.vega.View(this.vega.parse(spec, null, {ast: true}), {expr, renderer: "svg", logLevel: 1, ...options});
+    // Vega only logs what goes wrong while it draws; here it is a failure.
+    const view = new this.vega.View(this.vega.parse(spec, null, {ast: true}), {expr, renderer: "svg", ...options});
+    const silent = () => logger;
+    const logger = {level: () => 1, warn: silent, info: silent, debug: silent,
+                    error: (...problem) => { view.problem = problem.join(" "); return logger; }};
+    view.logger(logger);
+    return view;
   }
 
   async draw(look) {
@@ -89,6 +96,7 @@ tunicaReport.Figure = class {
     this.shown.tooltip(() => {});
     for (const [name, domain] of Object.entries(this.zoom)) this.shown.signal(name, domain);
     await this.shown.runAsync();
+    if (this.shown.problem) throw new Error(this.shown.problem);
     const picture = this.canvas.querySelector("svg");
     if (picture) { picture.setAttribute("role", "img"); picture.setAttribute("aria-label", this.chart.about); }
   }

@@ -6,7 +6,7 @@ tunicaReport.pointer = (() => {
 
   const words = (figure, series, row) => {
     const {chart} = figure;
-    const name = series.name ? series.name + "\n" : "";
+    const name = series.name + (series.label ? ", " + series.label : "") + "\n";
     return name + chart.x.title + ": " + text(series.x[row]) + "\n" + chart.y.title + ": " + text(series.y[row]) +
         (series.low ? "\n" + text(series.low[row]) + " … " + text(series.high[row]) : "");
   };

@@ -3,7 +3,7 @@
 "use strict";
 tunicaReport.withLegend = (spec, chart, hidden) => {
   const {colour, dash, shape, themes} = tunicaReport.marks, look = themes.light;
-  const shown = chart.series.filter((series) => !hidden.has(series.name));
+  const shown = [...new Map(chart.series.map((series) => [series.name, series])).values()].filter((series) => !hidden.has(series.name));
   if (chart.kind === "heat" || shown.length < 2) return {...spec, title: {text: chart.title, anchor: "start"}};
   const names = shown.map((series) => series.name);
   const scale = (name, range) => ({name, type: "ordinal", domain: names, range: shown.map(range)});
@@ -36,7 +36,7 @@ tunicaReport.table = (chart) => {
   } else {
     put("series", chart.x.title, chart.y.title, "low", "high");
     for (const series of chart.series)
-      series.x.forEach((x, i) => put(series.name, x, series.y[i], series.low && series.low[i], series.high && series.high[i]));
+      series.x.forEach((x, i) => put(series.name + (series.label ? ", " + series.label : ""), x, series.y[i], series.low && series.low[i], series.high && series.high[i]));
   }
   return lines.join("\n") + "\n";
 };

@@ -103,7 +103,7 @@ tunicaReport.specs = (() => {
     const sources = shown.map(({series, k}) => ({name: "s" + k, values: rows(series, chart)}));
     const scales = [scale("x", chart.x), scale("y", chart.y)];
     const marks = [...reference(chart, look), ...shown.flatMap(({series, k}) => lines(series, k, look)),
-                   {type: "symbol", name: "cursor", clip: true, from: {data: "cursor"}, encode: {update: {
+                   {type: "symbol", clip: true, from: {data: "cursor"}, encode: {update: {
                      x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, size: {value: 130}, fill: {value: "transparent"},
                      stroke: {value: look.text}, strokeWidth: {value: 2}}}}];
     const contours = chart.field ? field(chart, look) : null;
@@ -115,7 +115,7 @@ tunicaReport.specs = (() => {
   /// Isocontours of a square grid of values. Vega counts grid cells from the corner, half a cell outside the nodes.
   const field = (chart, look) => ({
     data: [{name: "grid", values: [{width: chart.field.columns, height: chart.field.rows, values: chart.field.values}]},
-           {name: "contours", source: "grid", transform: [{type: "isocontour", field: "datum", as: "contour",
+           {name: "contours", source: "grid", transform: [{type: "isocontour", as: "contour",
              thresholds: chart.field.levels, scale: {expr: "width / " + chart.field.columns}}]}],
     scales: [{name: "level", type: "log", domain: [chart.field.levels[0], chart.field.levels[chart.field.levels.length - 1]],
               range: {scheme: "cividis"}}],

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "report/sections.hpp"
+
+/// What the charts of a diagnosis share.
+namespace tunica::report {
+
+/// " in tube, pressure, row 4"; "" for what acts on the model.
+std::string place_words(const Json& target);
+
+/// The rows of one observable of one test in residuals.csv.
+struct ResidualCurve {
+  std::string test, channel, abscissa, unit;  ///< the abscissa with its unit
+  std::vector<std::size_t> rows;
+};
+std::vector<ResidualCurve> residual_curves(const Table& table);
+
+/// A column over the abscissa, thinned where it is long.
+Series curve_series(const Table& table, const ResidualCurve& curve, std::string_view column, std::string name,
+                    std::string mark, int style);
+
+/// Marks the regions of misfit of this curve.
+void mark_misfit(Chart& chart, const Json& diagnosis, const ResidualCurve& curve);
+
+}  // namespace tunica::report

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/diagnosis_pieces.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+/// Scores of all candidates and the probabilities of those that came into question.
+Chart ranking_chart(const Json& diagnosis) {
+  struct Candidate {
+    std::string label, id;
+    double score, p;
+  };
+  std::vector<Candidate> candidates;
+  for (const Json& one : list(diagnosis, "scores"))
+    candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), number(one, "score"),
+                          number(one, "p_value")});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  Chart chart;
+  chart.kind = "rows";
+  chart.bars = true;
+  chart.id = "scores";
+  chart.title = "Scores of the candidates";
+  chart.about = "How much of the misfit each candidate explains, as its score statistic, the largest first";
+  chart.note = "The score is the drop of the sum of squares that adding the cause promises, to first order.";
+  chart.x = {"score", false, {0}, {}};
+  RowSeries scores{"score", 0, {}};
+  for (const Candidate& one : candidates) {
+    chart.labels.push_back(one.label);
+    scores.rows.push_back({one.score, 0, one.score, fmt::format("score {}, {}", figure(one.score), chance(one.p))});
+  }
+  if (!candidates.empty()) chart.rows.push_back(std::move(scores));
+  return chart;
+}
+
+void add_ranking_table(Page& page, const Json& diagnosis) {
+  std::vector<std::vector<Cell>> rows;
+  std::vector<bool> first;
+  const auto named = words(list(diagnosis, "ambiguity_set"));
+  const bool ranked = !list(diagnosis, "ranking").empty();
+  for (const Json& one : list(diagnosis, ranked ? "ranking" : "causes")) {
+    rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
+                    {figure(number(one, "probability")), true},
+                    {figure(number(one, "score")), true},
+                    {figure(number(one, "gain")), true}});
+    first.push_back(std::find(named.begin(), named.end(), word(one, "id")) != named.end());
+  }
+  if (!rows.empty()) page.html(table_html({"cause", "probability", "score", "gain in squares"}, rows, first));
+}
+
+void add_shifts(Page& page, const Json& diagnosis) {
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& cause : list(diagnosis, "causes"))
+    for (const Json& shift : list(cause, "parameter_shifts")) {
+      const double before = number(shift, "without"), after = number(shift, "with");
+      rows.push_back({{word(cause, "id")},
+                      {titled(word(shift, "parameter"), word(shift, "unit"))},
+                      {figure(before), true},
+                      {figure(after), true},
+                      {before != 0 ? fmt::format("{:+.3g} %", 100 * (after - before) / std::abs(before)) : "–", true}});
+    }
+  if (rows.empty()) return;
+  page.heading("How the parameters shift");
+  page.html(table_html({"cause", "parameter", "without", "with", "change"}, rows));
+}
+
+Chart gain_chart(const Json& gain) {
+  Chart chart;
+  chart.kind = "rows";
+  chart.id = "gain_held_out";
+  chart.title = "Gain on blocks that were held out";
+  chart.about = "Mean square of the residuals over the noise on each held-out block, without and with the cause";
+  chart.note = "Each block is predicted by fits that have not seen it; 1 is what noise alone leaves.";
+  chart.x = {"mean square of residual / noise", false, {1}, {}};
+  chart.rule(1, "noise", 'x');
+  RowSeries before{"model as given", 1, {}}, after{"with the cause", 0, {}};
+  for (const Json& block : list(gain, "held_out")) {
+    chart.labels.push_back(word(block, "block"));
+    const double rows = number(block, "rows");
+    const std::string much = std::isfinite(rows) ? fmt::format(" ({:.0f} rows)", rows) : "";
+    before.rows.push_back(
+        {number(block, "before"), NAN, NAN, fmt::format("as given: {}{}", figure(number(block, "before")), much)});
+    after.rows.push_back(
+        {number(block, "after"), NAN, NAN,
+         fmt::format("with the cause: {}, {}", figure(number(block, "after")), chance(number(block, "p_value")))});
+  }
+  chart.rows = {std::move(before), std::move(after)};
+  return chart;
+}
+
+void add_noise(Page& page, const Json& diagnosis) {
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& one : list(diagnosis, "noise")) {
+    const std::string source = word(one, "source");
+    const double relative = number(one, "relative");
+    rows.push_back({{word(one, "test")},
+                    {word(one, "channel")},
+                    {source == "stated"        ? "stated in the experiment"
+                     : source == "replicates"  ? "from replicates"
+                     : source == "differences" ? "estimated from differences of neighbouring rows"
+                                               : source},
+                    {amount(number(one, "absolute"), word(one, "unit")), true},
+                    {std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "–", true},
+                    {figure(number(one, "correlation")), true}});
+  }
+  if (rows.empty()) return;
+  page.section("Noise, and how it is known");
+  page.html(
+      table_html({"test", "channel", "how it is known", "absolute", "relative", "correlation of neighbours"}, rows));
+}
+
+}  // namespace
+
+void add_candidates(Page& page, const Folder& folder) {
+  const Json& diagnosis = member(folder.result(), "diagnosis");
+  Chart scores = ranking_chart(diagnosis);
+  if (scores.empty() && list(diagnosis, "causes").empty()) return;
+  page.section("Candidate causes");
+  add_ranking_table(page, diagnosis);
+  std::vector<std::string> alternatives;
+  for (const Json& pair : list(diagnosis, "alternatives")) alternatives.push_back(joined(words(pair)));
+  if (!alternatives.empty()) page.box("", "Pairs that together rival the cause", alternatives);
+  page.chart(std::move(scores), folder.address());
+}
+
+void add_extension(Page& page, const Folder& folder) {
+  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const Json& gain = member(diagnosis, "gain");
+  if (gain.is_object()) {
+    page.section("Gain");
+    const Json& wrong = member(gain, "best_wrong");
+    page.words({{"In these data",
+                 fmt::format("the sum of squares falls by {} (from {} to {})", figure(number(gain, "in_sample")),
+                             figure(number(gain, "before")), figure(number(gain, "after")))},
+                {"Where nothing is wrong",
+                 std::isfinite(number(gain, "expected_under_nothing"))
+                     ? "a fall of " + figure(number(gain, "expected_under_nothing")) + " would be expected"
+                     : ""},
+                {"Best of the other causes", wrong.is_object() ? fmt::format("{}: a fall of {}", word(wrong, "id"),
+                                                                             figure(number(wrong, "in_sample")))
+                                                               : ""}});
+    page.chart(gain_chart(gain), folder.address());
+  }
+  add_shifts(page, diagnosis);
+  const Json& stable = member(member(diagnosis, "admissibility"), "stable");
+  if (stable.is_boolean()) {
+    const Json& admissibility = member(diagnosis, "admissibility");
+    const std::string where = word(admissibility, "where"), remedy = word(admissibility, "remedy");
+    page.section("Admissibility");
+    page.box(stable == true ? "good" : "bad",
+             stable == true ? "The fitted material is stable where it was measured."
+                            : "The fitted material loses stability where it was measured.",
+             [&] {
+               std::vector<std::string> items;
+               if (!where.empty()) items.push_back(where);
+               if (!remedy.empty()) items.push_back(remedy);
+               return items;
+             }());
+  }
+}
+
+void add_diagnosis(Page& page, const Folder& folder) {
+  add_verdict(page, folder);
+  add_misfit(page, folder);
+  add_candidates(page, folder);
+  add_extension(page, folder);
+  add_reach(page, folder);
+  add_noise(page, member(folder.result(), "diagnosis"));
+  add_provenance(page, folder);
+}
+
+}  // namespace tunica::report

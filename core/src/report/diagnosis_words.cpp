@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/diagnosis_pieces.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+std::vector<std::string> named_causes(const Json& diagnosis) {
+  std::vector<std::string> ids;
+  for (const Json& mechanism : list(member(diagnosis, "extension"), "mechanisms"))
+    ids.push_back(word(mechanism, "type"));
+  if (ids.empty() && !list(diagnosis, "causes").empty()) ids.push_back(word(list(diagnosis, "causes").front(), "id"));
+  return ids;
+}
+
+std::string verdict_words(const Json& diagnosis) {
+  const std::string verdict = word(diagnosis, "verdict");
+  const std::string reasons = joined(words(list(diagnosis, "reasons")));
+  if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
+  if (verdict == "named")
+    return fmt::format("Named: the misfit is consistent with {}.", joined(named_causes(diagnosis)));
+  if (verdict == "indistinguishable")
+    return fmt::format("Indistinguishable: {} explain the misfit as well as each other.",
+                       joined(words(list(diagnosis, "ambiguity_set"))));
+  if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
+  if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
+  return verdict;
+}
+
+/// "fibre_dispersion of the material: 0.0165 (0.0135 … 0.0196), probability 0.997".
+std::string cause_words(const Json& cause) {
+  const Json& amplitude = member(cause, "amplitude");
+  const std::string unit = word(amplitude, "unit");
+  std::string text = fmt::format("{}{}: {} = {}", word(cause, "id"), place_words(member(cause, "target")),
+                                 word(amplitude, "name"), amount(number(amplitude, "value"), unit));
+  if (const Json& interval = member(amplitude, "ci95"); interval.is_array() && interval.size() == 2)
+    text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
+                        figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
+  if (member(amplitude, "plausible") == false) text += ", which is beyond what is plausible";
+  return text + fmt::format(", probability {}", figure(number(cause, "probability")));
+}
+
+std::string gain_words(const Json& diagnosis) {
+  const Json& gain = member(diagnosis, "gain");
+  if (!gain.is_object()) return "";
+  std::string text =
+      fmt::format("Sum of squares over the noise: {} before, {} after, over {} rows", figure(number(gain, "before")),
+                  figure(number(gain, "after")), figure(number(member(diagnosis, "base"), "rows")));
+  std::size_t better = 0;
+  const Json& blocks = list(gain, "held_out");
+  for (const Json& block : blocks) better += number(block, "after") < number(block, "before") ? 1 : 0;
+  if (!blocks.empty()) text += fmt::format("; better on {} of {} blocks that were held out", better, blocks.size());
+  return text + '.';
+}
+
+std::string next_words(const Json& diagnosis) {
+  const Json& next = member(diagnosis, "next_experiment");
+  const std::string verdict = word(diagnosis, "verdict");
+  std::string text = word(next, "description");
+  if (const double repeats = number(next, "repeats"); repeats > 1)
+    text += fmt::format(" Repeats: {}.", figure(repeats));
+  if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
+    text += fmt::format("{}tunica run {} fits the model with the cause added.", text.empty() ? "" : " ", file);
+  if (text.empty() && verdict == "nothing_detected")
+    text = "The fitted parameters can be used; what could still hide below the noise is listed under Reach.";
+  return text;
+}
+
+}  // namespace
+
+std::string place_words(const Json& target) {
+  if (!target.is_object()) return "";
+  std::vector<std::string> tests = words(list(target, "tests"));
+  if (tests.empty() && !word(target, "test").empty()) tests.push_back(word(target, "test"));
+  std::string text = tests.empty() ? "" : " in " + joined(tests);
+  if (const std::string channel = word(target, "channel"); !channel.empty()) text += ", " + channel;
+  if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row + 1);
+  return text;
+}
+
+void add_verdict(Page& page, const Folder& folder) {
+  const Json& diagnosis = member(folder.result(), "diagnosis");
+  const std::string verdict = word(diagnosis, "verdict");
+  page.section("Verdict");
+  page.paragraph(verdict_words(diagnosis), "verdict");
+  add_warnings(page, folder);
+  std::vector<std::string> where, causes;
+  for (const Json& misfit : list(diagnosis, "misfit"))
+    where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
+  for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
+  const double p = number(diagnosis, "p_value");
+  std::string sure =
+      fmt::format("{} that noise alone does this; {} is asked for.", chance(p), figure(number(diagnosis, "alpha")));
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after))
+    sure += fmt::format(" With the cause added {}: {}.", chance(after),
+                        after > number(diagnosis, "alpha") ? "nothing is left to explain" : "something is left still");
+  page.words({{"How sure", sure},
+              {"Where", fmt::format("{}", fmt::join(where, ". "))},
+              {"Cause", causes.size() > 3 ? joined({causes.begin(), causes.begin() + 3}) + ", and more below"
+                                          : fmt::format("{}", fmt::join(causes, ". "))},
+              {"Gain", gain_words(diagnosis)},
+              {"What to do next", next_words(diagnosis)}});
+  for (const Json& cause : list(diagnosis, "causes"))
+    if (const std::string text = word(cause, "explanation"); !text.empty()) page.paragraph(text);
+}
+
+}  // namespace tunica::report

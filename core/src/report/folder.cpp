@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "execution/files.hpp"
+#include "report/pieces.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::report {
+
+Folder::Folder(std::filesystem::path path, std::string address) : path_(std::move(path)), address_(std::move(address)) {
+  if (!std::filesystem::is_directory(path_))
+    throw InputError(fmt::format("{}: no such folder; name one that `tunica run`, `diagnose` or `simulate` has written",
+                                 path_.string()));
+  const auto file = path_ / "result.json";
+  if (!std::filesystem::exists(file)) {
+    if (tables("").empty())
+      throw InputError(
+          fmt::format("{}: holds neither result.json nor a table; name a folder that `tunica run`, `diagnose` or "
+                      "`simulate` has written, or finish the run with --resume",
+                      path_.string()));
+    kind_ = Kind::simulation;
+    return;
+  }
+  try {
+    result_ = Json::parse(execution::read_text(file));
+  } catch (const Json::exception& reason) {
+    throw InputError(fmt::format("{}: is not JSON ({}); run it again", file.string(), reason.what()));
+  }
+  if (!result_.is_object())
+    throw InputError(fmt::format("{}: expected an object at the top; run it again", file.string()));
+  if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
+}
+
+std::string Folder::name() const {
+  const std::string given = word(result_, "name");
+  if (!given.empty()) return given;
+  const auto last = path_.filename().empty() ? path_.parent_path().filename() : path_.filename();
+  return last.string();
+}
+
+std::optional<Table> Folder::table(const std::string& file) const {
+  std::string problem;
+  auto table = Table::read(path_ / file, problem);
+  if (!problem.empty() && std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
+    problems_.push_back(problem);
+  return table;
+}
+
+std::vector<std::string> Folder::tables(const std::string& prefix) const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".csv" && name.starts_with(prefix)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool Folder::has(const std::string& file) const { return std::filesystem::exists(path_ / file); }
+
+}  // namespace tunica::report

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/chart.hpp"
+#include "report/table.hpp"
+
+namespace tunica::report {
+
+/// What a result folder holds, and what of it could not be read.
+class Folder {
+ public:
+  enum class Kind { run, diagnosis, simulation };
+
+  /// Throws InputError where there is no such folder, a broken result.json, or nothing to report.
+  /// `address` is how the page reaches the folder, "" where the page lies in it.
+  explicit Folder(std::filesystem::path path, std::string address = "");
+
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] const std::string& address() const { return address_; }
+  [[nodiscard]] std::string name() const;
+  [[nodiscard]] const Json& result() const { return result_; }
+  /// Nothing where there is no such table; unreadable ones are remembered in problems().
+  [[nodiscard]] std::optional<Table> table(const std::string& file) const;
+  /// The names of the tables that begin so, in order.
+  [[nodiscard]] std::vector<std::string> tables(const std::string& prefix) const;
+  [[nodiscard]] bool has(const std::string& file) const;
+  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::filesystem::path path_;
+  std::string address_;
+  Kind kind_ = Kind::run;
+  Json result_ = Json::object();
+  mutable std::vector<std::string> problems_;
+};
+
+}  // namespace tunica::report

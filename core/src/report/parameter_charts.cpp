@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/sections.hpp"
+#include "report/thinning.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+constexpr std::size_t most_runs = 12;
+struct Kind {
+  const char *key, *name;
+};
+constexpr std::array<Kind, 3> kinds{
+    {{"ci95", "linearised"}, {"profile_ci95", "profile"}, {"bootstrap_ci95", "bootstrap"}}};
+
+std::pair<double, double> interval(const Json& estimate, const char* key) {
+  const Json& pair = member(estimate, key);
+  const auto end = [&](std::size_t k) {
+    return pair.is_array() && pair.size() == 2 && pair[k].is_number() ? pair[k].get<double>() : NAN;
+  };
+  return {end(0), end(1)};
+}
+
+std::string interval_words(const Json& estimate) {
+  std::vector<std::string> parts;
+  for (const Kind& kind : kinds) {
+    const auto [low, high] = interval(estimate, kind.key);
+    if (std::isfinite(low) || std::isfinite(high))
+      parts.push_back(
+          fmt::format("{} … {} ({}{})", std::isfinite(low) ? figure(low) : "below the bound",
+                      std::isfinite(high) ? figure(high) : "beyond the bound", kind.name,
+                      kind.key == std::string("ci95") && member(estimate, "ci95_reliable") == false ? ", rough" : ""));
+  }
+  return parts.empty() ? "not fixed by the data" : joined(parts);
+}
+
+void add_table(Page& page, const Order::Run& run) {
+  std::vector<std::vector<Cell>> rows;
+  const Json& best = member(*run.run, "best");
+  for (const auto& [name, estimate] : member(best, "parameters").items()) {
+    const std::string bound = word(estimate, "at_bound");
+    rows.push_back({{titled(name, word(estimate, "unit"))},
+                    {figure(number(estimate, "value")), true},
+                    {interval_words(estimate)},
+                    {fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))},
+                    {bound.empty() ? "" : "at its " + bound + " bound", false, true}});
+  }
+  for (const auto& [name, estimate] : member(*run.run, "fixed").items())
+    rows.push_back(
+        {{titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}, {""}, {""}});
+  if (rows.empty()) return;
+  page.heading(run.label);
+  page.html(table_html({"parameter", "value", "95 % interval", "bounds", ""}, rows));
+  for (const std::string& sentence : words(list(best, "uncertainty"))) page.paragraph(sentence, "muted");
+}
+
+/// One parameter of a model: value and intervals of its runs, above each other.
+Chart across_runs(const std::string& name, const std::vector<const Order::Run*>& runs) {
+  Chart chart;
+  chart.kind = "rows";
+  chart.id = "parameter_" + name;
+  chart.title = name;
+  std::array<RowSeries, kinds.size()> series;
+  std::array<bool, kinds.size()> used{true, false, false};
+  for (std::size_t k = 0; k < kinds.size(); ++k) series[k] = {kinds[k].name, static_cast<int>(k), {}};
+  for (const Order::Run* run : runs) {
+    const Json& estimate = member(member(member(*run->run, "best"), "parameters"), name);
+    chart.labels.push_back(run->label);
+    chart.x.title = titled(name, word(estimate, "unit"));
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const auto [low, high] = interval(estimate, kinds[k].key);
+      used[k] = used[k] || std::isfinite(low) || std::isfinite(high);
+      series[k].rows.push_back({k == 0 || std::isfinite(low) ? number(estimate, "value") : NAN, low, high, ""});
+    }
+  }
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    if (used[k]) chart.rows.push_back(std::move(series[k]));
+  chart.about = fmt::format("Value and 95 % interval of {} in each run", name);
+  return chart;
+}
+
+void add_profiles(Page& page, const Folder& folder, const Order& order) {
+  const auto files = folder.tables("profile_");
+  if (files.empty()) return;
+  page.heading("Profiles");
+  page.paragraph(
+      "How much worse the fit gets when one parameter is held away from its best value; below the line lies "
+      "the 95 % interval.");
+  page.begin_pair();
+  for (const std::string& file : files) {
+    const auto table = folder.table(file);
+    const auto value = table ? table->find("value") : std::nullopt;
+    if (!value) continue;
+    Chart chart;
+    const std::string name = file.substr(8, file.size() - 12);
+    chart.id = "profile_" + name;
+    chart.title = "Profile of " + name;
+    chart.about = "Loss of likelihood over the value of " + name;
+    chart.x.title = titled(name, table->columns()[*value].unit.value_or(""));
+    chart.y = {"2 Δ ln L", false, {0}, {}};
+    chart.files = {file};
+    double threshold = NAN;
+    for (const auto& [run, rows] : table->groups("run")) {
+      Series series{run, "both", static_cast<int>(order.place(run)), {}, {}, {}, {}};
+      for (const std::size_t row : rows) {
+        series.x.push_back(table->number(row, *value));
+        series.y.push_back(table->number(row, "delta"));
+        threshold = table->number(row, "threshold");
+      }
+      chart.series.push_back(std::move(series));
+    }
+    if (std::isfinite(threshold)) chart.rule(threshold, "95 %");
+    page.chart(std::move(chart), folder.address());
+  }
+  page.end_pair();
+}
+
+/// The draws of the bootstrap, two parameters at a time.
+void add_pairs(Page& page, const Folder& folder, const Order& order) {
+  const auto table = folder.table("bootstrap.csv");
+  const auto first = table ? table->find("objective") : std::nullopt;
+  if (!first) return;
+  page.heading("Parameter pairs of the bootstrap");
+  page.begin_pair();
+  std::size_t made = 0;
+  for (std::size_t a = *first + 1; a < table->columns().size(); ++a)
+    for (std::size_t b = a + 1; b < table->columns().size() && made < 10; ++b) {
+      Chart chart;
+      chart.title = table->columns()[a].name + " and " + table->columns()[b].name;
+      chart.id = "pair_" + table->columns()[a].name + '_' + table->columns()[b].name;
+      chart.about = "Every draw of the bootstrap, one symbol a draw";
+      chart.x.title = table->title(a);
+      chart.y.title = table->title(b);
+      chart.files = {"bootstrap.csv"};
+      for (const auto& [run, rows] : table->groups("run")) {
+        Series series{run, "points", static_cast<int>(order.place(run)), {}, {}, {}, {}};
+        const auto chosen = evenly(rows.size(), 400);
+        for (const std::size_t k : chosen)
+          if (const double x = table->number(rows[k], a), y = table->number(rows[k], b); std::isfinite(x + y)) {
+            series.x.push_back(x);
+            series.y.push_back(y);
+          }
+        if (rows.size() > chosen.size())
+          chart.note = fmt::format("{} of {} draws are shown.", chosen.size(), rows.size());
+        if (!series.x.empty()) chart.series.push_back(std::move(series));
+      }
+      if (chart.series.empty()) continue;
+      page.chart(std::move(chart), folder.address());
+      ++made;
+    }
+  page.end_pair();
+  if (made == 10) page.paragraph("The first ten pairs; bootstrap.csv has every parameter.", "muted");
+}
+
+}  // namespace
+
+void add_parameters(Page& page, const Folder& folder, const Order& order) {
+  page.section("Parameters");
+  const auto sentences = words(list(folder.result(), "identifiability"));
+  if (!sentences.empty()) page.box("", "What the data fix, and what they do not", sentences, 4);
+  std::vector<std::string> models;
+  for (const auto& run : order.runs())
+    if (std::find(models.begin(), models.end(), run.model) == models.end()) models.push_back(run.model);
+  for (const std::string& model : models) {
+    std::vector<const Order::Run*> runs;
+    for (const auto& run : order.runs())
+      if (run.model == model && member(*run.run, "best").is_object()) runs.push_back(&run);
+    if (runs.empty()) continue;
+    add_table(page, *runs.front());
+    if (runs.size() < 2) continue;
+    if (runs.size() > most_runs) {
+      page.paragraph(
+          fmt::format("The best {} of the {} runs of {}; result.json has all.", most_runs, runs.size(), model),
+          "muted");
+      runs.resize(most_runs);
+    }
+    page.begin_pair();
+    const Json parameters = member(member(*runs.front()->run, "best"), "parameters");
+    for (const auto& [name, estimate] : parameters.items()) {
+      Chart chart = across_runs(name, runs);
+      chart.id += '_' + model;
+      chart.files = {"ranking.csv", "statistics.csv"};
+      page.chart(std::move(chart), folder.address());
+    }
+    page.end_pair();
+  }
+  add_profiles(page, folder, order);
+  add_pairs(page, folder, order);
+}
+
+}  // namespace tunica::report

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::report {
+
+const Json& member(const Json& object, std::string_view key) {
+  static const Json nothing;
+  if (!object.is_object()) return nothing;
+  const auto found = object.find(std::string(key));
+  return found == object.end() ? nothing : *found;
+}
+
+const Json& list(const Json& object, std::string_view key) {
+  static const Json nothing = Json::array();
+  const Json& value = member(object, key);
+  return value.is_array() ? value : nothing;
+}
+
+std::string word(const Json& object, std::string_view key) {
+  const Json& value = member(object, key);
+  return value.is_string() ? value.get<std::string>() : "";
+}
+
+double number(const Json& object, std::string_view key) {
+  const Json& value = member(object, key);
+  return value.is_number() ? value.get<double>() : NAN;
+}
+
+std::vector<std::string> words(const Json& list) {
+  std::vector<std::string> result;
+  if (list.is_array())
+    for (const Json& entry : list)
+      if (entry.is_string()) result.push_back(entry.get<std::string>());
+  return result;
+}
+
+std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
+
+std::string amount(double value, const std::string& unit) {
+  return unit.empty() || unit == "1" || !std::isfinite(value) ? figure(value) : figure(value) + ' ' + unit;
+}
+
+std::string titled(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+}
+
+std::string chance(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+
+std::string joined(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    text += (k == 0 ? "" : k + 1 < items.size() ? ", " : " and ") + items[k];
+  return text;
+}
+
+std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
+  return count == 1 ? "one " + one : fmt::format("{} {}", count, many);
+}
+
+Order::Order(const Json& result) {
+  std::vector<const Json*> left;
+  for (const Json& run : list(result, "runs")) left.push_back(&run);
+  const auto take = [&](const std::string& label, const std::string& group, int rank) {
+    const auto at = std::find_if(left.begin(), left.end(), [&](const Json* run) { return word(*run, "run") == label; });
+    if (at == left.end()) return;
+    runs_.push_back({label, word(**at, "model"), word(**at, "optimizer"), group, *at, rank});
+    left.erase(at);
+  };
+  for (const Json& entry : list(result, "ranking")) {
+    const double rank = number(entry, "rank");
+    take(word(entry, "run"), word(entry, "group"), std::isfinite(rank) ? static_cast<int>(rank) : 0);
+  }
+  while (!left.empty()) {
+    const Json& run = *left.front();
+    runs_.push_back({word(run, "run"), word(run, "model"), word(run, "optimizer"), "", &run, 0});
+    left.erase(left.begin());
+  }
+}
+
+std::size_t Order::place(const std::string& label) const {
+  std::size_t found = runs_.size(), length = 0;
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    const std::string& known = runs_[k].label;
+    if (label == known) return k;
+    if (label.starts_with(known + ' ') && known.size() > length) found = k, length = known.size();
+  }
+  return found;
+}
+
+std::vector<std::string> Order::groups() const {
+  std::vector<std::string> names;
+  for (const Run& run : runs_)
+    if (std::find(names.begin(), names.end(), run.group) == names.end()) names.push_back(run.group);
+  return names;
+}
+
+std::string hidden_note(std::size_t count) {
+  return count <= shown_runs
+             ? ""
+             : fmt::format("The best {} of {} runs are shown; switch on the others in the legend. ", shown_runs, count);
+}
+
+}  // namespace tunica::report

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/chart.hpp"
+
+/// Small readers of JSON that may lack anything, and the same numbers in words everywhere.
+namespace tunica::report {
+
+/// The value of a key; null where there is none, or no object.
+const Json& member(const Json& object, std::string_view key);
+/// The list of a key; an empty one where there is none.
+const Json& list(const Json& object, std::string_view key);
+/// Text of a key; "" where there is none.
+std::string word(const Json& object, std::string_view key);
+/// Number of a key; NaN where there is none.
+double number(const Json& object, std::string_view key);
+/// The strings of a list.
+std::vector<std::string> words(const Json& list);
+
+/// Four digits, "–" for what is none.
+std::string figure(double value);
+/// "3.2 kPa"; nothing after numbers of unit 1.
+std::string amount(double value, const std::string& unit);
+/// "mu [kPa]"; just the name for unit 1.
+std::string titled(const std::string& name, const std::string& unit);
+/// "p = 0.03", "p < 0.0001".
+std::string chance(double p);
+/// "a, b and c".
+std::string joined(const std::vector<std::string>& items);
+/// "one run", "3 runs".
+std::string count_of(std::size_t count, const std::string& one, const std::string& many);
+
+/// The runs of result.json in the order of the ranking, those without rank last; the place is the run's colour in
+/// every chart of the report.
+class Order {
+ public:
+  explicit Order(const Json& result);
+  struct Run {
+    std::string label, model, optimizer, group;
+    const Json* run;  ///< in result.json
+    int rank;         ///< within the group; 0 = none
+  };
+  [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+  /// The place of a label, also of "label model" as tables of layered walls have it; the count where there is none.
+  [[nodiscard]] std::size_t place(const std::string& label) const;
+  [[nodiscard]] std::vector<std::string> groups() const;
+
+ private:
+  std::vector<Run> runs_;
+};
+
+/// How many runs a chart shows before the reader switches on others.
+constexpr std::size_t shown_runs = 5;
+/// What to say of the others; "" where all are shown.
+std::string hidden_note(std::size_t count);
+
+}  // namespace tunica::report

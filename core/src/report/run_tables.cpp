@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "report/sections.hpp"
+
+namespace tunica::report {
+
+void add_warnings(Page& page, const Folder& folder) {
+  const auto warnings = words(list(folder.result(), "warnings"));
+  if (!warnings.empty())
+    page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings, 3);
+}
+
+void add_ranking(Page& page, const Folder& folder, const Order& order) {
+  if (list(folder.result(), "ranking").empty()) return;
+  page.section("Ranking");
+  const auto groups = order.groups();
+  for (const std::string& group : groups) {
+    if (groups.size() > 1) page.heading(group.empty() ? "Without rank" : group);
+    std::vector<std::vector<Cell>> rows;
+    std::vector<bool> first;
+    for (const Json& entry : list(folder.result(), "ranking")) {
+      if (word(entry, "group") != group) continue;
+      const std::size_t place = order.place(word(entry, "run"));
+      const Json& run = place < order.runs().size() ? *order.runs()[place].run : entry;
+      const Json& best = member(run, "best");
+      const Json& stable = member(best, "stable");
+      const double rank = number(entry, "rank");
+      rows.push_back(
+          {{std::isfinite(rank) ? figure(rank) : "–", true},
+           {word(entry, "run")},
+           {figure(number(entry, "objective")), true},
+           {figure(number(entry, "delta_aicc")), true},
+           {fmt::format("{} / {}", figure(number(entry, "successes")), figure(number(run, "realisations"))), true},
+           {figure(number(entry, "expected_running_time")), true},
+           {figure(number(run, "evaluations")), true},
+           {figure(number(run, "failures")), true, number(run, "failures") > 0},
+           {figure(number(run, "seconds")), true},
+           {stable.is_boolean() ? (stable == true ? "yes" : "NO") : "–", false, stable == false},
+           {word(entry, "reason").empty() ? word(best, "status") : word(entry, "reason")}});
+      first.push_back(rank == 1);
+    }
+    page.html(table_html({"rank", "run", "objective", "ΔAICc", "successes", "evaluations for one success",
+                          "evaluations", "failed", "seconds", "stable", "status"},
+                         rows, first));
+  }
+  page.html("<p class=\"muted\">All columns: <a href=\"" + (folder.address().empty() ? "" : folder.address() + "/") +
+            "ranking.csv\">ranking.csv</a></p>\n");
+}
+
+void add_provenance(Page& page, const Folder& folder) {
+  const Json& provenance = member(folder.result(), "provenance");
+  if (!provenance.is_object()) return;
+  page.section("Provenance");
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const auto& [key, value] : provenance.items()) {
+    std::vector<std::string> parts = words(value);
+    if (value.is_object())
+      for (const auto& [name, version] : value.items())
+        parts.push_back(name + ' ' + (version.is_string() ? version.get<std::string>() : version.dump()));
+    lines.emplace_back(key, value.is_string()      ? value.get<std::string>()
+                            : value.is_primitive() ? value.dump()
+                                                   : fmt::format("{}", fmt::join(parts, ", ")));
+  }
+  page.words(lines);
+  if (!folder.problems().empty()) page.box("bad", "Tables that could not be read", folder.problems());
+}
+
+}  // namespace tunica::report

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "report/folder.hpp"
+#include "report/page.hpp"
+#include "report/pieces.hpp"
+
+/// What a report is made of. Each leaves out what the folder does not hold.
+namespace tunica::report {
+
+void add_warnings(Page& page, const Folder& folder);
+void add_provenance(Page& page, const Folder& folder);
+
+void add_run(Page& page, const Folder& folder);
+void add_summary(Page& page, const Folder& folder, const Order& order);
+void add_ranking(Page& page, const Folder& folder, const Order& order);
+void add_fits(Page& page, const Folder& folder, const Order& order);
+void add_searches(Page& page, const Folder& folder, const Order& order);
+void add_parameters(Page& page, const Folder& folder, const Order& order);
+void add_stability(Page& page, const Folder& folder, const Order& order);
+
+void add_diagnosis(Page& page, const Folder& folder);
+void add_verdict(Page& page, const Folder& folder);
+void add_misfit(Page& page, const Folder& folder);
+void add_candidates(Page& page, const Folder& folder);
+void add_extension(Page& page, const Folder& folder);
+void add_reach(Page& page, const Folder& folder);
+
+void add_simulation(Page& page, const Folder& folder);
+
+/// Several folders beside each other, before each by itself.
+void add_comparison(Page& page, const std::vector<Folder>& folders);
+
+}  // namespace tunica::report
