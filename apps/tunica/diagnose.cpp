@@ -21,6 +21,7 @@
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "tunica/error.hpp"
+#include "report/report.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -84,7 +85,9 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   write_outputs(directory.path(), found, experiment, session.catalogue());
   for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning, 100));
   if (!found.warnings.empty()) fmt::print("\n");
-  fmt::print("{}\nResults:  {}\n", diagnosis::summary(found), (directory.path() / "result.json").string());
+  const auto page = report::write_report(directory.path());
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
+             (directory.path() / "result.json").string());
   if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
 }

@@ -27,6 +27,7 @@
 #include "execution/runner.hpp"
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
+#include "report/report.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -191,13 +192,14 @@ int run(const GlobalOptions& global, const RunOptions& options) {
     return interrupted;
   }
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
+  const auto page = report::write_report(directory.path());
   fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
              comparison::ranking_table(summary));
   const auto code = judge(summary);
   if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
     fmt::print(stderr, "error: no evaluation succeeded; the first reason: {}\n", summary.runs.front().status.reason());
   const auto result = directory.path() / "result.json";
-  fmt::print("\nResults: {}\n{}\n", result.string(),
+  fmt::print("\nReport:  {}\nResults: {}\n{}\n", page.string(), result.string(),
              comparison::hanging("Next:    ", next_step(summary, options.file, result)));
   return code;
 }

@@ -12,6 +12,7 @@
 #include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "report/report.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -48,6 +49,7 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   for (const auto& [test, snapshots] : fields)
     for (const auto& path : comparison::write_snapshots(directory.path(), test, snapshots))
       fmt::print("{}\n", path.string());
+  fmt::print("{}\n", report::write_report(directory.path()).string());
   return done;
 }
 
