@@ -20,8 +20,8 @@
 #include "execution/files.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
-#include "tunica/error.hpp"
 #include "report/report.hpp"
+#include "tunica/error.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
