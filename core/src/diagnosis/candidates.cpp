@@ -216,15 +216,17 @@ class Search {
     for (const auto& setting : settings) by_options[options_key(mechanism, setting)].push_back(setting);
     for (const auto& [key, alike] : by_options) {
       std::vector<Hypothesis> singles;
+      Target all;  // one amplitude in every test where the mechanism can act
       for (const Target& target : targets) {
         try {
           add(mechanism, {id, target, alike.front()}, alike, singles);
+          if (!target.tests.empty()) all.tests.push_back(target.tests.front());
         } catch (const InputError& problem) {
           if (candidate.absent.empty()) candidate.absent = problem.what();
         }
       }
       const std::size_t count = singles.size();
-      if (mechanism.shared && targets.size() > 1) add_shared(singles);
+      if (mechanism.shared && all.tests.size() > 1) add(mechanism, {id, all, alike.front()}, alike, singles);
       if (takes(mechanism, "rows"))
         for (std::size_t k = 0; k < count; ++k) {
           std::vector<Hypothesis> rows;
@@ -300,26 +302,6 @@ class Search {
       if (std::abs(a.dot(b)) < another_shape * a.norm() * b.norm()) into.push_back(std::move(secant));
       return;
     }
-  }
-
-  /// One amplitude in all tests: signatures add up, as tests are independent rows. Of every test the hypotheses with
-  /// the same setting and sign.
-  static void add_shared(std::vector<Hypothesis>& singles) {
-    std::vector<Hypothesis> sums;
-    for (const Hypothesis& one : singles) {
-      const auto alike = std::find_if(sums.begin(), sums.end(), [&](const Hypothesis& sum) {
-        return sum.addition.setting == one.addition.setting && sum.side == one.side && sum.sign == one.sign &&
-               sum.at_large == one.at_large;
-      });
-      if (alike == sums.end()) {
-        sums.push_back(one);
-      } else if (one.signature.size() > 0 && alike->signature.size() > 0) {
-        alike->addition.target.tests.push_back(one.addition.target.tests.front());
-        alike->signature += one.signature;
-      }
-    }
-    for (Hypothesis& sum : sums)
-      if (sum.addition.target.tests.size() > 1) singles.push_back(std::move(sum));
   }
 
   const Experiment& experiment_;

@@ -45,14 +45,18 @@ class Search {
       if (d_.settings.quick && (place >= quick_refits || (place >= 4 && far))) break;
       for (const std::size_t k : likeliest(of_[singles[place].candidate])) jobs.push_back({place, k});
     }
+    for (std::size_t place = 0; place < singles.size(); ++place)
+      for (const std::size_t k : far_ones(of_[singles[place].candidate])) jobs.push_back({place, k, far_amplitude(k)});
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-      jobs[j].refitted = fit_with(d_, {hypothesis(jobs[j].direction).addition},
-                                  std::array{start_amplitude(jobs[j].direction)}, catalogue_);
+      jobs[j].refitted =
+          fit_with(d_, {hypothesis(jobs[j].direction).addition},
+                   std::array{jobs[j].amplitude.value_or(start_amplitude(jobs[j].direction))}, catalogue_);
     });
     std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain
     for (Job& job : jobs) {
       if (!job.refitted) continue;
-      gains[job.single][job.direction] = d_.fit.chi2 - job.refitted->fit.chi2;
+      double& gain = gains[job.single][job.direction];
+      gain = std::max(gain, d_.fit.chi2 - job.refitted->fit.chi2);
       Single& single = singles[job.single];
       if (!single.best || job.refitted->fit.chi2 < single.best->fit.chi2)
         single.best = std::move(job.refitted), single.direction = job.direction;
@@ -66,6 +70,7 @@ class Search {
  private:
   struct Job {
     std::size_t single, direction;
+    std::optional<double> amplitude = {};  ///< to begin at; none: what the score says
     std::optional<Refitted> refitted = {};
   };
 
@@ -101,6 +106,25 @@ class Search {
       seen.push_back(target), chosen.push_back(k);
     }
     return chosen;
+  }
+
+  /// Hypotheses whose shape changes with the amplitude, in all their tests at once where there are such: their optimum
+  /// may lie where no linearisation at the null looks, with other parameters (fibres taken up late, and stiffer).
+  [[nodiscard]] std::vector<std::size_t> far_ones(const std::vector<std::size_t>& of) const {
+    std::vector<std::size_t> common, single;
+    for (const std::size_t k : of) {
+      const Hypothesis& one = hypothesis(k);
+      if (one.at_large && one.mechanism->stage != Stage::history)
+        (one.addition.target.tests.size() == 1 ? single : common).push_back(k);
+    }
+    std::vector<std::size_t>& chosen = common.empty() ? single : common;
+    chosen.resize(std::min<std::size_t>(chosen.size(), 2));
+    return chosen;
+  }
+  [[nodiscard]] double far_amplitude(std::size_t direction) const {
+    const Hypothesis& one = hypothesis(direction);
+    const MechanismFactory& mechanism = *one.mechanism;
+    return 0.5 * (one.sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.plausible_min - mechanism.null);
   }
 
   /// Where the linearisation sees nothing on the admissible side, a tenth of a standard error of it.
