@@ -168,20 +168,22 @@ void add_reach(Page& page, const Folder& folder) {
   const Json& diagnosis = member(folder.result(), "diagnosis");
   page.section("Reach");
   std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> unseen;
   for (const Json& one : list(diagnosis, "detectable")) {
     const std::string unit = word(one, "unit"), absent = word(one, "absent");
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
                     {amount(number(one, "detectable"), unit), true},
                     {amount(number(one, "identifiable"), unit), true},
                     {word(one, "closest")},
-                    {figure(number(one, "correlation")), true},
-                    {absent}});
+                    {figure(number(one, "correlation")), true}});
+    if (!absent.empty()) unseen.push_back(word(one, "id") + ": " + absent);
   }
   if (!rows.empty()) {
     page.heading("What these data would show");
     page.paragraph("The least amplitude of each cause that would be detected, and that would be told from the others.");
-    page.html(table_html({"cause", "detected from", "told apart from", "most like", "likeness", "why not"}, rows));
+    page.html(table_html({"cause", "detected from", "told apart from", "most like", "likeness"}, rows));
   }
+  if (!unseen.empty()) page.box("", "What these data cannot show", unseen);
   add_confusability(page, folder);
 }
 

@@ -46,7 +46,7 @@ void add_ranking_table(Page& page, const Json& diagnosis) {
   const bool ranked = !list(diagnosis, "ranking").empty();
   for (const Json& one : list(diagnosis, ranked ? "ranking" : "causes")) {
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
-                    {figure(number(one, "probability")), true},
+                    {share(number(one, "probability")), true},
                     {figure(number(one, "score")), true},
                     {figure(number(one, "gain")), true}});
     first.push_back(std::find(named.begin(), named.end(), word(one, "id")) != named.end());

@@ -43,7 +43,7 @@ std::string cause_words(const Json& cause) {
     text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
                         figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
   if (member(amplitude, "plausible") == false) text += ", which is beyond what is plausible";
-  return text + fmt::format(", probability {}", figure(number(cause, "probability")));
+  return text + fmt::format(", probability {}", share(number(cause, "probability")));
 }
 
 std::string gain_words(const Json& diagnosis) {
@@ -59,17 +59,21 @@ std::string gain_words(const Json& diagnosis) {
   return text + '.';
 }
 
-std::string next_words(const Json& diagnosis) {
+std::vector<std::string> next_words(const Json& diagnosis) {
   const Json& next = member(diagnosis, "next_experiment");
   const std::string verdict = word(diagnosis, "verdict");
-  std::string text = word(next, "description");
-  if (const double repeats = number(next, "repeats"); repeats > 1)
-    text += fmt::format(" Repeats: {}.", figure(repeats));
+  std::vector<std::string> lines;
+  if (std::string text = word(next, "description"); !text.empty()) {
+    if (const double repeats = number(next, "repeats"); repeats > 1)
+      text += fmt::format(" Repeats: {}.", figure(repeats));
+    lines.push_back(std::move(text));
+  }
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
-    text += fmt::format("{}tunica run {} fits the model with the cause added.", text.empty() ? "" : " ", file);
-  if (text.empty() && verdict == "nothing_detected")
-    text = "The fitted parameters can be used; what could still hide below the noise is listed under Reach.";
-  return text;
+    lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
+  if (lines.empty() && verdict == "nothing_detected")
+    lines.emplace_back(
+        "The fitted parameters can be used; what could still hide below the noise is listed under Reach.");
+  return lines;
 }
 
 }  // namespace
@@ -95,17 +99,20 @@ void add_verdict(Page& page, const Folder& folder) {
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
   for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
   const double p = number(diagnosis, "p_value");
-  std::string sure =
-      fmt::format("{} that noise alone does this; {} is asked for.", chance(p), figure(number(diagnosis, "alpha")));
+  std::vector<std::string> sure{fmt::format("Noise alone would do this with {}; below {} counts as detected.",
+                                            chance(p), figure(number(diagnosis, "alpha")))};
   if (const double after = number(diagnosis, "p_after"); std::isfinite(after))
-    sure += fmt::format(" With the cause added {}: {}.", chance(after),
-                        after > number(diagnosis, "alpha") ? "nothing is left to explain" : "something is left still");
-  page.words({{"How sure", sure},
-              {"Where", fmt::format("{}", fmt::join(where, ". "))},
-              {"Cause", causes.size() > 3 ? joined({causes.begin(), causes.begin() + 3}) + ", and more below"
-                                          : fmt::format("{}", fmt::join(causes, ". "))},
-              {"Gain", gain_words(diagnosis)},
-              {"What to do next", next_words(diagnosis)}});
+    sure.push_back(
+        fmt::format("With the cause added {}: {}.", chance(after),
+                    after > number(diagnosis, "alpha") ? "nothing is left to explain" : "something is left still"));
+  const auto one = [](std::string text) {
+    return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
+  };
+  page.word_lists({{"How sure", sure},
+                   {"Where", where},
+                   {causes.size() > 1 ? "Causes" : "Cause", causes},
+                   {"Gain", one(gain_words(diagnosis))},
+                   {"What to do next", next_words(diagnosis)}});
   for (const Json& cause : list(diagnosis, "causes"))
     if (const std::string text = word(cause, "explanation"); !text.empty()) page.paragraph(text);
 }

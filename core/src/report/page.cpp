@@ -37,9 +37,23 @@ void Page::box(const char* kind, const std::string& head, const std::vector<std:
 }
 
 void Page::words(const std::vector<std::pair<std::string, std::string>>& pairs) {
-  body_ += "<dl class=\"words\">";
+  std::vector<std::pair<std::string, std::vector<std::string>>> lists;
   for (const auto& [name, text] : pairs)
-    if (!text.empty()) body_ += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped(name), escaped(text));
+    if (!text.empty()) lists.push_back({name, {text}});
+  word_lists(lists);
+}
+
+void Page::word_lists(const std::vector<std::pair<std::string, std::vector<std::string>>>& pairs, std::size_t shown) {
+  body_ += "<dl class=\"words\">";
+  for (const auto& [name, lines] : pairs) {
+    if (lines.empty()) continue;
+    body_ += fmt::format("<dt>{}</dt><dd>", escaped(name));
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (k == shown) body_ += fmt::format("<details><summary>{} more</summary>", lines.size() - shown);
+      body_ += fmt::format("<div>{}</div>", escaped(lines[k]));
+    }
+    body_ += lines.size() > shown ? "</details></dd>" : "</dd>";
+  }
   body_ += "</dl>\n";
 }
 

@@ -24,6 +24,8 @@ class Page {
            std::size_t shown = 6);
   /// Pairs of a name and words.
   void words(const std::vector<std::pair<std::string, std::string>>& pairs);
+  /// The same where a name has several lines; more than `shown` are folded away.
+  void word_lists(const std::vector<std::pair<std::string, std::vector<std::string>>>& pairs, std::size_t shown = 3);
   void command(const std::string& text);
   void html(std::string_view trusted) { body_ += trusted; }
   /// Draws it where it is put in; nothing for an empty chart. Its tables are looked for in `folder`, an address

@@ -39,7 +39,13 @@ std::vector<std::string> words(const Json& list) {
   return result;
 }
 
-std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
+std::string figure(double value) {
+  if (!std::isfinite(value)) return "–";
+  const bool whole = value == std::round(value) && std::abs(value) < 1e9;  // counts are not rounded
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+std::string share(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "< 0.0001" : fmt::format("{:.3g}", p); }
 
 std::string amount(double value, const std::string& unit) {
   return unit.empty() || unit == "1" || !std::isfinite(value) ? figure(value) : figure(value) + ' ' + unit;
@@ -97,6 +103,24 @@ std::vector<std::string> Order::groups() const {
   for (const Run& run : runs_)
     if (std::find(names.begin(), names.end(), run.group) == names.end()) names.push_back(run.group);
   return names;
+}
+
+bool Order::shown(std::size_t place) const {
+  if (place >= runs_.size()) return true;
+  const auto each = std::max<std::size_t>(1, shown_runs / groups().size());
+  std::size_t better = 0;
+  for (std::size_t k = 0; k < place; ++k) better += runs_[k].group == runs_[place].group ? 1 : 0;
+  return better < each;
+}
+
+std::string Order::note() const {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < runs_.size(); ++k) count += shown(k) ? 1 : 0;
+  return count == runs_.size() ? ""
+                               : fmt::format(
+                                     "The best of every group, {} of {} runs, are shown; switch on the others in "
+                                     "the legend. ",
+                                     count, runs_.size());
 }
 
 std::string hidden_note(std::size_t count) {

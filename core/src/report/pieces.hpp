@@ -23,6 +23,8 @@ std::vector<std::string> words(const Json& list);
 
 /// Four digits, "–" for what is none.
 std::string figure(double value);
+/// A probability; below 0.0001 it only says so.
+std::string share(double p);
 /// "3.2 kPa"; nothing after numbers of unit 1.
 std::string amount(double value, const std::string& unit);
 /// "mu [kPa]"; just the name for unit 1.
@@ -48,6 +50,10 @@ class Order {
   /// The place of a label, also of "label model" as tables of layered walls have it; the count where there is none.
   [[nodiscard]] std::size_t place(const std::string& label) const;
   [[nodiscard]] std::vector<std::string> groups() const;
+  /// Whether a chart of all runs shows this one from the start: the best of every group, about shown_runs in all.
+  [[nodiscard]] bool shown(std::size_t place) const;
+  /// What to say of those it does not show; "" where it shows all.
+  [[nodiscard]] std::string note() const;
 
  private:
   std::vector<Run> runs_;

@@ -43,12 +43,14 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
            {word(entry, "reason").empty() ? word(best, "status") : word(entry, "reason")}});
       first.push_back(rank == 1);
     }
-    page.html(table_html({"rank", "run", "objective", "ΔAICc", "successes", "evaluations for one success",
-                          "evaluations", "failed", "seconds", "stable", "status"},
+    page.html(table_html({"rank", "run", "objective", "ΔAICc", "successes", "per success", "evaluations", "failed",
+                          "seconds", "stable", "status"},
                          rows, first));
   }
-  page.html("<p class=\"muted\">All columns: <a href=\"" + (folder.address().empty() ? "" : folder.address() + "/") +
-            "ranking.csv\">ranking.csv</a></p>\n");
+  page.html(
+      "<p class=\"muted\">Per success: evaluations spent for one success, failed searches included. All columns: <a "
+      "href=\"" +
+      (folder.address().empty() ? "" : folder.address() + "/") + "ranking.csv\">ranking.csv</a></p>\n");
 }
 
 void add_provenance(Page& page, const Folder& folder) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,10 @@ void add_strips(Page& page, const Folder& folder, const Order& order, const Tabl
       series.y.push_back(table.number(row, "normal_stretch"));
     }
     for (auto& [place, series] : by_place) {
-      series.hidden = chart.series.size() >= shown_runs;
+      series.hidden = !order.shown(place);
       chart.series.push_back(std::move(series));
     }
-    chart.note += hidden_note(chart.series.size());
+    chart.note += order.note();
     page.chart(std::move(chart), folder.address());
   }
   page.end_pair();
@@ -175,12 +176,14 @@ void add_stability(Page& page, const Folder& folder, const Order& order) {
   if (!strips && maps.empty() && !folder.has("energy.csv")) return;
   page.section("Stability");
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const auto& run : order.runs()) {
+  for (std::size_t k = 0; k < order.runs().size(); ++k) {
+    const auto& run = order.runs()[k];
+    if (!order.shown(k)) continue;
     const Json& stability = member(member(*run.run, "best"), "stability");
-    std::string said = joined(words(list(stability, "sentences")));
+    std::string said = fmt::format("{}", fmt::join(words(list(stability, "sentences")), ". "));
     for (const auto& [model, one] : member(stability, "models").items())
       said += fmt::format("{}: {}. ", model, joined(words(list(one, "sentences"))));
-    if (!said.empty() && lines.size() < shown_runs) lines.emplace_back(run.label, said);
+    if (!said.empty()) lines.emplace_back(run.label, said);
   }
   page.words(lines);
   if (strips) add_strips(page, folder, order, *strips);
