@@ -128,7 +128,11 @@ TEST(Scorer, CountsANameByItselfOrWithADeclaredLookAlikeThatTheDataCannotTellApa
   const Figure right = figure(cases, "right name first given detection, Λ 60", declared);
   EXPECT_EQ(right.cases, 5U) << "undetected cases are not asked";
   EXPECT_NEAR(right.value, 0.8, 1e-12);
-  EXPECT_THAT(right.remark, HasSubstr("first alone 0.600"));
+  EXPECT_TRUE(oracle_named({true, "b", {}}, "b", {}));
+  EXPECT_TRUE(oracle_named({true, "a", {{"b", 0.95}}}, "b", declared));
+  EXPECT_FALSE(oracle_named({true, "a", {{"b", 0.95}}}, "b", {}));
+  EXPECT_FALSE(oracle_named({true, "a", {}}, "b", declared));
+  EXPECT_THAT(right.remark, HasSubstr("without look-alikes 0.600, \"unknown\" disregarded 0.600"));
 }
 
 TEST(Scorer, CallsAClaimWrongOnlyWhereItExcludesTheTruth) {

@@ -49,6 +49,24 @@ Eigen::MatrixXd largest_scores(const std::vector<Signature>& all, const Eigen::M
   return score;
 }
 
+/// The effect with the largest marginal likelihood, all its places to sit being equally likely beforehand: the mean of
+/// exp(z²/2) over its directions; of one-sided ones only the side that they have, which is then twice as likely.
+std::string most_likely(const std::vector<Signature>& all, const Eigen::VectorXd& z) {
+  std::map<const Effect*, std::pair<double, double>> sums;
+  const double largest = z.squaredNorm() > 0 ? z.cwiseAbs2().maxCoeff() : 0;  // against overflow
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const double c = z[static_cast<Eigen::Index>(m)];
+    auto& [sum, count] = sums[all[m].effect];
+    const double likelihood = std::exp((c * c - largest) / 2);
+    sum += !all[m].one_sided ? likelihood : c > 0 ? 2 * likelihood : 0;
+    count += 1;
+  }
+  const auto best = std::max_element(sums.begin(), sums.end(), [](const auto& a, const auto& b) {
+    return a.second.first / a.second.second < b.second.first / b.second.second;
+  });
+  return best->first->id;
+}
+
 /// Share of the sorted values that are at least as large.
 double upper_share(const std::vector<double>& sorted, double value) {
   const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value);
@@ -104,9 +122,23 @@ OracleVerdict ask_oracle(const SealedCase& made) {
   OracleVerdict verdict;
   verdict.p_value = (1.0 + static_cast<double>(as_small)) / (1.0 + draws);
   verdict.detected = verdict.p_value <= alpha;
-  Eigen::Index first = 0;
-  score.col(0).maxCoeff(&first);
-  verdict.first = catalogue()[static_cast<std::size_t>(first)].id;
+  verdict.first = most_likely(all, shapes.transpose() * r);
+  // The direction that scored, against every direction of the others.
+  Eigen::Index scored = 0;
+  double best = -1;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const double c = all[m].shape.dot(r), size = all[m].one_sided ? c : std::abs(c);
+    if (all[m].effect->id == verdict.first && size > best) best = size, scored = static_cast<Eigen::Index>(m);
+  }
+  const Eigen::VectorXd alike = (shapes.transpose() * shapes.col(scored)).cwiseAbs();
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const double c = alike[static_cast<Eigen::Index>(m)];
+    double& known = verdict.likeness[all[m].effect->id];
+    known = std::max(known, c);
+  }
+  constexpr double worth_telling = 0.9;
+  std::erase_if(verdict.likeness,
+                [&](const auto& one) { return one.second <= worth_telling || one.first == verdict.first; });
   return verdict;
 }
 

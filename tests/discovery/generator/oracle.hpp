@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+
 #include "sealed_case.hpp"
 
 namespace blind {
@@ -9,8 +11,9 @@ namespace blind {
 /// and the largest projected score of the catalogue, calibrated jointly – at the truth, on the very data of the case.
 struct OracleVerdict {
   double p_value = 1;
-  bool detected = false;  ///< at 5 %
-  std::string first;      ///< the effect with the largest score
+  bool detected = false;                   ///< at 5 %
+  std::string first;                       ///< the likeliest effect
+  std::map<std::string, double> likeness;  ///< of other effects to it on these data: largest correlations above 0.9
 };
 OracleVerdict ask_oracle(const SealedCase& made);
 

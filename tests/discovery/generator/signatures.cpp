@@ -22,8 +22,11 @@ std::vector<Target> targets(const Effect& effect) {
       for (std::size_t i = 0; i < strip_count; ++i) all.push_back({.strip = i, .tube = {}, .channel = {}, .row = {}});
       return all;
     case channel:
-    case points:
       for (std::size_t k = 0; k < channel_count; ++k) all.push_back({.strip = {}, .tube = {}, .channel = k, .row = {}});
+      return all;
+    case points:  // whole curves: of diameters, since other mechanisms shift those of forces
+      for (std::size_t k = strip_count; k < channel_count; k += 2)
+        all.push_back({.strip = {}, .tube = {}, .channel = k, .row = {}});
   }
   return all;
 }

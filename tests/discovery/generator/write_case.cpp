@@ -193,7 +193,10 @@ bool write(const Order& order, const fs::path& folder, bool oracle) {
   fs::create_directories(folder / "sealed");
   if (oracle) {
     const OracleVerdict verdict = ask_oracle(made);
-    const Json text{{"detected", verdict.detected}, {"p_value", verdict.p_value}, {"first", verdict.first}};
+    const Json text{{"detected", verdict.detected},
+                    {"p_value", verdict.p_value},
+                    {"first", verdict.first},
+                    {"likeness", verdict.likeness}};
     write_text(known, text.dump() + "\n");
   }
   if (written) return true;

@@ -166,7 +166,9 @@ Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) 
     for (const fs::path& file : {results / one.name / "oracle.json", cases / "sealed" / (one.name + ".oracle.json")}) {
       if (!fs::exists(file)) continue;
       const Json oracle = parsed(file, text_of(file));
-      one.oracle = Oracle{oracle.at("detected"), word(oracle, "first")};
+      one.oracle = Oracle{oracle.at("detected"), word(oracle, "first"), {}};
+      if (oracle.contains("likeness"))
+        one.oracle->likeness = oracle.at("likeness").get<std::map<std::string, double>>();
       break;
     }
   }

@@ -64,6 +64,7 @@ struct Verdict {
 struct Oracle {
   bool detected = false;
   std::string first;
+  std::map<std::string, double> likeness = {};  ///< of others to the first
 };
 
 struct Case {

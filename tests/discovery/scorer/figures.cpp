@@ -80,17 +80,20 @@ void detection(const Cases& cases, std::vector<Figure>& table) {
 void naming(const Cases& cases, const LookAlikes& look_alikes, std::vector<Figure>& table) {
   constexpr std::array<std::array<double, 3>, 3> rows{{{25, 0.80, 0.87}, {60, 0.93, 0.97}, {150, 0.97, 0.99}}};
   for (const auto& [lambda, pass, stretch] : rows) {
-    Share strict, counted, oracle;
+    Share strict, counted, oracle, whatever;
     for (const Case& one : cases) {
       if (!single(one) || one.truth.asked != lambda) continue;
-      if (one.oracle && one.oracle->detected) oracle.add(one.oracle->first == hidden(one));
+      if (one.oracle && one.oracle->detected) oracle.add(oracle_named(*one.oracle, hidden(one), look_alikes));
       const Verdict verdict = judged(one);
       if (!verdict.detected()) continue;
       strict.add(named_first(verdict, hidden(one)));
+      whatever.add(!verdict.causes.empty() && verdict.causes.front().id == hidden(one));
       counted.add(named_with_look_alike(verdict, hidden(one), look_alikes));
     }
-    std::string remark = strict.total == 0 ? "" : fmt::format("first alone {:.3f}", strict.value());
-    if (oracle.total > 0) remark += fmt::format(", oracle first {:.3f}", oracle.value());
+    std::string remark = strict.total == 0 ? ""
+                                           : fmt::format("without look-alikes {:.3f}, \"unknown\" disregarded {:.3f}",
+                                                         strict.value(), whatever.value());
+    if (oracle.total > 0) remark += fmt::format(", oracle {:.3f}", oracle.value());
     table.push_back(share(fmt::format("right name first given detection, Λ {:g}", lambda), counted, at_least(pass),
                           at_least(stretch), remark));
   }

@@ -19,6 +19,14 @@ bool holds(const std::vector<std::string>& all, const std::string& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Two that count for one another: declared of the first, and told apart by nothing in the data.
+bool interchangeable(const std::string& first, const std::string& truth, double likeness,
+                     const LookAlikes& look_alikes) {
+  constexpr double alike = 0.9;
+  const auto declared = look_alikes.find(first);
+  return declared != look_alikes.end() && holds(declared->second, truth) && std::abs(likeness) > alike;
+}
+
 }  // namespace
 
 double Share::low() const { return std::max(0.0, wilson(*this, -1)); }
@@ -55,11 +63,15 @@ bool named_with_look_alike(const Verdict& verdict, const std::string& truth, con
   if (named_first(verdict, truth)) return true;
   if (!verdict.detected() || verdict.verdict == "unknown" || verdict.causes.empty()) return false;
   const std::string& first = verdict.causes.front().id;
-  const auto declared = look_alikes.find(first);
   const auto likeness = verdict.confusable.find({std::min(first, truth), std::max(first, truth)});
-  constexpr double alike = 0.9;
-  return holds(verdict.ambiguity_set, truth) && declared != look_alikes.end() && holds(declared->second, truth) &&
-         likeness != verdict.confusable.end() && std::abs(likeness->second) > alike;
+  return holds(verdict.ambiguity_set, truth) && likeness != verdict.confusable.end() &&
+         interchangeable(first, truth, likeness->second, look_alikes);
+}
+
+bool oracle_named(const Oracle& oracle, const std::string& truth, const LookAlikes& look_alikes) {
+  const auto likeness = oracle.likeness.find(truth);
+  return oracle.first == truth ||
+         (likeness != oracle.likeness.end() && interchangeable(oracle.first, truth, likeness->second, look_alikes));
 }
 
 }  // namespace blind::score
