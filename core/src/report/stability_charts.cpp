@@ -180,7 +180,7 @@ void add_stability(Page& page, const Folder& folder, const Order& order) {
     const auto& run = order.runs()[k];
     if (!order.shown(k)) continue;
     const Json& stability = member(member(*run.run, "best"), "stability");
-    std::string said = fmt::format("{}", fmt::join(words(list(stability, "sentences")), ". "));
+    std::string said = fmt::format("{}", fmt::join(words(list(stability, "sentences")), "; "));
     for (const auto& [model, one] : member(stability, "models").items())
       said += fmt::format("{}: {}. ", model, joined(words(list(one, "sentences"))));
     if (!said.empty()) lines.emplace_back(run.label, said);
