@@ -8,10 +8,17 @@
 
 namespace tunica::report {
 
+void Page::part(const std::string& name) {
+  in_part_ = false;
+  body_ += "<hr>\n";
+  section(name);
+  in_part_ = true;
+}
+
 void Page::section(const std::string& heading) {
-  const std::string anchor = fmt::format("s{}", contents_.size() + 1);
+  const std::string anchor = fmt::format("s{}", ++sections_);
   body_ += fmt::format("<h2 id=\"{}\">{}</h2>\n", anchor, escaped(heading));
-  contents_.emplace_back(anchor, heading);
+  if (!in_part_) contents_.emplace_back(anchor, heading);
 }
 
 void Page::heading(const std::string& text) { body_ += fmt::format("<h3>{}</h3>\n", escaped(text)); }

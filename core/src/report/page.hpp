@@ -15,6 +15,8 @@ class Page {
  public:
   explicit Page(std::string title) : title_(std::move(title)) {}
 
+  /// The report of one of several folders begins; the contents list it instead of its sections.
+  void part(const std::string& name);
   /// A heading, and an entry of the contents.
   void section(const std::string& heading);
   void heading(const std::string& text);
@@ -42,6 +44,8 @@ class Page {
   std::string title_, body_;
   std::vector<std::pair<std::string, std::string>> contents_;
   Json charts_ = Json::array();
+  std::size_t sections_ = 0;
+  bool in_part_ = false;
 };
 
 /// A cell: text, or a number to be set right.

@@ -40,8 +40,7 @@ std::string report(const std::vector<std::filesystem::path>& folders, const std:
   Page page(fmt::format("{}: {}", title, read.size() == 1 ? word_of(read.front().kind()) : "comparison"));
   if (read.size() > 1) add_comparison(page, read);
   for (const Folder& folder : read) {
-    if (read.size() > 1) page.html("<hr>");
-    if (read.size() > 1) page.heading(fmt::format("{}: {}", folder.name(), folder.address()));
+    if (read.size() > 1) page.part(fmt::format("{}: {}", folder.name(), folder.address()));
     add_folder(page, folder);
   }
   return page.document();

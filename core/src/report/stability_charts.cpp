@@ -86,13 +86,15 @@ Chart energy_chart(const Folder& folder, const Table& table, const std::string& 
   if (!(largest > 0)) return chart;
   for (Json& value : values)
     if (value.is_null()) value = largest;
-  // Levels in equal ratios; energies of exponential models span many decades, of which the upper four are shown.
+  // Levels in equal ratios, up to the end of the equibiaxial path: a sheet pressed along both axes, which no test does,
+  // may hold many decades more.
+  if (const double end = table.number(rows.back(), "energy"); std::isfinite(end) && end > 0) largest = end;
   Json levels = Json::array();
   for (int k = 0; k <= 12; ++k) levels.push_back(short_number(largest * std::pow(10.0, -4 + k / 3.0) * 0.999));
   chart.id = "energy_" + run;
   chart.title = "Energy of a sheet, " + run;
   chart.about = "Isocontours of the strain energy over circumferential and axial stretch, with the paths of tests";
-  chart.note = "Three contours a decade, the upper four decades.";
+  chart.note = "Three contours a decade, four decades below the end of the equibiaxial path.";
   chart.x = {"circumferential stretch", false, {}, {{low - half, high + half}}};
   chart.y = {"axial stretch", false, {}, {{low - half, high + half}}};
   chart.files = {table.file_name()};

@@ -42,9 +42,9 @@ tunicaReport.specs = (() => {
   });
 
   const axes = (chart, size, more = {}) => [
-    {orient: "bottom", scale: "x", title: chart.x.title, grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
+    {orient: "bottom", scale: "x", title: chart.x.title, titleLimit: size.width - 60, grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
      ...(chart.x.log ? {format: "~g"} : {}), ...more.x},
-    {orient: "left", scale: "y", title: chart.y.title, grid: true, tickCount: 6,
+    {orient: "left", scale: "y", title: chart.y.title, titleLimit: size.height - 60, grid: true, tickCount: 6,
      ...(chart.y.log ? {format: "~g"} : {}), ...more.y},
   ];
 
@@ -79,8 +79,8 @@ tunicaReport.specs = (() => {
     const made = [];
     (chart.bands || []).forEach((band) => {
       const along = band.axis || "x", other = along === "x" ? {y: {value: 0}, y2: {signal: "height"}} : {x: {value: 0}, x2: {signal: "width"}};
-      made.push({type: "rect", clip: true, encode: {update: {...other, [along]: {scale: along, value: band.from},
-        [along + "2"]: {scale: along, value: band.to}, fill: {value: look.band}, fillOpacity: {value: 0.14}}}});
+      made.push({type: "rect", clip: true, encode: {update: {...other, [along]: {scale: along, value: band.from, offset: -3},
+        [along + "2"]: {scale: along, value: band.to, offset: 3}, fill: {value: look.band}, fillOpacity: {value: 0.14}}}});
     });
     (chart.rules || []).forEach((rule) => {
       const across = rule.axis === "x" ? {x: {scale: "x", value: rule.at}, y: {value: 0}, y2: {signal: "height"}}
@@ -106,14 +106,14 @@ tunicaReport.specs = (() => {
                    {type: "symbol", clip: true, from: {data: "cursor"}, encode: {update: {
                      x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, size: {value: 130}, fill: {value: "transparent"},
                      stroke: {value: look.text}, strokeWidth: {value: 2}}}}];
-    const contours = chart.field ? field(chart, look) : null;
+    const contours = chart.field ? field(chart, look, size) : null;
     if (contours) { sources.unshift(...contours.data); scales.push(...contours.scales); marks.unshift(...contours.marks); }
     return {...frame(chart, size), config: config(look), signals, scales, marks, data: [...sources, {name: "cursor", values: []}],
             axes: axes(chart, size), ...(contours ? {legends: contours.legends} : {})};
   };
 
   /// Isocontours of a square grid of values. Vega counts grid cells from the corner, half a cell outside the nodes.
-  const field = (chart, look) => ({
+  const field = (chart, look, size) => ({
     data: [{name: "grid", values: [{width: chart.field.columns, height: chart.field.rows, values: chart.field.values}]},
            {name: "contours", source: "grid", transform: [{type: "isocontour", as: "contour",
              thresholds: chart.field.levels, scale: {expr: "width / " + chart.field.columns}}]}],
@@ -122,7 +122,8 @@ tunicaReport.specs = (() => {
     marks: [{type: "path", clip: true, from: {data: "contours"}, transform: [{type: "geopath", field: "datum.contour"}],
              encode: {update: {fill: {scale: "level", field: "contour.value"}, fillOpacity: {value: 0.55},
                                stroke: {value: look.background}, strokeWidth: {value: 0.7}}}}],
-    legends: [{fill: "level", title: chart.field.title, format: "~g", gradientLength: 160}],
+    legends: [{fill: "level", title: chart.field.title, format: ".2~g", gradientLength: 160,
+               ...(size.width < 400 ? {orient: "bottom", direction: "horizontal"} : {})}],
   });
 
   /// One row a category: a bar or an interval, and values on it.
