@@ -27,7 +27,8 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
   NoiseModel model;
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::size_t row : rows) {
-    model.sd.push_back(std::hypot(noise.absolute, noise.relative * channel.values[row]) / std::sqrt(replicates));
+    const double y = noise.level.empty() ? channel.values[row] : noise.level[row];
+    model.sd.push_back(std::hypot(noise.absolute, noise.relative * y) / std::sqrt(replicates));
     if (model.sd.back() > 0) smallest = std::min(smallest, model.sd.back());
   }
   if (!std::isfinite(smallest)) {

@@ -14,6 +14,8 @@ namespace tunica::data {
 /// σ² = absolute² + (relative·y)²; correlation between neighbouring rows.
 struct Noise {
   double absolute = 0, relative = 0, correlation = 0;
+  /// y of every row, where something is known of it that is better than the measured value; empty = that.
+  std::vector<double> level = {};
 };
 
 /// first:last:step over the rows left after `where`, last exclusive, as in Python.

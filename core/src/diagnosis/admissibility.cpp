@@ -64,7 +64,7 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
   struct Trial {
     std::size_t candidate, direction;
     std::optional<Refitted> refitted = {};
-    double chi2 = INFINITY;
+    double chi2 = INFINITY, log_weight = 0;
     bool stable = false;
   };
   std::vector<Trial> trials;
@@ -94,21 +94,26 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
   std::erase_if(trials, [&](const Trial& trial) {
     return !trial.refitted || !trial.stable || trial.chi2 > d.fit.chi2 + set_width;
   });
-  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.chi2 < b.chi2; });
+  for (Trial& trial : trials) trial.log_weight = (d.fit.chi2 - trial.chi2) / 2 + log_prior(d, trial.direction);
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.log_weight > b.log_weight; });
   const std::string lost = "the base fit loses " + d.admissibility.where;
   if (trials.empty()) {
     d.verdict = Verdict::unknown;
     d.reasons.push_back(lost + ", and no mechanism of the catalogue gives an admissible fit that is as good");
     return;
   }
+  std::vector<double> logs;
+  for (const Trial& trial : trials) logs.push_back(trial.log_weight);
+  const double all = log_sum(logs);
   for (const Trial& trial : trials) {
-    if (trial.chi2 - trials.front().chi2 > set_width) continue;
+    if (2 * (trials.front().log_weight - trial.log_weight) > set_width) continue;
     Cause cause = cause_of(d, *trial.refitted, 0, d.directions[trial.direction], catalogue);
     cause.p_value = d.detection.by_candidate[trial.candidate];
+    cause.probability = std::exp(trial.log_weight - all);
     d.ambiguity_set.push_back(cause.id), d.rivals.push_back(*trial.refitted);
     d.causes.push_back(std::move(cause));
   }
-  for (Cause& cause : d.causes) cause.probability = 1.0 / static_cast<double>(d.causes.size());
   d.named = 1;
   d.extension = trials.front().refitted;
   d.verdict = d.causes.size() == 1   ? Verdict::named

@@ -131,4 +131,25 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
                     left));
 }
 
+void settle_noise(Diagnosis& d, const plugins::Catalogue& catalogue) {
+  const auto relative = [](const NoiseSource& source) { return source.noise.relative > 0; };
+  if (std::none_of(d.noise.begin(), d.noise.end(), relative)) return;
+  std::vector<double> predicted(d.base->prediction_count());
+  if (!d.base->predict(d.fit.free, predicted, {}, *d.base->make_workspace()).ok()) return;
+  for (const calibration::ChannelView& view : d.base->channels())
+    for (auto& test : d.experiment.tests) {
+      if (test.name != view.test) continue;
+      for (auto& [channel, noise] : test.data.noise)
+        if (channel == view.observable && noise.relative > 0) {
+          const auto first = predicted.begin() + static_cast<std::ptrdiff_t>(view.offset);
+          noise.level.assign(first, first + static_cast<std::ptrdiff_t>(view.count));
+        }
+    }
+  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  std::vector<Variable> variables;
+  for (std::size_t j = 0; j < d.base->parameters().size(); ++j) variables.push_back({j});
+  if (Fit fit = least_squares(*d.base, variables, d.fit.free, *d.base->make_workspace()); fit.status.ok())
+    d.fit = std::move(fit);
+}
+
 }  // namespace tunica::diagnosis

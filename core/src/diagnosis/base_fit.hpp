@@ -15,6 +15,11 @@ void prepare(Diagnosis& diagnosis, const experiment::Experiment& experiment, con
 /// std::runtime_error where nothing could be evaluated.
 void fit_base(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
+/// Relative noise is a share of the true value, not of the measured one: rows that happen to be measured low would seem
+/// better known than those measured high, and pull the fit down. From here on it is a share of what the base fit
+/// predicts. Fits again; without relative noise it does nothing.
+void settle_noise(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
+
 /// The rows of the whitened residuals by channel.
 std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise);
 

@@ -95,8 +95,8 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
         {parameter.name, parameter.unit, diagnosis.fit.free[j], refitted.fit.free[refitted.extended->base()[j]]});
   }
   cause.explanation =
-      fmt::format("Consistent with {} {}: {} Here {} = {}", addition.id, addition.target.words(), mechanism.cause,
-                  cause.amplitude.name, with_unit(cause.amplitude.value, cause.amplitude.unit));
+      fmt::format("The misfit is consistent with {} {}: {} Here {} = {}", addition.id, addition.target.words(),
+                  mechanism.cause, cause.amplitude.name, with_unit(cause.amplitude.value, cause.amplitude.unit));
   if (std::isfinite(cause.amplitude.low) && std::isfinite(cause.amplitude.high))
     cause.explanation += fmt::format(" ({} … {})", number(cause.amplitude.low), number(cause.amplitude.high));
   for (const Amplitude& nuisance : cause.nuisance)

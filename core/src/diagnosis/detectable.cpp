@@ -13,11 +13,19 @@ constexpr double equal_above = 0.999;
 
 }  // namespace
 
-double likeness(const std::vector<Direction>& directions, std::size_t one, std::size_t other) {
-  double largest = 0;
-  for (const Direction& a : directions)
-    for (const Direction& b : directions)
-      if (a.candidate == one && b.candidate == other) largest = std::max(largest, std::abs(a.unit.dot(b.unit)));
+Eigen::MatrixXd likeness(const std::vector<Direction>& directions, std::size_t candidates) {
+  const auto C = static_cast<Eigen::Index>(candidates), D = static_cast<Eigen::Index>(directions.size());
+  Eigen::MatrixXd largest = Eigen::MatrixXd::Zero(C, C);
+  if (D == 0) return largest;
+  Eigen::MatrixXd units(directions.front().unit.size(), D);
+  for (Eigen::Index k = 0; k < D; ++k) units.col(k) = directions[static_cast<std::size_t>(k)].unit;
+  const Eigen::MatrixXd correlations = units.transpose() * units;
+  for (Eigen::Index b = 0; b < D; ++b)
+    for (Eigen::Index a = 0; a < D; ++a) {
+      double& entry = largest(static_cast<Eigen::Index>(directions[static_cast<std::size_t>(a)].candidate),
+                              static_cast<Eigen::Index>(directions[static_cast<std::size_t>(b)].candidate));
+      entry = std::max(entry, std::abs(correlations(a, b)));
+    }
   return largest;
 }
 

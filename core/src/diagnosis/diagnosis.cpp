@@ -50,6 +50,7 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   prepare(d, experiment, catalogue);
   report(d, "fitting the base model", 0.05);
   fit_base(d, catalogue);
+  settle_noise(d, catalogue);
   report(d, "signatures of the mechanisms", 0.1);
   const Projection projection(interior(d.fit));
   d.candidates = candidates(d.experiment, d.run, settings, *d.base, d.fit.free, projection, catalogue);
@@ -68,15 +69,14 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
     d.p_refits = p_from_refits(d, detection, 199);
     alarm = *d.p_refits <= settings.alpha;
   }
-  if (alarm) {
-    report(d, "fitting the mechanisms", 0.4);
-    name_causes(d, detection, draws, shapes, catalogue);
-  } else if (settings.admissibility && d.admissibility.stable == false) {
-    name_admissible_extension(d, catalogue);
-  } else {
+  // What is no material is wrong however well it fits, where the user asks for it.
+  const bool inadmissible = settings.admissibility && d.admissibility.stable == false;
+  if (alarm || inadmissible) report(d, "fitting the mechanisms", 0.4);
+  if (inadmissible) name_admissible_extension(d, catalogue);
+  if (alarm && !d.extension) name_causes(d, detection, draws, shapes, catalogue);
+  if (!alarm && !inadmissible)
     d.reasons.push_back(
         fmt::format("what is left over could be noise (p = {:.2g})", d.p_refits.value_or(d.detection.p)));
-  }
   if (d.extension) {
     report(d, "gain on rows that were not fitted", 0.7);
     measure_gain(d, catalogue);

@@ -105,6 +105,7 @@ json diagnosis_json(const Diagnosis& d) {
                           {"correlation", one.correlation},
                           {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)}});
   json ranking = json::array();
+  const Eigen::MatrixXd alike = likeness(d.directions, d.candidates.size());
   for (const Ranked& one : d.ranking)
     ranking.push_back({{"id", one.id},
                        {"target", target_json(one.target)},
@@ -120,7 +121,7 @@ json diagnosis_json(const Diagnosis& d) {
             target_json(d.candidates[a].hypotheses[d.directions[d.detection.direction[a]].hypothesis].addition.target)},
            {"score", score(d.directions[d.detection.direction[a]], -d.fit.residuals).T}});
     for (std::size_t b = a + 1; b < d.candidates.size(); ++b)
-      if (const double c = likeness(d.directions, a, b); c > 0.9)
+      if (const double c = alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)); c > 0.9)
         confusable.push_back({{"id", d.candidates[a].id}, {"with", d.candidates[b].id}, {"correlation", c}});
   }
   for (const NoiseSource& source : d.noise)

@@ -31,7 +31,7 @@ std::string residual_table(const Diagnosis& d) {
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
-      const double sigma = std::hypot(curve.noise.noise.absolute, curve.noise.noise.relative * view.measured[row]);
+      const double sigma = std::hypot(curve.noise.noise.absolute, curve.noise.noise.relative * base[view.offset + row]);
       text += fmt::format(
           "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
           view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
@@ -54,13 +54,14 @@ std::string residual_table(const Diagnosis& d) {
 }
 
 std::string confusability_table(const Diagnosis& d) {
+  const Eigen::MatrixXd alike = likeness(d.directions, d.candidates.size());
   std::string text = "mechanism";
   for (const Candidate& candidate : d.candidates) text += "," + candidate.id;
   text += '\n';
   for (std::size_t a = 0; a < d.candidates.size(); ++a) {
     text += d.candidates[a].id;
     for (std::size_t b = 0; b < d.candidates.size(); ++b)
-      text += fmt::format(",{:.4f}", a == b ? 1.0 : likeness(d.directions, a, b));
+      text += fmt::format(",{:.4f}", a == b ? 1.0 : alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
     text += '\n';
   }
   return text;

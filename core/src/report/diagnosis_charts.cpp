@@ -148,12 +148,16 @@ void add_misfit(Page& page, const Folder& folder) {
   if (!table || !table->find("residual")) return;
   const Json& diagnosis = member(folder.result(), "diagnosis");
   auto curves = residual_curves(*table);
-  // Where something is wrong comes first.
-  std::stable_partition(curves.begin(), curves.end(), [&](const ResidualCurve& curve) {
-    Chart probe;
-    mark_misfit(probe, diagnosis, curve);
-    return !probe.bands.empty();
-  });
+  // Where something is wrong comes first, in the order of the verdict.
+  const auto& misfits = list(diagnosis, "misfit");
+  const auto place = [&](const ResidualCurve& curve) {
+    return std::find_if(misfits.begin(), misfits.end(),
+                        [&](const Json& misfit) {
+                          return word(misfit, "test") == curve.test && word(misfit, "channel") == curve.channel;
+                        }) -
+           misfits.begin();
+  };
+  std::stable_sort(curves.begin(), curves.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   page.section("Where the simulation is wrong");
   page.begin_pair();
   for (const auto& curve : curves) page.chart(residual_chart(*table, diagnosis, curve), folder.address());

@@ -68,14 +68,14 @@ std::vector<MechanismFactory> factories() {
       described("pressure_offset", "The pressure transducer was not zeroed, or stood higher or lower than the tube.",
                 tubes, {"value", "kPa", 0, -5, 5, Scale::linear, "True less measured pressure.", ""}, 2),
       shifted);
-  offset.look_alikes = {"tethering", "residual_stress", "diameter_scale_error"};
+  offset.look_alikes = {"residual_stress", "pressure_scale_error", "tethering"};
   offset.isolated_by = "a reading of the transducer at the height of the open tube";
 
   MechanismFactory gain = pressure_error(
       described("pressure_scale_error", "The pressure transducer's gain is wrong.", tubes,
                 {"gain", "1", 0, -0.5, 0.5, Scale::linear, "True over measured pressure, less one.", ""}, 0.2),
       scaled);
-  gain.look_alikes = {"axial_force_scale_error", "geometry_error", "tethering"};
+  gain.look_alikes = {"residual_stress", "tethering", "layered_wall"};
   gain.isolated_by = "a water column of known height on the transducer";
 
   MechanismFactory length = described(
@@ -83,7 +83,7 @@ std::vector<MechanismFactory> factories() {
       {"uniaxial"},
       {"strain", "1", 0, -0.2, 0.2, Scale::linear, "True over measured stretch, less one; the force is kept.", ""},
       0.1);
-  length.look_alikes = {"force_offset", "fibre_recruitment", "force_scale_error"};
+  length.look_alikes = {"force_scale_error", "specimen_misalignment", "force_offset"};
   length.isolated_by = "markers on the unloaded strip, or a second clamping";
   length.reference = "Sacks, J. Elasticity 61:199 (2000)";
   length.wrap_test = [id = length.id, amplitude = length.parameters.front()](std::unique_ptr<Test> base,
