@@ -30,7 +30,7 @@ TEST(Simulate, WritesWhatTheDataLookLike) {
   const auto ended =
       bench.tunica({"simulate", "experiment.json", "--model", "neo", "--parameters", "mu.json", "-o", "out"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(ended.out, "out/axial.csv\nout/circ.csv\n");
+  EXPECT_EQ(ended.out, "out/axial.csv\nout/circ.csv\nout/report.html\n");
   const auto text = bench.text("out/axial.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')), "lambda [percent],sigma [Pa]");
   // Neo-Hooke: sigma = mu (l^2 - 1/l), here in Pa.
