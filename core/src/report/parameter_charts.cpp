@@ -115,7 +115,10 @@ void add_profiles(Page& page, const Folder& folder, const Order& order) {
       }
       chart.series.push_back(std::move(series));
     }
-    if (std::isfinite(threshold)) chart.rule(threshold, "95 %");
+    if (std::isfinite(threshold)) {
+      chart.rule(threshold, "95 %");
+      chart.y.include.push_back(1.15 * threshold);  // room for the word
+    }
     page.chart(std::move(chart), folder.address());
   }
   page.end_pair();

@@ -145,7 +145,9 @@ void add_map(Page& page, const Folder& folder, const std::string& file) {
   chart.id = file.substr(0, file.size() - 4);
   chart.title = "Stability over two parameters";
   chart.about = "Largest slope of ln λ3 over ln stretch in free strips; above zero the material is unstable";
-  chart.note = "Above zero: unstable. " + file.substr(0, file.size() - 4);
+  chart.note =
+      "Above zero, the middle of the colours, the material is unstable; what lies far above shares the last colour. " +
+      file.substr(0, file.size() - 4);
   chart.x.title = table->title(0);
   chart.y.title = table->title(1);
   chart.files = {file};
@@ -165,7 +167,8 @@ void add_map(Page& page, const Folder& folder, const std::string& file) {
     chart.values.push_back(std::move(line));
   }
   if (low < high) {
-    chart.domain = {low, high};
+    const double reach = std::max(std::abs(low), 0.05);
+    chart.domain = {-reach, reach};
     page.chart(std::move(chart), folder.address());
   }
 }

@@ -26,7 +26,7 @@ tunicaReport.Figure = class {
     return made;
   }
 
-  legend() {
+  legend(look = tunicaReport.marks.theme()) {
     const bar = this.element.querySelector(".legend");
     bar.replaceChildren();
     if (this.chart.kind === "heat") return;
@@ -37,7 +37,7 @@ tunicaReport.Figure = class {
       button.type = "button";
       button.setAttribute("aria-pressed", String(!this.hidden.has(series.name)));
       const kind = this.chart.kind === "rows" ? {...series, mark: "points"} : series;
-      button.append(tunicaReport.marks.swatch(kind, tunicaReport.marks.theme()));
+      button.append(tunicaReport.marks.swatch(kind, look));
       this.add("span", "", button, series.name);
       button.addEventListener("click", () => {
         if (!this.hidden.delete(series.name)) this.hidden.add(series.name);

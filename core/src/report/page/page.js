@@ -15,6 +15,7 @@
   const pause = () => new Promise((resolve) => setTimeout(resolve));
 
   const all = async (look) => {
+    figures.forEach((figure) => figure.legend(look));
     for (const figure of figures) {
       await figure.draw(look).catch((problem) => fail(figure.element, problem));
       if (!look) await pause();
@@ -40,10 +41,9 @@
 
   document.getElementById("theme").addEventListener("click", () => {
     root.dataset.theme = tunicaReport.marks.theme() === tunicaReport.marks.themes.dark ? "light" : "dark";
-    figures.forEach((figure) => figure.legend());
     all();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { figures.forEach((figure) => figure.legend()); all(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => all());
   let width = innerWidth, waiting = 0;
   addEventListener("resize", () => {
     if (innerWidth === width) return;
