@@ -94,6 +94,17 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
   std::erase_if(trials, [&](const Trial& trial) {
     return !trial.refitted || !trial.stable || trial.chi2 > d.fit.chi2 + set_width;
   });
+  // The least extension: of those that mend it the ones with the fewest parameters, for the misfit is the lost
+  // stability, and what a further parameter does for the fit says nothing about that.
+  std::vector<std::string> larger;
+  const auto size = [&](const Trial& trial) { return d.candidates[trial.candidate].mechanism->parameters.size(); };
+  const auto least =
+      std::min_element(trials.begin(), trials.end(), [&](const Trial& a, const Trial& b) { return size(a) < size(b); });
+  const std::size_t fewest = least == trials.end() ? 0 : size(*least);
+  std::erase_if(trials, [&](const Trial& trial) {
+    if (size(trial) > fewest) larger.push_back(d.candidates[trial.candidate].id);
+    return size(trial) > fewest;
+  });
   for (Trial& trial : trials) trial.log_weight = (d.fit.chi2 - trial.chi2) / 2 + log_prior(d, trial.direction);
   std::stable_sort(trials.begin(), trials.end(),
                    [](const Trial& a, const Trial& b) { return a.log_weight > b.log_weight; });
@@ -120,6 +131,8 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
               : d.causes.size() <= 4 ? Verdict::indistinguishable
                                      : Verdict::unknown;
   d.reasons.push_back(fmt::format("{}; with {} the fit is as good and admissible", lost, d.causes.front().id));
+  if (!larger.empty())
+    d.reasons.push_back(fmt::format("so it is, with more parameters, with {}", fmt::join(larger, ", ")));
   d.admissibility.remedy = d.causes.front().id;
 }
 

@@ -9,7 +9,8 @@ namespace tunica::diagnosis {
 void judge_admissibility(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
 /// A fit that behaves as no material is a misfit of its own: the extensions by a mechanism of the model that fit as
-/// well as the base and are admissible; the one that fits best is named, others within naming's set width are rivals.
+/// well as the base and are admissible; of those with the fewest parameters the likeliest is named, others within
+/// naming's set width are rivals.
 void name_admissible_extension(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::diagnosis

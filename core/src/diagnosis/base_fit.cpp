@@ -39,6 +39,20 @@ std::vector<std::vector<double>> random_starts(const calibration::Assembly& asse
   return starts;
 }
 
+/// The predictions, moved by the mean residual of the seven rows around each: what is measured, with little of its
+/// noise.
+std::vector<double> smoothed(const calibration::ChannelView& view, std::span<const double> predicted) {
+  constexpr std::size_t half = 3;
+  std::vector<double> level(predicted.begin(), predicted.end());
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const std::size_t from = i < half ? 0 : i - half, to = std::min(view.count, i + half + 1);
+    double sum = 0;
+    for (std::size_t k = from; k < to; ++k) sum += view.measured[k] - predicted[k];
+    level[i] += sum / static_cast<double>(to - from);
+  }
+  return level;
+}
+
 }  // namespace
 
 std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise) {
@@ -141,8 +155,7 @@ void settle_noise(Diagnosis& d, const plugins::Catalogue& catalogue) {
       if (test.name != view.test) continue;
       for (auto& [channel, noise] : test.data.noise)
         if (channel == view.observable && noise.relative > 0) {
-          const auto first = predicted.begin() + static_cast<std::ptrdiff_t>(view.offset);
-          noise.level.assign(first, first + static_cast<std::ptrdiff_t>(view.count));
+          noise.level = smoothed(view, {predicted.data() + view.offset, view.count});
         }
     }
   d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);

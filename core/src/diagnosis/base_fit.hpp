@@ -17,7 +17,7 @@ void fit_base(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
 /// Relative noise is a share of the true value, not of the measured one: rows that happen to be measured low would seem
 /// better known than those measured high, and pull the fit down. From here on it is a share of what the base fit
-/// predicts. Fits again; without relative noise it does nothing.
+/// predicts and its residuals say in the mean of seven rows. Fits again; without relative noise it does nothing.
 void settle_noise(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
 /// The rows of the whitened residuals by channel.
