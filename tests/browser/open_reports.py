@@ -119,6 +119,22 @@ def check_use(browser, file, downloads):
     check_quiet(browser, file)
 
 
+def check_theme_and_paper(browser, file):
+    browser.look(1280, "dark")
+    browser.open(file)
+    paper = "return getComputedStyle(document.body).backgroundColor"
+    ink = "return document.querySelector('.canvas svg rect').getAttribute('fill')"
+    dark, drawn = browser.run(paper), browser.run(ink)
+    browser.run("document.getElementById('theme').click()")
+    time.sleep(0.5)
+    assert browser.run(paper) == "rgb(255, 255, 255)" != dark, "the button does not change the theme"
+    assert browser.run(ink) == "#ffffff" != drawn, "the charts do not follow the theme"
+    browser.run("document.getElementById('theme').click()")
+    browser.devtools("Emulation.setEmulatedMedia", media="print")
+    assert browser.run(paper) == "rgb(255, 255, 255)", "dark on paper"
+    browser.devtools("Emulation.setEmulatedMedia", media="screen")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--tunica", required=True)
@@ -147,6 +163,7 @@ def main():
             print(f"{name}: {figures} charts in {milliseconds} ms, {file.stat().st_size // 1024} KiB")
         browser.look(1280, "light")
         check_use(browser, files[0], downloads)
+        check_theme_and_paper(browser, files[0])
     many = (options.output / "many/report.html").read_text()
     assert "100 of 400 realisations are drawn" in many, "the report of 400 realisations does not say what it leaves out"
     return 0
