@@ -123,12 +123,12 @@ def check_theme_and_paper(browser, file):
     browser.look(1280, "dark")
     browser.open(file)
     paper = "return getComputedStyle(document.body).backgroundColor"
-    ink = "return document.querySelector('.canvas svg rect').getAttribute('fill')"
+    ink = "return getComputedStyle(document.querySelector('.canvas svg')).backgroundColor"
     dark, drawn = browser.run(paper), browser.run(ink)
     browser.run("document.getElementById('theme').click()")
     time.sleep(0.5)
     assert browser.run(paper) == "rgb(255, 255, 255)" != dark, "the button does not change the theme"
-    assert browser.run(ink) == "#ffffff" != drawn, "the charts do not follow the theme"
+    assert browser.run(ink) == "rgb(255, 255, 255)" != drawn, "the charts do not follow the theme"
     browser.run("document.getElementById('theme').click()")
     browser.devtools("Emulation.setEmulatedMedia", media="print")
     assert browser.run(paper) == "rgb(255, 255, 255)", "dark on paper"
