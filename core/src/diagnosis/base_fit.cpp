@@ -123,7 +123,7 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
   std::vector<Fit> fits(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
     const auto workspace = assembly.make_workspace();
-    fits[k] = least_squares(assembly, variables, starts[k], *workspace, 200);
+    fits[k] = least_squares(assembly, variables, starts[k], *workspace, k == 0 || !d.settings.quick ? 200 : 60);
   });
   const Fit* best = nullptr;
   for (const Fit& fit : fits)

@@ -94,8 +94,8 @@ struct Slope {
 /// The signature of an extension at the base fit, in whitened rows.
 ///
 /// Two-sided: exact where the Jacobian is, unless the simulation has a kink at the null (an opening angle, where fibres
-/// only pull): then one for each side. Else from simulations: with f(δ) even, [f(δ) − f(0)]/δ² at a small δ; with one
-/// side only, the parabola through f(0), f(δ), f(2δ) at 0.
+/// only pull): then one for each side. Else from simulations: with f(δ) even, the parabola of δ² through f(0), f(δ),
+/// f(2δ); with one side only, [f(δ) − f(0)]/δ at a thousandth of a plausible amplitude.
 std::vector<Slope> slopes_of(const Extended& extended, const MechanismFactory& mechanism,
                              const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
                              calibration::Assembly::Workspace& workspace) {
@@ -108,9 +108,9 @@ std::vector<Slope> slopes_of(const Extended& extended, const MechanismFactory& m
     return whitened(extended.assembly(), free, workspace, into, nullptr);
   };
   const auto one_sided = [&](double sign) -> Eigen::VectorXd {
-    Eigen::VectorXd near, far;
+    Eigen::VectorXd near;
     for (double step = sign * 1e-3 * reach; std::abs(step) > 1e-9 * reach; step /= 10)
-      if (at(step, near).ok() && at(2 * step, far).ok()) return (4 * near - 3 * bare - far) / (2 * std::abs(step));
+      if (at(step, near).ok()) return (near - bare) / std::abs(step);
     return {};
   };
   if (mechanism.side == Side::even) {
@@ -249,32 +249,72 @@ class Search {
  private:
   void add(const MechanismFactory& mechanism, const Addition& first,
            const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
-    const Extended extended(experiment_, run_, {first}, catalogue_);
-    const auto workspace = extended.assembly().make_workspace();
+    const Extended extended(experiment_, run_of(first.target), {first}, catalogue_);
+    const calibration::Assembly& assembly = extended.assembly();
+    const auto workspace = assembly.make_workspace();
+    const Extended::Part& part = extended.parts().front();
+    const std::vector<double> at_null = extended.at_null(fitted_in(extended));
     Eigen::VectorXd bare;
     Eigen::MatrixXd J;
-    for (const auto& setting : settings) {
-      const Extended::Part& part = extended.parts().front();
-      std::vector<double> null = extended.at_null(fitted_);
-      std::size_t k = 1;
-      for (const Variable& nuisance : part.nuisance) {
-        for (const auto& [name, value] : setting)
-          if (name == mechanism.parameters[k].name)
-            for (const std::size_t member : nuisance)
-              null[member] = std::clamp(value, extended.assembly().parameters()[member].min,
-                                        extended.assembly().parameters()[member].max);
-        ++k;
-      }
-      const bool exact = extended.assembly().jacobian_is_exact();
-      if (!whitened(extended.assembly(), null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      std::vector<double> null = at_null;
+      for (std::size_t k = 0; k < part.nuisance.size(); ++k)
+        for (const auto& [name, value] : settings[s])
+          if (name == mechanism.parameters[k + 1].name)
+            for (const std::size_t member : part.nuisance[k])
+              null[member] = std::clamp(value, assembly.parameters()[member].min, assembly.parameters()[member].max);
+      const bool exact = assembly.jacobian_is_exact();
+      // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
+      if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
       for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace)) {
-        Hypothesis tangent{
-            &mechanism, {first.id, first.target, setting}, std::move(slope.signature), slope.side, slope.sign};
-        if (tangent.signature.size() > 0 && tangent.side != MechanismFactory::Side::even)
+        if (slope.signature.size() == 0) continue;
+        Hypothesis tangent{&mechanism,
+                           {first.id, first.target, settings[s]},
+                           embedded(slope.signature, assembly),
+                           slope.side,
+                           slope.sign};
+        if (tangent.side != MechanismFactory::Side::even)
           for (const double sign : {1.0, -1.0}) add_secant(extended, tangent, sign, null, bare, *workspace, into);
         into.push_back(std::move(tangent));
       }
     }
+  }
+
+  /// Only the tests that a mechanism acts on have to be simulated; not so where that changes which models there are,
+  /// and with them the names of parameters.
+  [[nodiscard]] RunEntry run_of(const Target& target) const {
+    RunEntry run = run_;
+    if (target.tests.empty()) return run;
+    run.tests = target.tests;
+    return experiment_.models_of(run) == experiment_.models_of(run_) ? run : run_;
+  }
+
+  /// The fitted parameters that an extension has of the base, in its order.
+  [[nodiscard]] std::vector<double> fitted_in(const Extended& extended) const {
+    std::vector<double> values;
+    for (const std::size_t j : extended.base())
+      for (std::size_t k = 0; k < fitted_.size(); ++k)
+        if (base_.parameters()[k].name == extended.assembly().parameters()[j].name) values.push_back(fitted_[k]);
+    return values;
+  }
+
+  /// Residual rows of some tests among those of all.
+  [[nodiscard]] Eigen::VectorXd embedded(const Eigen::VectorXd& rows, const calibration::Assembly& from) const {
+    const auto fitted = [](const calibration::ChannelView& view) {
+      return static_cast<Eigen::Index>(std::count(view.fitted.begin(), view.fitted.end(), true));
+    };
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(base_.residual_count()));
+    Eigen::Index at = 0;
+    for (const calibration::ChannelView& view : from.channels()) {
+      Eigen::Index into = 0;
+      for (const calibration::ChannelView& own : base_.channels()) {
+        if (own.test == view.test && own.observable == view.observable)
+          all.segment(into, fitted(own)) = rows.segment(at, fitted(own));
+        into += fitted(own);
+      }
+      at += fitted(view);
+    }
+    return all;
   }
 
   /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
@@ -284,8 +324,8 @@ class Search {
                   std::vector<Hypothesis>& into) const {
     const MechanismFactory& mechanism = *tangent.mechanism;
     if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
-    // A channel's unit is not the mechanism's to know; what acts on data rows is linear.
-    if (!tangent.addition.target.channel.empty()) return;
+    // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.
+    if (!tangent.addition.target.channel.empty() || mechanism.stage == Stage::history) return;
     const double reach = sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.null - mechanism.plausible_min;
     if (!(reach > 0)) return;
     const Extended::Part& part = extended.parts().front();
@@ -295,7 +335,7 @@ class Search {
       for (const std::size_t member : part.amplitude) free[member] = part.null + sign * share * reach;
       if (!whitened(extended.assembly(), free, workspace, there, nullptr).ok()) continue;
       Hypothesis secant = tangent;
-      secant.signature = (there - bare) / (share * reach);
+      secant.signature = embedded((there - bare) / (share * reach), extended.assembly());
       secant.side = MechanismFactory::Side::positive, secant.sign = sign, secant.at_large = true;
       const Eigen::VectorXd a = projection_.off(secant.signature), b = projection_.off(tangent.signature);
       constexpr double another_shape = 0.97;

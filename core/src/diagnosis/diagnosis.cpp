@@ -19,7 +19,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t linear_draws = 10000;
+constexpr std::size_t linear_draws = 10000, quick_draws = 4000;
 
 void report(const Diagnosis& d, const std::string& what, double share) {
   if (d.settings.progress) d.settings.progress(what, share);
@@ -56,7 +56,8 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   d.candidates = candidates(d.experiment, d.run, settings, *d.base, d.fit.free, projection, catalogue);
   d.directions = directions(d.candidates, projection);
   const Shapes shapes = smooth_shapes(d.curves, d.fit.residuals.size());
-  const Eigen::MatrixXf draws = noise_draws(d.curves, d.fit.residuals.size(), linear_draws, settings.seed);
+  const Eigen::MatrixXf draws =
+      noise_draws(d.curves, d.fit.residuals.size(), settings.quick ? quick_draws : linear_draws, settings.seed);
   const Detection detection(projection, d.directions, d.candidates.size(), shapes, draws);
   d.detection = detection.judge(-d.fit.residuals);
   d.misfit = misfits(d);
