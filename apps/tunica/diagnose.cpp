@@ -166,8 +166,8 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
       "  tunica diagnose experiment.json -o results/a --quick\n"
       "  tunica diagnose experiment.json --mechanisms fibre_dispersion,force_offset\n"
       "  tunica diagnose --batch --quick cases/\n\n"
-      "Writes result.json, extended.json (the experiment with the cause added: `tunica run` takes it), residuals.csv,\n"
-      "confusability.csv and input.json. Exit code 0 whatever the verdict.");
+      "Writes report.html, result.json, extended.json (the experiment with the cause added: `tunica run` takes it),\n"
+      "residuals.csv, confusability.csv and input.json. Exit code 0 whatever the verdict.");
   verb->callback([&global, &action, options] {
     action = [&global, options] {
       return options->batch ? diagnose_batch(global, *options) : diagnose(global, *options);

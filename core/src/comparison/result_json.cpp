@@ -161,14 +161,10 @@ json run_json(const RunSummary& run) {
 json provenance_json(const Provenance& provenance) {
   json libraries = json::object();
   for (const auto& [library, version] : provenance.libraries) libraries[library] = version;
-  return {{"tunica", provenance.version},
-          {"plugins", provenance.plugins},
-          {"compiler", provenance.compiler},
-          {"libraries", std::move(libraries)},
-          {"seed", provenance.seed},
-          {"input_sha256", provenance.input_sha256},
-          {"data", provenance.data},
-          {"date", provenance.date}};
+  return {{"tunica", provenance.version},    {"plugins", provenance.plugins},
+          {"compiler", provenance.compiler}, {"libraries", std::move(libraries)},
+          {"seed", provenance.seed},         {"input_sha256", provenance.input_sha256},
+          {"data", provenance.data},         {"date", provenance.date}};
 }
 
 std::string result_json(const Summary& summary, const Provenance& provenance) {

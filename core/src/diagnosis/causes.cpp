@@ -56,6 +56,26 @@ std::pair<double, double> plausible_range(const Diagnosis& diagnosis, const Mech
   return {-INFINITY, INFINITY};
 }
 
+void explain(Cause& cause, const MechanismFactory& mechanism) {
+  cause.explanation =
+      fmt::format("The misfit is consistent with {} {}: {} Here {} = {}", cause.id, cause.target.words(),
+                  mechanism.cause, cause.amplitude.name, with_unit(cause.amplitude.value, cause.amplitude.unit));
+  if (std::isfinite(cause.amplitude.low) && std::isfinite(cause.amplitude.high))
+    cause.explanation += fmt::format(" ({} … {})", number(cause.amplitude.low), number(cause.amplitude.high));
+  for (const Amplitude& nuisance : cause.nuisance)
+    cause.explanation += fmt::format(", {} = {}", nuisance.name, with_unit(nuisance.value, nuisance.unit));
+  cause.explanation += '.';
+  if (!mechanism.look_alikes.empty()) {
+    cause.explanation += " Outside the reach of these data it resembles ";
+    for (std::size_t k = 0; k < mechanism.look_alikes.size(); ++k)
+      cause.explanation += (k == 0                                  ? ""
+                            : k + 1 == mechanism.look_alikes.size() ? " and "
+                                                                    : ", ") +
+                           mechanism.look_alikes[k];
+    cause.explanation += '.';
+  }
+}
+
 Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t which, const Direction& direction,
                const plugins::Catalogue& catalogue) {
   const Addition& addition = refitted.additions[which];
@@ -94,23 +114,7 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
     cause.shifts.push_back(
         {parameter.name, parameter.unit, diagnosis.fit.free[j], refitted.fit.free[refitted.extended->base()[j]]});
   }
-  cause.explanation =
-      fmt::format("The misfit is consistent with {} {}: {} Here {} = {}", addition.id, addition.target.words(),
-                  mechanism.cause, cause.amplitude.name, with_unit(cause.amplitude.value, cause.amplitude.unit));
-  if (std::isfinite(cause.amplitude.low) && std::isfinite(cause.amplitude.high))
-    cause.explanation += fmt::format(" ({} … {})", number(cause.amplitude.low), number(cause.amplitude.high));
-  for (const Amplitude& nuisance : cause.nuisance)
-    cause.explanation += fmt::format(", {} = {}", nuisance.name, with_unit(nuisance.value, nuisance.unit));
-  cause.explanation += '.';
-  if (!mechanism.look_alikes.empty()) {
-    cause.explanation += " Outside the reach of these data it resembles ";
-    for (std::size_t k = 0; k < mechanism.look_alikes.size(); ++k)
-      cause.explanation += (k == 0                                  ? ""
-                            : k + 1 == mechanism.look_alikes.size() ? " and "
-                                                                    : ", ") +
-                           mechanism.look_alikes[k];
-    cause.explanation += '.';
-  }
+  explain(cause, mechanism);
   return cause;
 }
 

@@ -10,6 +10,9 @@ namespace tunica::diagnosis {
 Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t which, const Direction& direction,
                const plugins::Catalogue& catalogue);
 
+/// The sentence, from the numbers of the cause.
+void explain(Cause& cause, const MechanismFactory& mechanism);
+
 /// Plausible amplitudes: as declared; of a mechanism that acts on a channel, whose unit it cannot know, what the
 /// channel spans.
 std::pair<double, double> plausible_range(const Diagnosis& diagnosis, const MechanismFactory& mechanism,

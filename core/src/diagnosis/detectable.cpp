@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/detectable.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,31 @@ namespace {
 constexpr double power_80 = 0.8416;     ///< quantile of the normal distribution
 constexpr double identified_at = 5.41;  ///< 2 · 1.645²: one of two is preferred with 95 % probability
 constexpr double equal_above = 0.999;
+
+/// Where the mechanism shows best at the null; of its nuisance settings, whose scales may differ by orders of
+/// magnitude, the one in the middle. Null where it shows nowhere.
+const Direction* typical(const Diagnosis& d, std::size_t candidate) {
+  std::vector<const Direction*> best;  // one a setting
+  const auto hypothesis = [&](const Direction& direction) -> const Hypothesis& {
+    return d.candidates[candidate].hypotheses[direction.hypothesis];
+  };
+  for (const Direction& direction : d.directions) {
+    if (direction.candidate != candidate) continue;
+    const Hypothesis& own = hypothesis(direction);
+    if (own.addition.target.row || own.at_large) continue;
+    const auto same = std::find_if(best.begin(), best.end(), [&](const Direction* other) {
+      return hypothesis(*other).addition.setting == own.addition.setting;
+    });
+    if (same == best.end())
+      best.push_back(&direction);
+    else if (direction.length > (*same)->length)
+      *same = &direction;
+  }
+  if (best.empty()) return nullptr;
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Direction* a, const Direction* b) { return a->length < b->length; });
+  return best[best.size() / 2];
+}
 
 }  // namespace
 
@@ -35,11 +61,7 @@ std::vector<Detectable> detectable(const Diagnosis& d, const Detection& detectio
     const Candidate& candidate = d.candidates[c];
     Detectable entry;
     entry.id = candidate.id, entry.unit = candidate.mechanism->parameters.front().unit;
-    const Direction* best = nullptr;
-    for (const Direction& direction : d.directions)
-      if (direction.candidate == c && !candidate.hypotheses[direction.hypothesis].addition.target.row &&
-          (!best || direction.length > best->length))
-        best = &direction;
+    const Direction* const best = typical(d, c);
     if (!best) {
       entry.absent = candidate.absent.empty() ? "a refit of the parameters absorbs it" : candidate.absent;
       entry.detectable = entry.identifiable = std::numeric_limits<double>::infinity();

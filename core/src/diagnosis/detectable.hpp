@@ -6,7 +6,7 @@
 namespace tunica::diagnosis {
 
 /// For every mechanism the least amplitude that these data would show with 80 % power at the level alpha, where it
-/// shows best,
+/// shows best (of several nuisance settings the one in the middle),
 ///
 ///   Λ = (√T_α + 0.84)²,  δ = √Λ/|s̃|   (even: δ² in place of δ),
 ///

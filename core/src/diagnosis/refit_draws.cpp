@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "diagnosis/causes.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::diagnosis {
@@ -31,7 +32,6 @@ double p_from_refits(const Diagnosis& d, const Detection& detection, std::size_t
 }
 
 void refine_intervals(Diagnosis& d, const plugins::Catalogue& catalogue) {
-  static_cast<void>(catalogue);
   const Refitted& extension = *d.extension;
   const Eigen::MatrixXf noise = noise_draws(d.curves, d.fit.residuals.size(), interval_draws,
                                             derive_seed(d.settings.seed, "refits of the extension"));
@@ -55,6 +55,7 @@ void refine_intervals(Diagnosis& d, const plugins::Catalogue& catalogue) {
       return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
     };
     d.causes[a].amplitude.low = at(0.025), d.causes[a].amplitude.high = at(0.975);
+    explain(d.causes[a], catalogue.mechanisms().at(d.causes[a].id).factory);
   }
 }
 

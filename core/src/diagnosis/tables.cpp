@@ -21,7 +21,8 @@ std::string residual_table(const Diagnosis& d) {
   const std::vector<double> extended =
       d.extension ? predicted(d.extension->extended->assembly(), d.extension->fit.free) : std::vector<double>();
   std::string text =
-      "test,channel,row,abscissa,abscissa_unit,value,unit,measured,predicted,extended,sigma,residual,residual_extended";
+      "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,residual_"
+      "extended";
   for (const Cause& cause : d.causes) text += ",signature_" + cause.id;
   text += '\n';
   std::size_t c = 0;
