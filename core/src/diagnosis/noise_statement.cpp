@@ -51,7 +51,9 @@ NoiseSource from_replicates(const data::Channel& channel) {
     for (const auto& replicate : channel.replicates) sum += std::pow(replicate[i] - channel.values[i], 2);
     d.level.push_back(std::abs(channel.values[i])), d.square.push_back(sum / (m - 1));
   }
-  if (!(*std::max_element(d.square.begin(), d.square.end()) > 0))
+  // Means of equal numbers round.
+  if (!(*std::max_element(d.square.begin(), d.square.end()) >
+        std::pow(1e-12 * *std::max_element(d.level.begin(), d.level.end()), 2)))
     throw InputError(
         fmt::format("channel '{}': the replicates are identical, so that they say nothing about noise; "
                     "state noise.absolute or noise.relative",
