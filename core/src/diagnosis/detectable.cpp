@@ -50,7 +50,7 @@ Eigen::MatrixXd likeness(const std::vector<Direction>& directions, std::size_t c
     for (Eigen::Index a = 0; a < D; ++a) {
       double& entry = largest(static_cast<Eigen::Index>(directions[static_cast<std::size_t>(a)].candidate),
                               static_cast<Eigen::Index>(directions[static_cast<std::size_t>(b)].candidate));
-      entry = std::max(entry, std::abs(correlations(a, b)));
+      entry = std::max(entry, std::min(1.0, std::abs(correlations(a, b))));
     }
   return largest;
 }
@@ -71,7 +71,7 @@ std::vector<Detectable> detectable(const Diagnosis& d, const Detection& detectio
     entry.target = candidate.hypotheses[best->hypothesis].addition.target, entry.retained = best->retained;
     for (const Direction& other : d.directions) {
       if (other.candidate == c) continue;
-      const double c_abs = std::abs(best->unit.dot(other.unit));
+      const double c_abs = std::min(1.0, std::abs(best->unit.dot(other.unit)));
       if (c_abs > entry.correlation) entry.correlation = c_abs, entry.closest = d.candidates[other.candidate].id;
     }
     const auto amplitude = [&](double Lambda) {
