@@ -42,6 +42,8 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
                     "smallest σ of the other rows, {:.4g} {}; state noise.absolute",
                     where, rows[k], smallest, channel.unit));
   }
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (std::find(noise.gross.begin(), noise.gross.end(), rows[k]) != noise.gross.end()) model.sd[k] *= 1000;
   if (noise.correlation == 0) return model;
   if (!(std::abs(noise.correlation) < 1)) {
     throw InputError(fmt::format("{}: noise.correlation {} is not between -1 and 1", where, noise.correlation));

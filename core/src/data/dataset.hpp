@@ -16,6 +16,8 @@ struct Noise {
   double absolute = 0, relative = 0, correlation = 0;
   /// y of every row, where something is known of it that is better than the measured value; empty = that.
   std::vector<double> level = {};
+  /// Rows whose values are gross errors: their σ is taken a thousandfold, so that they say nothing.
+  std::vector<std::size_t> gross = {};
 };
 
 /// first:last:step over the rows left after `where`, last exclusive, as in Python.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "diagnosis/causes.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/gain.hpp"
+#include "diagnosis/gross_rows.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/naming.hpp"
 #include "diagnosis/next_experiment.hpp"
@@ -43,45 +45,77 @@ const char* name_of(Verdict verdict) {
   return "unknown";
 }
 
-Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& settings,
-                   const plugins::Catalogue& catalogue) {
-  Diagnosis d;
-  d.settings = settings;
-  prepare(d, experiment, catalogue);
+namespace {
+
+/// Everything that judges the base fit, and whether it raises the alarm.
+struct Judgement {
+  Shapes shapes;
+  Eigen::MatrixXf draws;
+  std::unique_ptr<Detection> detection;
+  bool alarm = false;
+};
+
+Judgement judge(Diagnosis& d, const plugins::Catalogue& catalogue) {
+  Judgement judgement;
   report(d, "fitting the base model", 0.05);
   fit_base(d, catalogue);
   settle_noise(d, catalogue);
   report(d, "signatures of the mechanisms", 0.1);
   const Projection projection(interior(d.fit));
-  d.candidates = candidates(d.experiment, d.run, settings, *d.base, d.fit.free, projection, catalogue);
+  d.candidates = candidates(d.experiment, d.run, d.settings, *d.base, d.fit.free, projection, catalogue);
   d.directions = directions(d.candidates, projection);
-  const Shapes shapes = smooth_shapes(d.curves, d.fit.residuals.size());
-  const Eigen::MatrixXf draws =
-      noise_draws(d.curves, d.fit.residuals.size(), settings.quick ? quick_draws : linear_draws, settings.seed);
-  const Detection detection(projection, d.directions, d.candidates.size(), shapes, draws);
-  d.detection = detection.judge(-d.fit.residuals);
+  judgement.shapes = smooth_shapes(d.curves, d.fit.residuals.size());
+  judgement.draws =
+      noise_draws(d.curves, d.fit.residuals.size(), d.settings.quick ? quick_draws : linear_draws, d.settings.seed);
+  judgement.detection =
+      std::make_unique<Detection>(projection, d.directions, d.candidates.size(), judgement.shapes, judgement.draws);
+  d.detection = judgement.detection->judge(-d.fit.residuals);
+  judgement.alarm = d.detection.p <= d.settings.alpha;
+  if (!d.settings.quick) {
+    report(d, "refits of simulated data", 0.2);
+    d.p_refits = p_from_refits(d, *judgement.detection, 199);
+    judgement.alarm = *d.p_refits <= d.settings.alpha;
+  }
+  return judgement;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& settings,
+                   const plugins::Catalogue& catalogue) {
+  Diagnosis d;
+  d.settings = settings;
+  prepare(d, experiment, catalogue);
+  Judgement judgement = judge(d, catalogue);
+  std::vector<GrossRow> gross;
+  if (judgement.alarm) gross = gross_rows(d);
+  if (!gross.empty()) {
+    Diagnosis without;
+    without.settings = settings;
+    prepare(without, experiment, catalogue);
+    leave_out(without, gross, catalogue);
+    Judgement rest = judge(without, catalogue);
+    // Where something is wrong with the other rows too, the gross ones would only be in its way.
+    if (rest.alarm) d = std::move(without), judgement = std::move(rest), gross.clear();
+  }
   d.misfit = misfits(d);
-  d.detectable = detectable(d, detection);
+  d.detectable = detectable(d, *judgement.detection);
   judge_admissibility(d, catalogue);
 
-  bool alarm = d.detection.p <= settings.alpha;
-  if (!settings.quick) {
-    report(d, "refits of simulated data", 0.2);
-    d.p_refits = p_from_refits(d, detection, 199);
-    alarm = *d.p_refits <= settings.alpha;
-  }
   // What is no material is wrong however well it fits, where the user asks for it.
   const bool inadmissible = settings.admissibility && d.admissibility.stable == false;
+  const bool alarm = judgement.alarm;
   if (alarm || inadmissible) report(d, "fitting the mechanisms", 0.4);
   if (inadmissible) name_admissible_extension(d, catalogue);
-  if (alarm && !d.extension) name_causes(d, detection, draws, shapes, catalogue);
+  if (alarm && !d.extension && !gross.empty()) name_gross_rows(d, gross, catalogue);
+  if (alarm && !d.extension) name_causes(d, *judgement.detection, judgement.draws, judgement.shapes, catalogue);
   if (!alarm && !inadmissible)
     d.reasons.push_back(
         fmt::format("what is left over could be noise (p = {:.2g})", d.p_refits.value_or(d.detection.p)));
   if (d.extension) {
     report(d, "gain on rows that were not fitted", 0.7);
     measure_gain(d, catalogue);
-    d.gain->expected_under_nothing = detection.gain_of_nothing();
+    d.gain->expected_under_nothing = judgement.detection->gain_of_nothing();
     if (!settings.quick) refine_intervals(d, catalogue);
   }
   report(d, "the next experiment", 0.9);

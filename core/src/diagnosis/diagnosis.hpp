@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/detection.hpp"
 #include "diagnosis/hypotheses.hpp"
 #include "diagnosis/noise_statement.hpp"
 #include "diagnosis/scores.hpp"
@@ -57,6 +58,13 @@ struct Ranked {
   double probability = 0;
   double score = 0;            ///< T at the null, of the best hypothesis
   std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
+};
+
+/// A row that stands apart from its neighbours as no mechanism makes it.
+struct GrossRow {
+  std::string test, channel;
+  std::size_t row = 0;
+  double residual = 0;  ///< in σ
 };
 
 /// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.
@@ -121,6 +129,7 @@ struct Diagnosis {
   std::optional<double> noise_factor;  ///< times the stated noise at which what is left would be clean
   std::vector<std::string> reasons;    ///< of the verdict, in sentences
   std::vector<Misfit> misfit;
+  std::vector<GrossRow> gross;  ///< rows that were left out of everything
   std::vector<Cause> causes;    ///< of the best explanation first, then rivals
   std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm
   std::size_t named = 0;        ///< how many of the causes make up the best explanation

@@ -146,7 +146,7 @@ json diagnosis_json(const Diagnosis& d) {
                  {"alpha", d.settings.alpha},
                  {"p_value", d.p_refits ? *d.p_refits : d.detection.p},
                  {"p_smooth", d.detection.smooth},
-                 {"p_mechanisms", d.detection.largest},
+                 {"p_mechanisms", d.detection.mechanisms},
                  {"misfit", std::move(misfit)},
                  {"causes", std::move(causes)},
                  {"ambiguity_set", d.ambiguity_set},
@@ -167,6 +167,12 @@ json diagnosis_json(const Diagnosis& d) {
                  {"confusable", std::move(confusable)}};
   if (d.extension) result["extension"] = std::move(extension);
   if (d.extension && d.gain) result["gain"] = gain_json(*d.gain);
+  if (!d.gross.empty()) {
+    json rows = json::array();
+    for (const GrossRow& row : d.gross)
+      rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.row}, {"residual", row.residual}});
+    result["left_out"] = std::move(rows);
+  }
   if (d.extension) result["p_after"] = d.p_after;
   if (d.noise_factor) result["noise_factor"] = *d.noise_factor;
   if (d.next)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
@@ -23,11 +24,12 @@ constexpr double alike = 0.02;  ///< 1 − c² below which two are one
 
 class Search {
  public:
-  Search(const Diagnosis& d, const Detection& detection, const plugins::Catalogue& catalogue)
-      : d_(d), detection_(detection), catalogue_(catalogue) {}
+  Search(const Diagnosis& d, const Detection& detection, std::span<const Single> singles,
+         const plugins::Catalogue& catalogue)
+      : d_(d), detection_(detection), singles_(singles), catalogue_(catalogue) {}
 
-  std::vector<Group> pairs(const Single& best_single) {
-    const std::vector<std::size_t> pool = pool_of(best_single);
+  std::vector<Group> pairs() {
+    const std::vector<std::size_t> pool = pool_of(singles_.front());
     std::vector<Group> groups;
     for (std::size_t i = 0; i < pool.size(); ++i)
       for (std::size_t j = i + 1; j < pool.size(); ++j)
@@ -133,6 +135,16 @@ class Search {
     return kept;
   }
 
+  /// |r|² of a refit with the additions, which for a single one may have been made already.
+  [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes) const {
+    for (const Single& single : singles_)
+      if (single.best && additions.size() == 1 && single.best->additions.front().id == additions.front().id &&
+          single.best->additions.front().target == additions.front().target)
+        return single.best->fit.chi2;
+    const auto refitted = fit_with(d_, additions, amplitudes, catalogue_);
+    return refitted ? std::min(refitted->fit.chi2, d_.fit.chi2) : d_.fit.chi2;
+  }
+
   /// Each member loses significantly when it is taken out: the rest is fitted again without it.
   [[nodiscard]] bool all_needed(const Group& group) const {
     for (std::size_t out = 0; out < group.additions.size(); ++out) {
@@ -140,8 +152,7 @@ class Search {
       std::vector<double> amplitudes;
       for (std::size_t k = 0; k < group.additions.size(); ++k)
         if (k != out) rest.push_back(group.additions[k]), amplitudes.push_back(group.amplitudes[k]);
-      const auto without = fit_with(d_, rest, amplitudes, catalogue_);
-      const double before = without ? std::min(without->fit.chi2, d_.fit.chi2) : d_.fit.chi2;
+      const double before = squares_with(rest, amplitudes);
       const std::size_t candidate = d_.directions[group.directions[out]].candidate;
       if (before - group.refitted->fit.chi2 < detection_.threshold(candidate, second_alpha)) return false;
     }
@@ -150,19 +161,20 @@ class Search {
 
   const Diagnosis& d_;
   const Detection& detection_;
+  std::span<const Single> singles_;
   const plugins::Catalogue& catalogue_;
 };
 
 }  // namespace
 
-std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const Single& best_single,
+std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
                              const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, catalogue).pairs(best_single);
+  return Search(diagnosis, detection, singles, catalogue).pairs();
 }
 
 std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, const Group& pair,
                                const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, catalogue).triples(pair);
+  return Search(diagnosis, detection, {}, catalogue).triples(pair);
 }
 
 }  // namespace tunica::diagnosis

@@ -17,7 +17,7 @@ struct Group {
 
 /// All pairs in the linearisation, the best of them at finite amplitude; best first. A forward search would stay with
 /// the best single mechanism, which often belongs to no pair.
-std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const Single& best_single,
+std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
                              const plugins::Catalogue& catalogue);
 
 /// The pair with a third that explains most of what it leaves; empty where no third is needed.
@@ -25,7 +25,7 @@ std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& dete
                                const plugins::Catalogue& catalogue);
 
 /// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md.
-constexpr double set_width = 7;  ///< of 2 ln w
+constexpr double set_width = 5.2;  ///< of 2 ln w
 /// Residuals that have been explained by one mechanism are looked at again below this p-value, and another is accepted
 /// with fewer false alarms than the other.
 constexpr double look_again = 0.05, second_alpha = 0.01;

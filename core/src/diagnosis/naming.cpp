@@ -32,7 +32,7 @@ class Naming {
       one(p_one);
       return judge();
     }
-    groups_ = fit_pairs(d_, detection_, singles_.front(), catalogue_);
+    groups_ = fit_pairs(d_, detection_, singles_, catalogue_);
     if (groups_.empty()) {
       one(p_one);
       return p_one > second_alpha ? judge() : not_clean();

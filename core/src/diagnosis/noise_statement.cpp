@@ -65,7 +65,7 @@ NoiseSource from_replicates(const data::Channel& channel) {
   return source;
 }
 
-/// Σ d_k d_{k+1} and Σ d_k² of the standardised deviations of a channel.
+/// Σ d_k d_{k+1} and Σ (d_k² + d_{k+1}²)/2 of the standardised deviations of a channel, over pairs of neighbours.
 std::pair<double, double> neighbours(const data::Channel& channel, const data::Noise& noise) {
   double products = 0, squares = 0;
   for (const auto& replicate : channel.replicates) {
@@ -73,8 +73,8 @@ std::pair<double, double> neighbours(const data::Channel& channel, const data::N
     for (std::size_t i = 0; i < replicate.size(); ++i) {
       const double sd = std::hypot(noise.absolute, noise.relative * channel.values[i]);
       const double now = (replicate[i] - channel.values[i]) / sd;
-      if (i > 0) products += before * now;
-      squares += now * now, before = now;
+      if (i > 0) products += before * now, squares += (before * before + now * now) / 2;
+      before = now;
     }
   }
   return {products, squares};

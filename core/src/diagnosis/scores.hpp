@@ -21,6 +21,9 @@ struct Curve {
   NoiseSource noise;
 };
 
+/// An orthonormal basis of the columns, each brought to length one first; what is then shorter than `least` left out.
+Eigen::MatrixXd basis(Eigen::MatrixXd columns, double least);
+
 /// What a refit of the fitted parameters absorbs: an orthonormal basis of the columns of J.
 class Projection {
  public:
@@ -40,13 +43,17 @@ struct Direction {
   double length = 0;     ///< |s̃|
   double retained = 0;   ///< |s̃|/|s|
   MechanismFactory::Side side = MechanismFactory::Side::both;
-  double sign = 1;  ///< of the amplitude where the score is positive
+  double sign = 1;   ///< of the amplitude where the score is positive
+  bool row = false;  ///< of a single row
+  double share = 1;  ///< prior share among the directions of its candidate
 };
 
 /// Signatures that a refit absorbs but for this share are invisible: 0/0 would decide about them.
 constexpr double invisible = 1e-4;
 
-/// Projected signatures of all hypotheses; those that are absorbed are left out.
+/// Projected signatures of all hypotheses; those that are absorbed are left out. Prior shares: whole curves and single
+/// rows of a candidate are two kinds of equal weight, however many rows there are, and the directions of a kind are
+/// equal.
 std::vector<Direction> directions(const std::vector<Candidate>& candidates, const Projection& projection);
 
 /// T = (ŝᵀr)² of a direction and the amplitude ŝᵀr/|s̃|, with r = measured − predicted; one-sided where the mechanism
@@ -67,41 +74,5 @@ struct Shapes {
   std::vector<std::size_t> curve;  ///< of each column
 };
 Shapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows);
-
-/// The two tests for anything at all, calibrated by draws, and what each says.
-class Detection {
- public:
-  /// `draws` from noise_draws.
-  Detection(const Projection& projection, const std::vector<Direction>& directions, std::size_t candidate_count,
-            const Shapes& shapes, const Eigen::MatrixXf& draws);
-
-  struct Verdict {
-    double p = 1;                    ///< of the smaller of the two, calibrated
-    double smooth = 1, largest = 1;  ///< of the smooth omnibus and of the largest score, each by itself
-    double Q = 0;
-    std::vector<double> by_candidate;    ///< p-value of the largest score of each; 1 where it has none
-    std::vector<std::size_t> direction;  ///< that has it
-    std::vector<double> by_curve;        ///< p-value of the smooth shapes of each curve
-  };
-  [[nodiscard]] Verdict judge(const Eigen::VectorXd& residuals) const;
-  /// The score at which a candidate alone raises an alarm of this level.
-  [[nodiscard]] double threshold(std::size_t candidate, double alpha) const;
-  /// What the best mechanism gains on average where there is nothing to find.
-  [[nodiscard]] double gain_of_nothing() const { return gain_of_nothing_; }
-
- private:
-  [[nodiscard]] double candidate_p(std::size_t candidate, double T) const;
-  [[nodiscard]] double smooth_p(double Q) const;
-  [[nodiscard]] double combined_p(double smaller) const;
-
-  const std::vector<Direction>& directions_;
-  std::size_t candidates_;
-  Eigen::MatrixXd smooth_;  ///< orthonormal
-  std::vector<Eigen::MatrixXd> smooth_by_curve_;
-  double smooth_scale_ = 1, gain_of_nothing_ = 0;
-  std::vector<double> multiplicity_;   ///< K of p = K · P(χ²₁ > T) by candidate
-  std::vector<float> smallest_;        ///< of the draws, ascending
-  std::vector<float> smallest_score_;  ///< smallest p of a score, ascending
-};
 
 }  // namespace tunica::diagnosis

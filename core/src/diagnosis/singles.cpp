@@ -81,16 +81,13 @@ class Search {
 
   /// ln w, with gains at finite amplitude in place of T where they are known.
   [[nodiscard]] double weight(std::size_t candidate, const std::map<std::size_t, double>& gains) const {
-    std::array<std::vector<double>, 2> logs;  // whole curves, single rows
+    std::vector<double> logs;
     for (const std::size_t k : of_[candidate]) {
       const auto found = gains.find(k);
       const double T = found == gains.end() ? scores_[k].T : std::max(found->second, 0.0);
-      logs[hypothesis(k).addition.target.row ? 1 : 0].push_back(T / 2 + log_side(d_.directions[k].side, T));
+      logs.push_back(T / 2 + std::log(d_.directions[k].share) + log_side(d_.directions[k].side, T));
     }
-    std::vector<double> means;
-    for (const auto& kind : logs)
-      if (!kind.empty()) means.push_back(log_sum(kind) - std::log(static_cast<double>(kind.size())));
-    return log_sum(means) - std::log(static_cast<double>(means.size()));
+    return log_sum(logs);
   }
 
   /// The best hypothesis of a candidate, and of other targets those nearly as good.
@@ -152,13 +149,7 @@ double log_sum(const std::vector<double>& logs) {
 
 double log_prior(const Diagnosis& d, std::size_t direction) {
   const Direction& own = d.directions[direction];
-  const auto row = [&d](const Direction& other) {
-    return d.candidates[other.candidate].hypotheses[other.hypothesis].addition.target.row.has_value();
-  };
-  std::size_t alike = 0, others = 0;
-  for (const Direction& other : d.directions)
-    if (other.candidate == own.candidate) ++(row(other) == row(own) ? alike : others);
-  return -std::log(static_cast<double>(alike * (others > 0 ? 2 : 1))) + (own.side == Side::both ? 0 : std::log(2.0));
+  return std::log(own.share) + (own.side == Side::both ? 0 : std::log(2.0));
 }
 
 std::vector<Single> fit_singles(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue) {

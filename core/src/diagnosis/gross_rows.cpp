@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/gross_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/causes.hpp"
+#include "diagnosis/refits.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+constexpr double gross_score = 16, gross_contrast = 4;
+constexpr Eigen::Index most = 30;  ///< one row in so many
+
+std::string words(const std::vector<GrossRow>& rows) {
+  std::vector<std::string> all;
+  for (const GrossRow& row : rows)
+    all.push_back(fmt::format("row {} of {}, {} ({:+.1f} σ)", row.row, row.test, row.channel, row.residual));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+}  // namespace
+
+std::vector<GrossRow> gross_rows(const Diagnosis& d) {
+  const Eigen::MatrixXd J = interior(d.fit), Q = basis(J, 1e-8);
+  std::vector<GrossRow> found;
+  for (const Curve& curve : d.curves)
+    for (Eigen::Index k = 0; k < curve.count; ++k) {
+      const Eigen::Index i = curve.first + k;
+      const double r = -d.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
+      if (!(free > 0.05) || r * r / free < gross_score) continue;
+      double sum = 0;
+      int neighbours = 0;
+      for (const Eigen::Index other : {k - 1, k + 1})
+        if (other >= 0 && other < curve.count) sum -= d.fit.residuals[curve.first + other], ++neighbours;
+      if (neighbours == 0) continue;
+      const double contrast = (r - sum / neighbours) / std::sqrt(1 + 1.0 / neighbours);
+      if (std::abs(contrast) > gross_contrast)
+        found.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r});
+    }
+  if (static_cast<Eigen::Index>(found.size()) > std::max<Eigen::Index>(1, d.fit.residuals.size() / most)) found.clear();
+  std::stable_sort(found.begin(), found.end(),
+                   [](const GrossRow& a, const GrossRow& b) { return std::abs(a.residual) > std::abs(b.residual); });
+  return found;
+}
+
+void leave_out(Diagnosis& d, const std::vector<GrossRow>& rows, const plugins::Catalogue& catalogue) {
+  for (auto& test : d.experiment.tests)
+    for (auto& [channel, noise] : test.data.noise)
+      for (const GrossRow& row : rows)
+        if (row.test == test.name && row.channel == channel) noise.gross.push_back(row.row);
+  d.gross.insert(d.gross.end(), rows.begin(), rows.end());
+  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  d.warnings.push_back(fmt::format("left out as gross errors: {}; look at them in residuals.csv", words(rows)));
+}
+
+void name_gross_rows(Diagnosis& d, const std::vector<GrossRow>& rows, const plugins::Catalogue& catalogue) {
+  d.verdict = Verdict::suspect_data;
+  d.reasons.push_back(fmt::format("nothing is wrong but {}", words(rows)));
+  for (std::size_t k = 0; k < d.directions.size(); ++k) {
+    const Direction& direction = d.directions[k];
+    const Addition& addition = d.candidates[direction.candidate].hypotheses[direction.hypothesis].addition;
+    const GrossRow& worst = rows.front();
+    if (addition.target.row != worst.row || addition.target.tests.front() != worst.test ||
+        addition.target.channel != worst.channel)
+      continue;
+    const auto refitted = fit_with(d, {addition}, std::array{score(direction, -d.fit.residuals).amplitude}, catalogue);
+    if (!refitted) continue;
+    Cause cause = cause_of(d, *refitted, 0, direction, catalogue);
+    cause.probability = 1;
+    cause.p_value = d.detection.by_candidate[direction.candidate];
+    d.named = 1, d.extension = *refitted;
+    d.ambiguity_set.push_back(cause.id), d.rivals.push_back(*refitted);
+    d.causes.push_back(std::move(cause));
+    return;
+  }
+}
+
+}  // namespace tunica::diagnosis
