@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/scores.hpp"
+#include "diagnosis/detection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -141,12 +141,12 @@ TEST(Detection, HasUniformPValuesWhereThereIsNothingToFind) {
   const Linear linear;
   std::mt19937_64 generator(77);
   constexpr std::size_t count = 2000;
-  std::vector<double> together, smooth, largest;
+  std::vector<double> together, smooth, mechanisms;
   for (std::size_t k = 0; k < count; ++k) {
     const auto verdict = linear.detection->judge(linear.noise(generator));
-    together.push_back(verdict.p), smooth.push_back(verdict.smooth), largest.push_back(verdict.largest);
+    together.push_back(verdict.p), smooth.push_back(verdict.smooth), mechanisms.push_back(verdict.mechanisms);
   }
-  for (auto* p : {&together, &smooth, &largest}) {
+  for (auto* p : {&together, &smooth, &mechanisms}) {
     std::sort(p->begin(), p->end());
     double distance = 0;
     for (std::size_t k = 0; k < count; ++k)

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// `tunica diagnose` from outside, as a user has it.
+#include <gmock/gmock.h>
+
+#include "cli/process.hpp"
+#include "diagnosis/measured.hpp"
+
+namespace tunica::trial {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Ended tunica(const Measured& measured, const std::vector<std::string>& arguments) {
+  measured.save();
+  return trial::tunica(arguments, measured.folder.path());
+}
+
+json result(const Measured& measured, const std::string& directory) {
+  return json::parse(text_of(measured.folder.path() / directory / "result.json"));
+}
+
+/// Exit code 2, no results, and the message.
+std::string refused(const Measured& measured, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Ended ended = tunica(measured, arguments);
+  EXPECT_EQ(ended.code, 2) << ended.out;
+  EXPECT_EQ(ended.out, "");
+  EXPECT_FALSE(std::filesystem::exists(measured.folder.path() / "out" / "result.json"));
+  return ended.err;
+}
+
+/// Two strips of a wall with axial fibres, which gho does not have.
+struct WithAxialFibres : Measured {
+  WithAxialFibres() : Measured({{.sd = 0.6}, {.name = "axial", .sd = 0.6}}) {
+    measure(21, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
+  }
+};
+
+/// Whether the schema of results takes the document, and knows every key of its diagnosis.
+Ended validated(const std::filesystem::path& document) {
+  const std::string program = R"(
+import json, sys, jsonschema
+schema, document = (json.load(open(path)) for path in sys.argv[1:3])
+jsonschema.Draft7Validator(schema).validate(document)
+def close(part):
+    if isinstance(part, dict):
+        if "properties" in part and part.get("type") != "string":
+            part.setdefault("additionalProperties", False)
+        for inner in part.values():
+            close(inner)
+    elif isinstance(part, list):
+        for inner in part:
+            close(inner)
+close(schema["definitions"])
+jsonschema.Draft7Validator({"definitions": schema["definitions"], "$ref": "#/definitions/diagnosis"}).validate(document["diagnosis"])
+)";
+  return Process(
+             {TUNICA_PYTHON, "-c", program, TUNICA_SOURCE_DIR "/schemas/tunica-result.schema.json", document.string()},
+             document.parent_path())
+      .wait();
+}
+
+#define SKIP_WITHOUT_VALIDATOR(ended)                                        \
+  if ((ended).err.find("No module named 'jsonschema'") != std::string::npos) \
+  GTEST_SKIP() << "the independent validator is not installed (python3-jsonschema)"
+
+TEST(Diagnose, WritesTheSameWithOneThreadAsWithTwo) {
+  const WithAxialFibres measured;
+  for (const char* threads : {"1", "2"}) {
+    const Ended ended = tunica(measured, {"diagnose", "experiment.json", "-o", threads, "-j", threads});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+  }
+  json one = result(measured, "1"), two = result(measured, "2");
+  one["provenance"].erase("date"), two["provenance"].erase("date");
+  EXPECT_EQ(one.dump(1), two.dump(1));
+  for (const char* file : {"extended.json", "residuals.csv", "confusability.csv", "input.json"}) {
+    EXPECT_EQ(text_of(measured.folder.path() / "1" / file), text_of(measured.folder.path() / "2" / file)) << file;
+    EXPECT_FALSE(text_of(measured.folder.path() / "1" / file).empty()) << file;
+  }
+}
+
+TEST(Diagnose, WritesAnExtensionWhoseRunHasThePromisedMisfit) {
+  const WithAxialFibres measured;
+  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quiet"}).code, 0);
+  const json found = result(measured, "out")["diagnosis"];
+  ASSERT_EQ(found["extension"]["mechanisms"][0]["type"], "axial_fibres");
+  const Ended ran = tunica(measured, {"run", "out/extended.json", "-o", "extended", "--quiet"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const double after = found["gain"]["after"];
+  EXPECT_LT(after, found["gain"]["before"]);
+  EXPECT_NEAR(result(measured, "extended")["runs"][0]["best"]["objective"].get<double>(), after, 1e-4 * after);
+}
+
+TEST(Diagnose, WritesResultsThatTheSchemaKnows) {
+  const WithAxialFibres hidden;
+  const Measured bare;
+  bare.measure(22);
+  Measured wrong_row;
+  wrong_row.measure(23, {}, [](const Strip& strip, double stretch) {
+    return strip.name == "axial" && std::abs(stretch - 1.3) < 0.01 ? 6.0 : 0;
+  });
+  Measured unknown;
+  unknown.measure(24, {}, [](const Strip&, double stretch) { return 2 * std::sin(60 * stretch) * stretch; });
+  for (const Measured* measured : std::initializer_list<const Measured*>{&hidden, &bare, &wrong_row, &unknown}) {
+    ASSERT_EQ(tunica(*measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet"}).code, 0);
+    const Ended ended = validated(measured->folder.path() / "out" / "result.json");
+    SKIP_WITHOUT_VALIDATOR(ended);
+    EXPECT_EQ(ended.code, 0) << result(*measured, "out")["diagnosis"]["verdict"] << '\n' << ended.err;
+  }
+}
+
+TEST(Diagnose, TakesAlphaAndSeedFromTheCommandLineFirst) {
+  Measured measured;
+  measured.measure(25);
+  measured.experiment["diagnosis"] = {{"alpha", 0.01}};
+  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "file", "--quick", "--quiet"}).code, 0);
+  EXPECT_EQ(result(measured, "file")["diagnosis"]["alpha"], 0.01);
+  ASSERT_EQ(tunica(measured,
+                   {"diagnose", "experiment.json", "-o", "said", "--quick", "--quiet", "--alpha", "0.2", "--seed", "5"})
+                .code,
+            0);
+  const json said = result(measured, "said")["diagnosis"];
+  EXPECT_EQ(said["alpha"], 0.2);
+  // Other draws: the p-value is another, but not much.
+  EXPECT_NE(said["p_smooth"], result(measured, "file")["diagnosis"]["p_smooth"]);
+}
+
+TEST(Diagnose, ConsidersOnlyTheMechanismsAskedFor) {
+  const WithAxialFibres measured;
+  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet", "--mechanisms",
+                              "force_offset,axial_fibres"})
+                .code,
+            0);
+  const json found = result(measured, "out")["diagnosis"];
+  EXPECT_EQ(found["detectable"].size(), 2u);
+  EXPECT_EQ(found["causes"][0]["id"], "axial_fibres");
+}
+
+TEST(Diagnose, RefusesUnknownMechanisms) {
+  Measured measured;
+  EXPECT_THAT(refused(measured, {"--mechanisms", "force_ofset"}),
+              HasSubstr("--mechanisms: no loaded plugin provides the mechanism 'force_ofset'; `tunica list mechanisms` "
+                        "shows what there is"));
+  measured.experiment["diagnosis"]["mechanisms"] = {"force_ofset"};
+  EXPECT_THAT(refused(measured), AllOf(HasSubstr("/diagnosis/mechanisms"), HasSubstr("'force_ofset'"),
+                                       HasSubstr("Did you mean 'force_offset'?")));
+}
+
+TEST(Diagnose, RefusesWhatLeavesNothingToJudgeBy) {
+  Measured held_out;
+  for (const Strip& strip : held_out.strips) held_out.experiment["tests"][strip.name]["hold_out"] = true;
+  EXPECT_THAT(refused(held_out), HasSubstr("held out"));
+  const Measured short_one({{.stretch = {1.1, 1.2, 1.3}}});
+  EXPECT_THAT(refused(short_one),
+              HasSubstr("diagnosis: 3 parameters are fitted to 3 rows, which leaves nothing to judge by; fix "
+                        "parameters or give more rows"));
+}
+
+TEST(Diagnose, WarnsOfNoiseThatItHadToEstimate) {
+  Measured measured;
+  measured.measure(26);
+  measured.experiment["tests"]["axial"]["data"].erase("noise");
+  const Ended ended = tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("no noise is stated"));
+  const json found = result(measured, "out");
+  EXPECT_THAT(found["warnings"].dump(), HasSubstr("from differences of neighbouring rows"));
+  for (const json& noise : found["diagnosis"]["noise"])
+    EXPECT_EQ(noise["source"], noise["test"] == "axial" ? "differences" : "stated");
+}
+
+TEST(DiagnoseBatch, GoesThroughFoldersAndSkipsWhatIsDone) {
+  const Measured measured;
+  measured.measure(27);
+  measured.save();
+  const auto root = measured.folder.path() / "cases";
+  for (const char* name : {"a", "b", "empty"}) std::filesystem::create_directories(root / name);
+  for (const char* name : {"a", "b"})
+    for (const char* file : {"experiment.json", "circumferential.csv", "axial.csv"})
+      std::filesystem::copy_file(measured.folder.path() / file, root / name / file);
+  Ended ended = trial::tunica({"diagnose", "--batch", "--quick", "cases", "-o", "found"}, measured.folder.path());
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("2 diagnoses made, 0 failed"));
+  EXPECT_EQ(result(measured, "found/a")["diagnosis"], result(measured, "found/b")["diagnosis"]);
+  std::filesystem::remove(measured.folder.path() / "found/b/result.json");
+  std::filesystem::remove(root / "b" / "axial.csv");
+  ended = trial::tunica({"diagnose", "--batch", "--quick", "cases", "-o", "found"}, measured.folder.path());
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, HasSubstr("0 diagnoses made, 1 failed"));
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("cases/b"), HasSubstr("axial.csv")));
+}
+
+TEST(DiagnoseBatch, RefusesAFolderThatIsNotThere) {
+  const Measured measured;
+  const Ended ended = tunica(measured, {"diagnose", "--batch", "nowhere"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("--batch nowhere: no such folder; name one that holds folders with an "
+                                   "experiment.json each"));
+}
+
+}  // namespace
+}  // namespace tunica::trial
