@@ -186,7 +186,27 @@ TEST(Scorer, WantsBothOfAPairAndNothingElse) {
   const std::vector<Case> cases{saying({"b", "a"}), saying({"a"}), saying({"a", "b", "c"}), saying({"a", "c"})};
   EXPECT_NEAR(figure(cases, "two effects, exact pair, Λ 60 each").value, 0.25, 1e-12);
   EXPECT_NEAR(figure(cases, "two effects, false discoveries among the causes named").value, 2. / 8, 1e-12);
-  EXPECT_NEAR(figure(cases, "two effects, both among the causes").value, 0.5, 1e-12);
+}
+
+TEST(Scorer, CountsALookAlikeInAPairAndNoRivalOfIt) {
+  Case pair = of_set("pairs", "white", "indistinguishable");
+  pair.truth.asked = 60, pair.truth.effects = {{.id = "a", .target = {}}, {.id = "b", .target = {}}};
+  for (const auto* id : {"a", "twin_of_b", "rival"})
+    pair.verdict.causes.push_back({.id = id, .target = {}, .probability = {}, .amplitude = {}, .low = {}, .high = {}});
+  pair.verdict.ambiguity_set = {"a", "twin_of_b", "b", "rival"};
+  pair.verdict.confusable[{"b", "twin_of_b"}] = 0.95;
+  pair.verdict.together = 2;
+  const LookAlikes declared{{"twin_of_b", {"b"}}};
+  const auto counted = [](const std::vector<Figure>& table, const std::string& name) {
+    return std::find_if(table.begin(), table.end(), [&](const Figure& one) { return one.name == name; })->value;
+  };
+  const auto with = figures({pair}, declared), without = figures({pair}, {});
+  EXPECT_EQ(counted(with, "two effects, exact pair, Λ 60 each"), 1);
+  EXPECT_EQ(counted(with, "two effects, false discoveries among the causes named"), 0);
+  EXPECT_EQ(counted(without, "two effects, exact pair, Λ 60 each"), 0);
+  EXPECT_EQ(counted(without, "two effects, false discoveries among the causes named"), 0.5);
+  pair.verdict.verdict = "unknown";
+  EXPECT_EQ(counted(figures({pair}, declared), "two effects, exact pair, Λ 60 each"), 0);
 }
 
 TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {

@@ -101,6 +101,8 @@ Verdict read_verdict(const Json& from) {
   }
   for (const Json& one : part(part(from, "gain"), "held_out"))
     if (const auto p = number(one, "p_value")) verdict.held_out.push_back(*p);
+  if (const Json& mechanisms = part(part(from, "extension"), "mechanisms"); mechanisms.is_array())
+    verdict.together = mechanisms.size();
   return verdict;
 }
 

@@ -57,6 +57,8 @@ struct Verdict {
   std::vector<std::string> ambiguity_set;                            ///< ids
   std::map<std::pair<std::string, std::string>, double> confusable;  ///< projected correlations, either order
   std::vector<double> held_out;                                      ///< predictive p-values of blocks
+  /// How many causes make up the best explanation, the rest are its rivals; none = all.
+  std::optional<std::size_t> together = {};
   [[nodiscard]] bool detected() const { return verdict != "nothing_detected"; }
 };
 

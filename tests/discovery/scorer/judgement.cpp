@@ -60,12 +60,16 @@ bool named_first(const Verdict& verdict, const std::string& truth) {
 }
 
 bool named_with_look_alike(const Verdict& verdict, const std::string& truth, const LookAlikes& look_alikes) {
-  if (named_first(verdict, truth)) return true;
-  if (!verdict.detected() || verdict.verdict == "unknown" || verdict.causes.empty()) return false;
-  const std::string& first = verdict.causes.front().id;
-  const auto likeness = verdict.confusable.find({std::min(first, truth), std::max(first, truth)});
+  return verdict.detected() && verdict.verdict != "unknown" && !verdict.causes.empty() &&
+         stands_for(verdict, verdict.causes.front().id, truth, look_alikes);
+}
+
+bool stands_for(const Verdict& verdict, const std::string& named, const std::string& truth,
+                const LookAlikes& look_alikes) {
+  if (named == truth) return true;
+  const auto likeness = verdict.confusable.find({std::min(named, truth), std::max(named, truth)});
   return holds(verdict.ambiguity_set, truth) && likeness != verdict.confusable.end() &&
-         interchangeable(first, truth, likeness->second, look_alikes);
+         interchangeable(named, truth, likeness->second, look_alikes);
 }
 
 bool oracle_named(const Oracle& oracle, const std::string& truth, const LookAlikes& look_alikes) {
