@@ -57,12 +57,12 @@ std::vector<EffectRow> effects(const std::vector<Case>& cases, const LookAlikes&
 Verdict judged(const Case& one);
 /// The set that the verdict claims: the ambiguity set and the first cause.
 std::vector<std::string> claimed(const Verdict& verdict);
-/// First, or sharing the set with a first whose declared look-alike it is, correlation above 0.9 on these data.
 bool named_first(const Verdict& verdict, const std::string& truth);
 /// Whether a name counts for what was hidden: it is it, or its declared look-alike that the verdict does not tell
 /// apart.
 bool stands_for(const Verdict& verdict, const std::string& named, const std::string& truth,
                 const LookAlikes& look_alikes);
+/// First, or sharing the set with a first whose declared look-alike it is, correlation above 0.9 on these data.
 bool named_with_look_alike(const Verdict& verdict, const std::string& truth, const LookAlikes& look_alikes);
 /// The oracle's first, or so alike to it on these data and declared.
 bool oracle_named(const Oracle& oracle, const std::string& truth, const LookAlikes& look_alikes);
