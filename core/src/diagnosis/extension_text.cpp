@@ -70,6 +70,25 @@ std::string optimizer_of(Experiment& experiment, const std::string& asked, const
   return "lm";
 }
 
+/// A gross row that was left out gets a shift of its own, which leaves it out of a run as well. A test takes one such
+/// mechanism; where it has more gross rows, the run sees the others.
+void add_gross_rows(Experiment& experiment, const Diagnosis& d, const plugins::Catalogue& catalogue) {
+  const auto outliers = catalogue.mechanisms().find("outliers");
+  if (outliers == catalogue.mechanisms().end()) return;
+  for (const GrossRow& row : d.gross)
+    for (auto& test : experiment.tests) {
+      const bool there = std::any_of(test.mechanisms.begin(), test.mechanisms.end(),
+                                     [](const MechanismEntry& entry) { return entry.type == "outliers"; });
+      if (test.name != row.test || there) continue;
+      MechanismEntry entry{"outliers", {}, {}};
+      for (const Option& option : outliers->second.factory.options)
+        if (option.fallback) entry.options.set(option.name, *option.fallback);
+      entry.options.set("channel", row.channel);
+      entry.options.set("rows", fmt::format("{}:{}:1", row.row, row.row + 1));
+      test.mechanisms.push_back(std::move(entry));
+    }
+}
+
 }  // namespace
 
 std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& catalogue) {
@@ -87,6 +106,7 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
         if (auto* setting = setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.id, parameter.name)))
           setting->share = addition.id + "_" + parameter.name;
   }
+  add_gross_rows(experiment, d, catalogue);
   for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
     const std::string& name = assembly.parameters()[j].name;
     if (auto* setting = setting_of(experiment, models, name))

@@ -24,6 +24,21 @@ std::string words(const std::vector<GrossRow>& rows) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+/// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
+/// its standard deviations; 0 where a neighbour is almost as large, for then they are part of one shape.
+double contrast(const Diagnosis& d, const Curve& curve, Eigen::Index k) {
+  if (curve.count < 4) return 0;
+  const auto residual = [&](Eigen::Index row) { return -d.fit.residuals[curve.first + row]; };
+  const bool first = k == 0, last = k + 1 == curve.count;
+  const double near = first ? residual(1) : residual(k - 1), far = first  ? residual(2)
+                                                                   : last ? residual(k - 2)
+                                                                          : residual(k + 1);
+  const double r = residual(k), line = first || last ? 2 * near - far : (near + far) / 2;
+  constexpr double alone = 2.5;
+  if (std::abs(r) < alone * std::max(std::abs(near), std::abs(far))) return 0;
+  return (r - line) / std::sqrt(first || last ? 6.0 : 1.5);
+}
+
 }  // namespace
 
 std::vector<GrossRow> gross_rows(const Diagnosis& d) {
@@ -34,13 +49,7 @@ std::vector<GrossRow> gross_rows(const Diagnosis& d) {
       const Eigen::Index i = curve.first + k;
       const double r = -d.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
       if (!(free > 0.05) || r * r / free < gross_score) continue;
-      double sum = 0;
-      int neighbours = 0;
-      for (const Eigen::Index other : {k - 1, k + 1})
-        if (other >= 0 && other < curve.count) sum -= d.fit.residuals[curve.first + other], ++neighbours;
-      if (neighbours == 0) continue;
-      const double contrast = (r - sum / neighbours) / std::sqrt(1 + 1.0 / neighbours);
-      if (std::abs(contrast) > gross_contrast)
+      if (std::abs(contrast(d, curve, k)) > gross_contrast)
         found.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r});
     }
   if (static_cast<Eigen::Index>(found.size()) > std::max<Eigen::Index>(1, d.fit.residuals.size() / most)) found.clear();

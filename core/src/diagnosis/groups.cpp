@@ -2,6 +2,7 @@
 #include "diagnosis/groups.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -166,6 +167,10 @@ class Search {
 };
 
 }  // namespace
+
+double log_odds_of_pair(std::size_t candidates) {
+  return std::log(0.1) - std::log(std::max(1.0, (static_cast<double>(candidates) - 1) / 2));
+}
 
 std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
                              const plugins::Catalogue& catalogue) {

@@ -28,6 +28,10 @@ std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& dete
 constexpr double set_width = 5.2;  ///< of 2 ln w
 /// Residuals that have been explained by one mechanism are looked at again below this p-value, and another is accepted
 /// with fewer false alarms than the other.
-constexpr double look_again = 0.05, second_alpha = 0.01;
+constexpr double look_again = 0.03, second_alpha = 0.01;
+
+/// ln of the odds that two mechanisms are at work and not one, before the data, for each pair against each single one
+/// among C: two are in one data set of ten, and there are (C − 1)/2 times as many pairs.
+double log_odds_of_pair(std::size_t candidates);
 
 }  // namespace tunica::diagnosis

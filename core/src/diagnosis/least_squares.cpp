@@ -36,7 +36,7 @@ class Descent {
     const bool secant = !assembly_.jacobian_is_exact();
     if (fit.status = evaluate(r_, &J_); !fit.status.ok()) return fit;
     double squares = r_.squaredNorm(), damping = 1e-4, growth = 2;
-    bool fresh = true;
+    bool fresh = true, shortened = false;
     while (evaluations_ < max_evaluations) {
       const Eigen::VectorXd gradient = J_.transpose() * r_;
       std::vector<Eigen::Index> moving;
@@ -54,13 +54,18 @@ class Descent {
       const Eigen::VectorXd moved = trial - x_, linear = J_ * moved;
       const double expected = -(2 * r_.dot(linear) + linear.squaredNorm());
       if (!(expected > promised)) {
+        // A step that bounds cut off may lead up; one nearer to steepest descent does not.
+        if (expected <= 0 && (moved(moving) - step).norm() > 1e-9 * step.norm() && damping < 1e8) {
+          damping *= 10, shortened = true;
+          continue;
+        }
         // A secant Jacobian that sees no way down is asked again once, if anything has moved since it was exact.
         if (secant && !fresh && evaluations_ + 2 < max_evaluations && gained_ > 1) {
           if (!evaluate(r_, &J_).ok()) break;
           fresh = true, gained_ = 0;
           continue;
         }
-        if (damping < 1e-3 || expected <= 0) break;
+        if (damping < 1e-3 || expected <= 0 || shortened) break;
         damping /= 10;
         continue;
       }
@@ -78,7 +83,7 @@ class Descent {
         } else {
           J_.swap(J);
         }
-        gained_ += squares - now;
+        gained_ += squares - now, shortened = false;
         x_ = trial, r_.swap(r), squares = now;
         damping *= std::max(1.0 / 3, 1 - std::pow(2 * agreement - 1, 3)), growth = 2;
         damping = std::max(damping, 1e-12);

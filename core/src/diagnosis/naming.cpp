@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/math/distributions/chi_squared.hpp>
 
 #include "diagnosis/causes.hpp"
 #include "diagnosis/groups.hpp"
@@ -33,6 +34,10 @@ class Naming {
       return judge();
     }
     groups_ = fit_pairs(d_, detection_, singles_, catalogue_);
+    // Where the rest after one is doubtful only, two must be worth their price.
+    if (p_one > second_alpha && !groups_.empty() &&
+        groups_.front().log_weight + log_odds_of_pair(singles_.size()) < singles_.front().log_weight)
+      groups_.clear();
     if (groups_.empty()) {
       one(p_one);
       return p_one > second_alpha ? judge() : not_clean();
@@ -81,7 +86,17 @@ class Naming {
   }
   [[nodiscard]] double p_of_rest(const Refitted& refitted) const {
     const Rest rest = rest_of(refitted);
-    return rest.detection->judge(-refitted.fit.residuals).p;
+    const double p = rest.detection->judge(-refitted.fit.residuals).p;
+    // Shapes that are neither smooth nor of the catalogue: |r|² itself, where the noise is known. It takes noise that
+    // is a little larger than stated for a misfit, and therefore counts only where it is beyond doubt.
+    const bool known = std::all_of(d_.noise.begin(), d_.noise.end(),
+                                   [](const NoiseSource& source) { return source.kind == NoiseSource::Kind::stated; });
+    const double freedom = static_cast<double>(refitted.fit.residuals.size() - interior(refitted.fit).cols());
+    constexpr double beyond_doubt = 1e-6;
+    if (!known || freedom < 1) return p;
+    const double rough = boost::math::cdf(
+        boost::math::complement(boost::math::chi_squared(freedom), refitted.fit.residuals.squaredNorm()));
+    return rough < beyond_doubt ? std::min(p, rough) : p;
   }
 
   void rank() {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <boost/math/distributions/chi_squared.hpp>
 
 #include "calibration/noise.hpp"
 
@@ -98,17 +99,39 @@ NoiseSource from_differences(const data::Channel& channel, const data::Dataset& 
   return source;
 }
 
+/// Correlation of neighbouring deviations in one test.
+struct Correlation {
+  std::string test;
+  double products = 0, squares = 0, freedom = 0;
+  [[nodiscard]] double value() const { return products / squares; }
+  [[nodiscard]] double sd() const { return 1 / std::sqrt(freedom); }
+};
+
+/// One value for all tests where they agree, as those of one rig do: Σ (ρ − ρ̄)²/sd² within its 95 % point.
+void pool(std::vector<Correlation>& correlations) {
+  if (correlations.size() < 2) return;
+  Correlation all{""};
+  for (const Correlation& one : correlations)
+    all.products += one.products, all.squares += one.squares, all.freedom += one.freedom;
+  double spread = 0;
+  for (const Correlation& one : correlations) spread += std::pow((one.value() - all.value()) / one.sd(), 2);
+  const boost::math::chi_squared expected(static_cast<double>(correlations.size() - 1));
+  if (spread > boost::math::quantile(expected, 0.95)) return;
+  for (Correlation& one : correlations)
+    one.products = all.products, one.squares = all.squares, one.freedom = all.freedom;
+}
+
 }  // namespace
 
 std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
                                      const plugins::Catalogue& catalogue) {
   std::vector<NoiseSource> sources;
-  for (experiment::TestEntry& entry : experiment.tests) {
+  std::vector<Correlation> correlations;  // one a test with replicates
+  for (const experiment::TestEntry& entry : experiment.tests) {
     if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
     const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
-    double products = 0, squares = 0;
-    const std::size_t first = sources.size();
+    Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;
       if (channel.noise)
@@ -121,23 +144,25 @@ std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const s
       source.test = entry.name, source.channel = channel.observable, source.unit = channel.unit;
       if (source.kind == NoiseSource::Kind::replicates) {
         const auto [product, square] = neighbours(channel, source.noise);
-        products += product, squares += square;
+        correlation.products += product, correlation.squares += square, correlation.freedom += source.freedom;
       }
       sources.push_back(source);
     }
-    double freedom = 0;
-    for (std::size_t k = first; k < sources.size(); ++k)
-      if (sources[k].kind == NoiseSource::Kind::replicates) freedom += sources[k].freedom;
-    const double correlation = squares > 0 ? products / squares : 0, sd = freedom > 0 ? 1 / std::sqrt(freedom) : 0;
-    entry.data.noise.clear();
-    for (std::size_t k = first; k < sources.size(); ++k) {
-      NoiseSource& source = sources[k];
-      if (source.kind == NoiseSource::Kind::replicates && std::abs(correlation) > 2 * sd) {
-        source.noise.correlation = correlation;
-        source.correlation_sd = sd * std::sqrt(1 - correlation * correlation);
+    if (correlation.squares > 0) correlations.push_back(correlation);
+  }
+  pool(correlations);
+  for (NoiseSource& source : sources)
+    for (const Correlation& correlation : correlations)
+      if (source.test == correlation.test && source.kind == NoiseSource::Kind::replicates &&
+          std::abs(correlation.value()) > 2 * correlation.sd()) {
+        source.noise.correlation = correlation.value();
+        source.correlation_sd = correlation.sd() * std::sqrt(1 - correlation.value() * correlation.value());
       }
-      entry.data.noise.emplace_back(source.channel, source.noise);
-    }
+  for (experiment::TestEntry& entry : experiment.tests) {
+    if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
+    entry.data.noise.clear();
+    for (const NoiseSource& source : sources)
+      if (source.test == entry.name) entry.data.noise.emplace_back(source.channel, source.noise);
   }
   return sources;
 }

@@ -23,8 +23,8 @@ struct NoiseSource {
 /// file states stays. Else, never from residuals of a fit,
 ///
 ///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
-///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over the channels
-///               of one test, where it exceeds twice its standard deviation;
+///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over channels and
+///               over the tests that agree on it, where it exceeds twice its standard deviation;
 ///   else:       deviations from the line through neighbouring rows (calibration/noise.hpp), uncorrelated.
 ///
 /// Throws InputError where nothing can be known.
