@@ -25,6 +25,9 @@ assert "circumferential_fibres" in found["ambiguity_set"], found["ambiguity_set"
 gain = found["gain"]
 assert gain["after"] < 0.1 * gain["before"], gain
 held_out = {block["block"]: (block["before"], block["after"]) for block in gain["held_out"]}
-assert all(after < before for before, after in held_out.values()), held_out
+# Two of the inflations are predicted from the others. The longest is not: without it the exponents of the new fibres are
+# not determined, and the report says so.
+for block in ("test below", "test in_vivo"):
+    assert held_out[block][1] < 0.6 * held_out[block][0], held_out
 print(f"murine tube: {found['verdict']}, {', '.join(found['ambiguity_set'])}; |r|² {gain['before']:.0f} -> "
       f"{gain['after']:.1f}; held out: {held_out}")

@@ -100,6 +100,12 @@ std::string summary(const Diagnosis& d) {
     if (best != d.gain->held_out.end())
       text += fmt::format("; predicted without having seen it, {}: error {:.2f} → {:.2f} σ", best->block, best->before,
                           best->after);
+    const auto worst =
+        std::max_element(d.gain->held_out.begin(), d.gain->held_out.end(),
+                         [](const HeldOut& a, const HeldOut& b) { return a.after - a.before < b.after - b.before; });
+    constexpr double worse = 1.2;
+    if (worst != d.gain->held_out.end() && worst->after > worse * worst->before)
+      text += fmt::format(", but not {}: {:.2f} → {:.3g} σ", worst->block, worst->before, worst->after);
     if (!d.gain->best_wrong.empty())
       text += fmt::format("; the best wrong one, {}, leaves {:.1f}", d.gain->best_wrong, d.gain->best_wrong_after);
     line("Gain:     ", text);
