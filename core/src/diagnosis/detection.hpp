@@ -10,7 +10,7 @@
 
 namespace tunica::diagnosis {
 
-constexpr double smooth_price = 2;  ///< what a p-value of Q costs against one of B
+constexpr double smooth_price = 4;  ///< what a p-value of Q costs against one of B
 
 /// The two tests for anything at all, calibrated by draws, and what each says: the smooth omnibus Q = |B̃ᵀr|², and the
 /// marginal likelihood of all mechanisms against nothing,
@@ -18,7 +18,7 @@ constexpr double smooth_price = 2;  ///< what a p-value of Q costs against one o
 ///   B = ln mean over candidates of Σ share · exp(T/2) · {1 two-sided, 2Φ(√T) one-sided},
 ///
 /// whose largest term is the largest score, and which has more power than that alone where several see the same. The
-/// smaller of p_B and 2 p_Q is calibrated against its own distribution: Q is there for what no mechanism sees.
+/// smaller of p_B and 4 p_Q is calibrated against its own distribution: Q is there for what no mechanism sees.
 class Detection {
  public:
   /// `draws` from noise_draws.
@@ -51,7 +51,7 @@ class Detection {
   double smooth_scale_ = 1, gain_of_nothing_ = 0;
   std::vector<double> multiplicity_;  ///< K of p = K · P(χ²₁ > T) by candidate
   std::size_t visible_ = 0;           ///< candidates with a direction
-  std::vector<float> smallest_;       ///< min(p_B, 2 p_Q) of the draws, ascending
+  std::vector<float> smallest_;       ///< min(p_B, 4 p_Q) of the draws, ascending
   std::vector<float> likelihoods_;    ///< B of the draws, ascending
 };
 
