@@ -25,7 +25,7 @@ std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& dete
                                const plugins::Catalogue& catalogue);
 
 /// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md.
-constexpr double set_width = 5.2;  ///< of 2 ln w
+constexpr double set_width = 6;  ///< of 2 ln w
 /// Residuals that have been explained by one mechanism are looked at again below this p-value, and another is accepted
 /// with fewer false alarms than the other.
 constexpr double look_again = 0.03, second_alpha = 0.01;
