@@ -1,8 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-# include/tunica; apps/tunica installs bin/tunica, tunica_add_plugin() lib/<multiarch>/tunica/plugins/*.so.
+# What is installed, in two components: runtime (bin/tunica, plugins) and development (headers, CMake, pkg-config). The
+# rules of the program and the plugins stand with their targets. Every path is relative: the tree may be moved.
+include(CMakePackageConfigHelpers)
+file(STRINGS ${PROJECT_SOURCE_DIR}/core/include/tunica/plugin.hpp line REGEX "#define TUNICA_PLUGIN_API [0-9]+")
+string(REGEX MATCH "[0-9]+$" TUNICA_PLUGIN_API "${line}")
+
+set(TUNICA_CMAKE_INSTALL_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/tunica)
+set(TUNICA_PLUGIN_INSTALL_DIR ${CMAKE_INSTALL_LIBDIR}/tunica/plugins)
+file(RELATIVE_PATH TUNICA_PREFIX_FROM_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+set(generated ${CMAKE_CURRENT_BINARY_DIR}/package)
+configure_package_config_file(cmake/tunicaConfig.cmake.in ${generated}/tunicaConfig.cmake
+  INSTALL_DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} PATH_VARS CMAKE_INSTALL_BINDIR TUNICA_PLUGIN_INSTALL_DIR)
+# Before 1.0 a minor release may change the SDK; what a plugin was built for is told by TUNICA_PLUGIN_API.
+write_basic_package_version_file(${generated}/tunicaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+configure_file(cmake/tunica.pc.in ${generated}/tunica.pc @ONLY)
+
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/tunica DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp")
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        COMPONENT development FILES_MATCHING PATTERN "*.hpp")
+install(TARGETS tunica_sdk EXPORT tunicaTargets COMPONENT development)
+install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} COMPONENT development)
+install(FILES ${generated}/tunicaConfig.cmake ${generated}/tunicaConfigVersion.cmake cmake/TunicaAddPlugin.cmake
+              cmake/TunicaTestPlugin.cmake cmake/TunicaRunExample.cmake cmake/tunica_plugin.map
+        DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} COMPONENT development)
+install(FILES ${generated}/tunica.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 # What a user runs, without tests and benchmarks: ./bootstrap run builds no more.
 get_property(plugins GLOBAL PROPERTY TUNICA_PLUGINS)

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake -D OUTPUT=templates.cpp -D EXAMPLES=folder -P templates.cmake: the worked plugins that new ones begin with, as one
+# C++ file. Pieces of at most 8 kB, since a compiler need not take longer string literals.
+set(text "// Made by apps/tunica/templates.cmake.\n#include \"templates.hpp\"\nnamespace tunica::app {\nnamespace {\n")
+string(APPEND text "constexpr TemplateFile files[] = {\n")
+foreach(pair model=demiray test=bulge optimizer=pattern_search mechanism=grip_compliance)
+  string(REGEX MATCH "^[^=]+" kind ${pair})
+  string(REGEX MATCH "[^=]+$" example ${pair})
+  file(GLOB paths RELATIVE ${EXAMPLES}/${example} ${EXAMPLES}/${example}/*.*)
+  foreach(path IN LISTS paths)
+    file(READ ${EXAMPLES}/${example}/${path} content)
+    set(literal "")
+    while(NOT content STREQUAL "")
+      string(SUBSTRING "${content}" 0 8000 piece)
+      string(LENGTH "${piece}" length)
+      string(SUBSTRING "${content}" ${length} -1 content)
+      string(APPEND literal "R\"template(${piece})template\"\n")
+    endwhile()
+    string(APPEND text "{\"${kind}\", \"${example}\", \"${path}\",\n${literal}},\n")
+  endforeach()
+endforeach()
+file(WRITE ${OUTPUT} "${text}};\n}  // namespace\nstd::span<const TemplateFile> template_files() { return files; }\n}  // namespace tunica::app\n")
