@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "optimizers/functions.hpp"
+#include "conformance/functions.hpp"
 #include "optimizers/g_suite.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 namespace {
 
 using namespace tunica::testing;
+using namespace tunica::conformance;
 
 struct Method {
   const char* name;

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...]): a shared library that tunica loads at run time.
+# tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...] [INTERNAL]): a shared library that tunica loads at run time.
 # It exports one symbol, tunica_plugin (tunica_plugin.map); -fno-gnu-unique keeps inline statics apart.
 # Neither errno nor floating-point traps are read anywhere: without them loops vectorise, and no value changes.
 function(tunica_add_plugin name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCES)
     message(FATAL_ERROR "tunica_add_plugin(${name}): SOURCES is empty")
   endif()
@@ -21,6 +21,9 @@ function(tunica_add_plugin name)
   endif()
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
                                            LINK_DEPENDS ${exports})
+  if(ARG_INTERNAL)
+    return()  # not installed, nor beside those that are
+  endif()
   if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${TUNICA_PLUGIN_OUTPUT_DIRECTORY})
   endif()
