@@ -116,6 +116,21 @@ TEST(Verdict, AMechanismOfTheMaterialIsNamedWithItsAmplitude) {
   EXPECT_THAT(found.gain->held_out, Not(::testing::IsEmpty()));
 }
 
+TEST(Verdict, AModelWithoutFreeParametersIsDiagnosedAsWell) {
+  Measured measured;
+  for (json& parameter : measured.experiment["models"]["gho"]["parameters"])
+    if (!parameter.contains("fixed")) parameter = {{"fixed", parameter["initial"]}};
+  measured.measure(40, offset_of_the_axial_strip);
+  for (const bool quick : {true, false}) {
+    const Diagnosis found = measured.diagnose(quick);
+    ASSERT_FALSE(found.causes.empty());
+    EXPECT_EQ(found.causes[0].id, "force_offset");
+    EXPECT_TRUE(found.causes[0].shifts.empty());
+    // Five standard errors of an offset of 30 rows with 0.3 kPa: false alarm 1e-6.
+    EXPECT_NEAR(found.causes[0].amplitude.value, 2, 5 * 0.3 / std::sqrt(30.0));
+  }
+}
+
 TEST(Verdict, MechanismsThatTheModelHasAlreadyAreNoCandidates) {
   Measured measured;
   measured.measure(36);

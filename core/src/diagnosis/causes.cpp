@@ -16,11 +16,11 @@ std::vector<double> deviations(const Fit& fit) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < fit.jacobian.cols(); ++k)
     if (!fit.at_bound[static_cast<std::size_t>(k)] && fit.jacobian.col(k).norm() > 0) free.push_back(k);
+  std::vector<double> sd(static_cast<std::size_t>(fit.jacobian.cols()), NAN);
+  if (free.empty()) return sd;
   Eigen::MatrixXd J = fit.jacobian(Eigen::all, free);
   const Eigen::VectorXd lengths = J.colwise().norm().transpose();
   for (Eigen::Index k = 0; k < J.cols(); ++k) J.col(k) /= lengths[k];
-  std::vector<double> sd(static_cast<std::size_t>(fit.jacobian.cols()), NAN);
-  if (free.empty()) return sd;
   const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);

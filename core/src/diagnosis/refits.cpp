@@ -48,9 +48,12 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
     lengths.push_back(std::max(scaled.col(k).norm(), 1e-300));
     scaled.col(k) /= lengths.back();
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-  qr.setThreshold(1e-6);
-  const Eigen::VectorXd shift = scaled.cols() > 0 ? Eigen::VectorXd(qr.solve(-moved)) : Eigen::VectorXd();
+  Eigen::VectorXd shift;
+  if (scaled.cols() > 0) {  // a model without free parameters leaves nothing to factorise
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+    qr.setThreshold(1e-6);
+    shift = qr.solve(-moved);
+  }
 
   bool found = false;
   for (const double share : {1.0, 0.3}) {
