@@ -23,11 +23,15 @@ install(FILES ${generated}/tunicaConfig.cmake ${generated}/tunicaConfigVersion.c
               cmake/TunicaTestPlugin.cmake cmake/TunicaRunExample.cmake cmake/tunica_plugin.map
         DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} COMPONENT development)
 install(FILES ${generated}/tunica.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+# The manual page and the completions of bash and zsh, which the program writes itself (apps/tunica).
+foreach(folder man/man1 bash-completion/completions zsh/site-functions)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/share/${folder}/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${folder} COMPONENT runtime)
+endforeach()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 # What a user runs, without tests and benchmarks: ./bootstrap run builds no more.
 get_property(plugins GLOBAL PROPERTY TUNICA_PLUGINS)
 add_custom_target(product DEPENDS ${plugins})
 if(TARGET tunica)
-  add_dependencies(product tunica)
+  add_dependencies(product tunica shell_files)
 endif()

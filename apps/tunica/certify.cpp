@@ -13,6 +13,7 @@
 #include "execution/files.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -30,7 +31,7 @@ int certify(const GlobalOptions& global, const std::filesystem::path& folder, un
   const auto plan = execution::make_plan(experiment, session.catalogue());
   std::vector<std::string> contradictions;
   fmt::print("{}", comparison::certify(plan, execution::read_text(folder / "result.json"), &contradictions));
-  for (const auto& contradiction : contradictions) fmt::print(stderr, "error: {}\n", contradiction);
+  for (const auto& contradiction : contradictions) say_error(contradiction);
   return contradictions.empty() ? done : not_converged;
 }
 
@@ -41,17 +42,17 @@ void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
   auto threads = std::make_shared<unsigned>(static_cast<unsigned>(tbb::info::default_concurrency()));
   auto* verb = app.add_subcommand("certify", "Evaluate the best points of a finished run and their neighbours again");
   verb->add_option("folder", *folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
-  verb->add_option("-j,--threads", *threads, "Threads for the neighbours")
+  verb->add_option("-j,--threads", *threads, "Threads for the neighbours; all of the machine without it")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str()
       ->type_name("N");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
       "of the neighbours. Exit code 1, and a line on stderr, where a recorded objective is not confirmed.\n"
       "`tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
-      "Example:\n"
-      "  tunica certify results/a");
+      "Examples:\n"
+      "  tunica certify results/a\n"
+      "  tunica certify results/a | jq '.runs[].difference'");
   verb->callback([&global, &action, folder, threads] {
     action = [&global, folder, threads] { return certify(global, *folder, *threads); };
   });

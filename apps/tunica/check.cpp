@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "calibration/identifiability.hpp"
+#include "check.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
+#include "describe.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
@@ -57,8 +59,8 @@ void print_parameters(const calibration::Assembly& assembly) {
     fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", pad(parameter.name, width), parameter.unit, parameter.value);
 }
 
-/// Median time of one evaluation, over a fifth of a second at most.
-std::string time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
+/// Median time of one evaluation, over a fifth of a second at most, s.
+double time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
   using Clock = std::chrono::steady_clock;
   auto workspace = assembly.make_workspace();
   std::vector<double> per_test(tests), times;
@@ -67,118 +69,156 @@ std::string time_evaluation(const calibration::Assembly& assembly, const std::ve
   for (auto now = Clock::now(); now < end && times.size() < 1001;) {
     static_cast<void>(assembly.evaluate(free, objective, per_test, {}, {}, *workspace));
     const auto after = Clock::now();
-    times.push_back(std::chrono::duration<double, std::micro>(after - now).count());
+    times.push_back(std::chrono::duration<double>(after - now).count());
     now = after;
   }
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  const double median = times[times.size() / 2];
-  return median < 1000 ? fmt::format("{:.3g} µs", median) : fmt::format("{:.3g} ms", median / 1000);
+  return times[times.size() / 2];
 }
 
-/// What the tests find of themselves by other means; false where more than discretisation separates them.
-bool print_agreement(const calibration::Assembly& assembly, const std::vector<std::string>& tests,
-                     const std::vector<double>& free) {
-  bool good = true;
-  for (std::size_t test = 0; test < tests.size(); ++test) {
-    std::vector<Agreement> found;
-    const auto status = assembly.ask(
-        test, free, [&](const Test& asked, const TestInput& input) { return asked.agreement(input, found); });
-    for (const auto& one : found) {
-      const bool agrees = one.difference <= one.expected;
-      good = good && agrees;
-      fmt::print("{}\n", hanging(fmt::format("  {} against ", tests[test]),
-                                 fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference,
-                                             one.unit == "1" ? "" : ' ' + one.unit,
-                                             agrees ? ""
-                                                    : fmt::format("; NOT MORE THAN {:.2g} WAS EXPECTED: take a "
-                                                                  "finer mesh, or do not trust this simulation",
-                                                                  one.expected))));
-    }
-    if (!status.ok())
-      fmt::print("{}\n", hanging(fmt::format("  {}: ", tests[test]),
-                                 "could not be checked by other means: " + status.reason()));
-  }
-  return good;
+std::string duration_text(double seconds) {
+  return seconds < 1e-3 ? fmt::format("{:.3g} µs", 1e6 * seconds) : fmt::format("{:.3g} ms", 1e3 * seconds);
 }
 
-/// False when the initial point cannot be evaluated.
-bool print_initial_point(const execution::PlannedRun& run) {
-  const auto& assembly = *run.assembly;
-  std::vector<double> free;
-  for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
-  std::vector<double> per_test(run.entry->tests.size());
-  auto workspace = assembly.make_workspace();
-  double objective = 0;
-  const auto status = assembly.evaluate(free, objective, per_test, {}, {}, *workspace);
-  if (status.kind() == Status::Kind::failed) {
-    fmt::print("{}\n", hanging("  the initial point cannot be evaluated: ", status.reason()));
-    return false;
+bool agrees(const Agreement& one) { return one.difference <= one.expected; }
+
+/// What the tests find of themselves by other means.
+void print_agreement(const InitialPoint::OtherMeans& other) {
+  for (const auto& one : other.found)
+    fmt::print("{}\n", hanging(fmt::format("  {} against ", other.test),
+                               fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference,
+                                           one.unit == "1" ? "" : ' ' + one.unit,
+                                           agrees(one) ? ""
+                                                       : fmt::format("; NOT MORE THAN {:.2g} WAS EXPECTED: take a "
+                                                                     "finer mesh, or do not trust this simulation",
+                                                                     one.expected))));
+  if (!other.status.ok())
+    fmt::print("{}\n", hanging(fmt::format("  {}: ", other.test),
+                               "could not be checked by other means: " + other.status.reason()));
+}
+
+void print_initial_point(const CheckedProblem& problem) {
+  const auto& assembly = *problem.run->assembly;
+  const auto& tests = problem.run->entry->tests;
+  const auto& initial = problem.initial;
+  if (initial.status.kind() == Status::Kind::failed) {
+    fmt::print("{}\n", hanging("  the initial point cannot be evaluated: ", initial.status.reason()));
+    return;
   }
-  std::string text = fmt::format("objective {:.6g}", objective);
-  if (per_test.size() > 1)
-    for (std::size_t test = 0; test < per_test.size(); ++test)
-      text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", run.entry->tests[test], per_test[test]);
+  std::string text = fmt::format("objective {:.6g}", initial.objective);
+  if (tests.size() > 1)
+    for (std::size_t test = 0; test < tests.size(); ++test)
+      text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", tests[test], initial.per_test[test]);
   fmt::print("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
-             time_evaluation(assembly, free, per_test.size()), assembly.jacobian_is_exact() ? "exact" : "differenced");
+             duration_text(initial.seconds), assembly.jacobian_is_exact() ? "exact" : "differenced");
   if (assembly.constraint_count() > 0)
     fmt::print("{}\n", hanging(fmt::format("  {}: ", counted(assembly.constraint_count(), "constraint", "constraints")),
-                               status.ok() ? "kept at the initial point"
-                                           : "broken at the initial point, which is no harm: " + status.reason()));
-  const bool agrees = print_agreement(assembly, run.entry->tests, free);
-  calibration::Identifiability found;
-  if (calibration::identify(assembly, free, found).ok()) {
-    const auto sentences = found.sentences();
-    for (const auto& sentence : sentences) fmt::print("{}\n", hanging("  set-up, at the initial point: ", sentence));
-    if (sentences.empty()) fmt::print("  set-up: the data fix every parameter at the initial point\n");
-  }
-  return agrees;
+                               initial.status.ok()
+                                   ? "kept at the initial point"
+                                   : "broken at the initial point, which is no harm: " + initial.status.reason()));
+  for (const auto& other : initial.other_means) print_agreement(other);
+  for (const auto& sentence : initial.sentences)
+    fmt::print("{}\n", hanging("  set-up, at the initial point: ", sentence));
+  if (initial.analysed && initial.sentences.empty())
+    fmt::print("  set-up: the data fix every parameter at the initial point\n");
 }
 
-int check(const GlobalOptions& global, const std::string& file) {
-  const Session session(global);
-  const auto experiment = session.read(file);
-  const auto plan = execution::make_plan(experiment, session.catalogue());
-  comparison::check_analysis(plan, session.catalogue());
+Checked examine(const experiment::Experiment& experiment, const execution::Plan& plan) {
+  Checked checked{experiment, plan, plan.warnings, {}};
+  auto& warnings = checked.warnings;
+  std::set<std::string> posed;
+  for (const auto& run : plan.runs) {
+    for (const auto& warning : run.assembly->warnings())
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+    std::string problem =
+        fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
+    for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
+    if (posed.insert(problem).second) checked.problems.push_back({problem, &run, try_initial_point(run)});
+  }
+  return checked;
+}
+
+void print(const Checked& checked, const std::string& file) {
+  const auto& [experiment, plan, warnings, problems] = checked;
   fmt::print("{}: {}, {}, {}, seed {}\n", experiment.name, counted(experiment.models.size(), "model", "models"),
              counted(experiment.tests.size(), "test", "tests"), counted(experiment.runs.size(), "run", "runs"),
              experiment.seed);
-  std::vector<std::string> warnings = plan.warnings;
-  for (const auto& run : plan.runs)
-    for (const auto& warning : run.assembly->warnings())
-      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   for (const auto& warning : warnings) fmt::print("{}\n", hanging("  ! ", warning));
-  bool good = true;
   fmt::print("\n");
   for (const auto& run : plan.runs)
     fmt::print("{}: {} of at most {} evaluations\n", run.label,
                counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
-  std::set<std::string> shown;
-  for (const auto& run : plan.runs) {
-    // Runs that differ only in the optimiser pose the same problem.
-    std::string problem =
-        fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
-    for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
-    if (!shown.insert(problem).second) continue;
-    fmt::print("\n{}\n", hanging("", problem));
-    print_tests(*run.assembly);
-    print_parameters(*run.assembly);
-    good = print_initial_point(run) && good;
+  for (const auto& problem : problems) {
+    fmt::print("\n{}\n", hanging("", problem.title));
+    print_tests(*problem.run->assembly);
+    print_parameters(*problem.run->assembly);
+    print_initial_point(problem);
   }
-  fmt::print("\n{}\n", good ? fmt::format("In order. Next: tunica run {}", file)
-                            : std::string("Not in order: see above. Searches begin all the same."));
-  return good ? done : not_converged;
+  fmt::print("\n{}\n", checked.good() ? fmt::format("In order. Next: tunica run {}", file)
+                                      : std::string("Not in order: see above. Searches begin all the same."));
+}
+
+int check(const GlobalOptions& global, const std::string& file, bool as_json) {
+  const Session session(global);
+  const auto experiment = session.read(file);
+  const auto plan = execution::make_plan(experiment, session.catalogue());
+  comparison::check_analysis(plan, session.catalogue());
+  const auto checked = examine(experiment, plan);
+  if (as_json)
+    print_json(check_json(checked));
+  else
+    print(checked, file);
+  return checked.good() ? done : not_converged;
 }
 
 }  // namespace
 
+bool InitialPoint::good() const {
+  if (status.kind() == Status::Kind::failed) return false;
+  return std::all_of(other_means.begin(), other_means.end(), [](const OtherMeans& other) {
+    return std::all_of(other.found.begin(), other.found.end(), agrees);
+  });
+}
+
+bool Checked::good() const {
+  return std::all_of(problems.begin(), problems.end(), [](const auto& problem) { return problem.initial.good(); });
+}
+
+InitialPoint try_initial_point(const execution::PlannedRun& run) {
+  const auto& assembly = *run.assembly;
+  const auto& tests = run.entry->tests;
+  InitialPoint point;
+  std::vector<double> free;
+  for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
+  point.per_test.resize(tests.size());
+  auto workspace = assembly.make_workspace();
+  point.status = assembly.evaluate(free, point.objective, point.per_test, {}, {}, *workspace);
+  if (point.status.kind() == Status::Kind::failed) return point;
+  point.seconds = time_evaluation(assembly, free, tests.size());
+  for (std::size_t test = 0; test < tests.size(); ++test) {
+    InitialPoint::OtherMeans other{tests[test], {}, {}};
+    other.status = assembly.ask(
+        test, free, [&](const Test& asked, const TestInput& input) { return asked.agreement(input, other.found); });
+    if (!other.found.empty() || !other.status.ok()) point.other_means.push_back(std::move(other));
+  }
+  calibration::Identifiability found;
+  point.analysed = calibration::identify(assembly, free, found).ok();
+  if (point.analysed) point.sentences = found.sentences();
+  return point;
+}
+
 void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
   auto file = std::make_shared<std::string>();
+  auto as_json = std::make_shared<bool>(false);
   auto* verb = app.add_subcommand("check", "Dry run: names, units, data, bounds, the initial point, identifiability");
   verb->add_option("experiment", *file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_flag("--json", *as_json, "One JSON object; `in_order` says whether the exit code is 0");
   verb->footer(
-      "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n\nWrites "
-      "nothing.");
-  verb->callback([&global, &action, file] { action = [&global, file] { return check(global, *file); }; });
+      "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n"
+      "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n\nWrites nothing.");
+  verb->callback([&global, &action, file, as_json] {
+    action = [&global, file, as_json] { return check(global, *file, *as_json); };
+  });
 }
 
 }  // namespace tunica::app

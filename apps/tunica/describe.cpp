@@ -9,6 +9,7 @@
 
 #include "comparison/text.hpp"
 #include "data/nearest.hpp"
+#include "describe.hpp"
 #include "exit_codes.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
@@ -82,23 +83,6 @@ void print_parameters(const std::vector<Parameter>& parameters, const std::vecto
   }
 }
 
-/// Options with their defaults; where the user must give one, the first that is allowed, since the object is made
-/// only to be asked what it is.
-Options any_options(const std::vector<Option>& options) {
-  Options values;
-  for (const auto& option : options) {
-    if (option.fallback)
-      values.set(option.name, *option.fallback);
-    else if (option.kind == Option::Kind::choice && !option.choices.empty())
-      values.set(option.name, option.choices.front());
-    else if (option.kind == Option::Kind::number || option.kind == Option::Kind::quantity)
-      values.set(option.name, option.min.value_or(option.max.value_or(1.0)));
-    else if (option.kind == Option::Kind::integer)
-      values.set(option.name, static_cast<std::int64_t>(option.min.value_or(1.0)));
-  }
-  return values;
-}
-
 void print_head(const std::string& kind, const std::string& name, const std::string& doc, const std::string& reference,
                 const std::string& plugin) {
   fmt::print("{} ({}, plugin {})\n{}\n", name, kind, plugin, hanging("  ", doc));
@@ -122,27 +106,15 @@ void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
   const auto& factory = entry.factory;
   print_head("test", factory.type, factory.doc, factory.reference, entry.plugin);
   fmt::print("\nobservables that a data column can be mapped to\n");
-  TestSetup setup;
-  setup.options = any_options(factory.options);
-  setup.stress_measure = "cauchy";
-  setup.rows.count = 1;
-  const std::vector<double> one{1.0};
   for (const auto& observable : factory.observables) {
     const char* role = observable.role == Observable::Role::abscissa ? "prescribed"
                        : observable.role == Observable::Role::time   ? "clock"
                                                                      : "measured";
     fmt::print("{}\n", hanging(fmt::format("  {:<18} {:<8} ", observable.name, observable.unit),
                                fmt::format("{}{}. {}", role, observable.required ? ", required" : "", observable.doc)));
-    if (observable.role == Observable::Role::abscissa) setup.rows.abscissae.push_back({observable.name, one});
-    if (observable.role == Observable::Role::channel) setup.rows.channels.push_back(observable.name);
   }
-  try {
-    const auto test = plugins::create(entry, setup);
-    print_parameters(test->describe().parameters, test->describe().nulls);
-  } catch (const InputError&) {
-    // A test is made from options and data, and these may not suit it: then what any test of the type can have.
-    print_parameters(factory.parameters);
-  }
+  const auto own = parameters_of(entry);
+  print_parameters(own.parameters, own.nulls);
   print_options(factory.options, factory.layered);
 }
 
@@ -178,24 +150,32 @@ void print(const plugins::Catalogue::Entry<MechanismFactory>& entry) {
   print_options(factory.options);
 }
 
+/// Prints the object of that name, or puts it into `document` under `kind`; false where the shelf has none.
 template <class Shelf>
-bool print_if_there(const Shelf& shelf, const std::string& name, std::vector<std::string>& known) {
+bool describe_if_there(const Shelf& shelf, const char* kind, const std::string& name, std::vector<std::string>& known,
+                       nlohmann::ordered_json* document) {
   for (const auto& [key, entry] : shelf) known.push_back(key);
   const auto found = shelf.find(name);
   if (found == shelf.end()) return false;
-  print(found->second);
+  if (document)
+    (*document)[kind] = description_json(found->second);
+  else
+    print(found->second);
   return true;
 }
 
-int describe(const GlobalOptions& global, const std::string& name) {
+int describe(const GlobalOptions& global, const std::string& name, bool as_json) {
   const Session session(global);
   const auto& catalogue = session.catalogue();
   std::vector<std::string> known;
-  bool found = print_if_there(catalogue.models(), name, known);
-  found = print_if_there(catalogue.tests(), name, known) || found;
-  found = print_if_there(catalogue.optimizers(), name, known) || found;
-  found = print_if_there(catalogue.mechanisms(), name, known) || found;
+  nlohmann::ordered_json document;
+  auto* const into = as_json ? &document : nullptr;
+  bool found = describe_if_there(catalogue.models(), "model", name, known, into);
+  found = describe_if_there(catalogue.tests(), "test", name, known, into) || found;
+  found = describe_if_there(catalogue.optimizers(), "optimizer", name, known, into) || found;
+  found = describe_if_there(catalogue.mechanisms(), "mechanism", name, known, into) || found;
   if (!found) throw InputError(fmt::format("nothing is called '{}'. {}", name, data::suggestion(name, known)));
+  if (as_json) print_json(document);
   return done;
 }
 
@@ -203,10 +183,16 @@ int describe(const GlobalOptions& global, const std::string& name) {
 
 void add_describe(CLI::App& app, GlobalOptions& global, Action& action) {
   auto name = std::make_shared<std::string>();
+  auto as_json = std::make_shared<bool>(false);
   auto* verb = app.add_subcommand("describe", "Describe a model, test, optimizer or mechanism");
-  verb->add_option("name", *name, "As `tunica list` shows it")->required();
-  verb->footer("Examples:\n  tunica describe gho\n  tunica describe uniaxial\n  tunica describe ceres_lm");
-  verb->callback([&global, &action, name] { action = [&global, name] { return describe(global, *name); }; });
+  verb->add_option("name", *name, "As `tunica list` shows it")->required()->type_name("NAME");
+  verb->add_flag("--json", *as_json, "One JSON object, with the kind of what is described as its key");
+  verb->footer(
+      "Examples:\n  tunica describe gho\n  tunica describe uniaxial\n  tunica describe ceres_lm\n"
+      "  tunica describe gho --json | jq '.model.parameters[].name'");
+  verb->callback([&global, &action, name, as_json] {
+    action = [&global, name, as_json] { return describe(global, *name, *as_json); };
+  });
 }
 
 }  // namespace tunica::app

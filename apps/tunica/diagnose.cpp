@@ -14,14 +14,20 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "comparison/text.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
+#include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
+#include "execution/terminal.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "report/report.hpp"
+#include "stages.hpp"
 #include "tunica/error.hpp"
+#include "unfinished_folder.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -36,14 +42,6 @@ struct DiagnoseOptions {
   std::vector<std::string> mechanisms;
   bool quick = false, batch = false;
 };
-
-/// What is being done, on stderr: one line that is redrawn on a terminal, a line each elsewhere.
-void show(const std::string& what, double share) {
-  if (isatty(STDERR_FILENO) != 0)
-    fmt::print(stderr, "\r\033[K{}", share >= 1 ? std::string() : fmt::format("{:3.0f} %  {}", 100 * share, what));
-  else if (share < 1)
-    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * share, what);
-}
 
 diagnosis::Settings settings_of(const experiment::Experiment& experiment, const Session& session,
                                 const DiagnoseOptions& options) {
@@ -72,21 +70,43 @@ void write_outputs(const std::filesystem::path& directory, const diagnosis::Diag
   execution::write_atomically(directory / "result.json", diagnosis::result_document(found, experiment, catalogue));
 }
 
+/// What Ctrl-C is answered with.
+std::string farewell() {
+  return fmt::format(
+      "{}interrupted; a diagnosis that is not finished leaves nothing behind. Begin it again with the "
+      "same command, or with --quick for a first answer\n",
+      execution::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
+}
+
 int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
   const auto experiment = session.read(options.file);
   auto settings = settings_of(experiment, session, options);
-  if (!global.quiet) settings.progress = show;
-  auto directory = execution::RunDirectory::create(
-      options.directory.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.directory),
-      experiment.name);
-  const auto found = diagnosis::diagnose(experiment, settings, session.catalogue());
+  // What is made here for the results goes again when there are none: after an error, or Ctrl-C.
+  const std::filesystem::path requested = options.directory;
+  const bool was_there = !requested.empty() && std::filesystem::exists(requested);
+  const bool results_were_there = std::filesystem::exists("results");
+  auto directory =
+      execution::RunDirectory::create(requested.empty() ? std::nullopt : std::optional(requested), experiment.name);
+  std::vector<std::filesystem::path> made;
+  if (!was_there) made.push_back(directory.path());
+  if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
+  diagnosis::Diagnosis found;
+  {
+    UnfinishedFolder folder(made, farewell());
+    Stages stages(global.quiet);
+    settings.progress = [&stages](const std::string& what, double share) { stages.tell(what, share); };
+    found = diagnosis::diagnose(experiment, settings, session.catalogue());
+    folder.keep();
+  }
+  found.settings.progress = {};
+  const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_outputs(directory.path(), found, experiment, session.catalogue());
-  for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning, 100));
+  for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning));
   if (!found.warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", highlighted(diagnosis::summary(found)), page.string(),
              (directory.path() / "result.json").string());
   if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
@@ -121,7 +141,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
         write_outputs(directory, found, experiment, session.catalogue());
       } catch (const std::exception& problem) {
         ++failures;
-        fmt::print(stderr, "error: {}: {}\n", cases[k].string(), problem.what());
+        say_error(fmt::format("{}: {}", cases[k].string(), problem.what()));
       }
     });
     if (const std::size_t n = ++finished; !global.quiet && (n % 50 == 0 || n == cases.size()))
@@ -140,9 +160,8 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
   verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
       ->type_name("DIR");
-  verb->add_option("-j,--threads", options->threads, "Threads")
+  verb->add_option("-j,--threads", options->threads, "Threads; all of the machine without it")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str()
       ->type_name("N");
   verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
       ->check(seed_number())
@@ -153,10 +172,10 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--mechanisms", options->mechanisms, "Only these causes, names separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("NAMES");
-  verb->add_flag("--quick", options->quick,
-                 "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of half a "
-                 "minute");
+      ->type_name("MECHANISMS");
+  verb->add_flag(
+      "--quick", options->quick,
+      "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of several");
   verb->add_flag("--batch", options->batch,
                  "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");

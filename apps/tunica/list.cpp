@@ -9,6 +9,7 @@
 
 #include "comparison/text.hpp"
 #include "data/nearest.hpp"
+#include "describe.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
 
@@ -22,37 +23,69 @@ const std::string& doc_of(const Factory& factory) {
   return factory.doc;
 }
 
+struct ListOptions {
+  std::string what;
+  bool names = false, as_json = false;
+};
+
 template <class Shelf>
-void print_shelf(const std::string& title, const Shelf& shelf) {
-  fmt::print("{} ({})\n", title, shelf.size());
+void print_shelf(const std::string& title, const Shelf& shelf, const ListOptions& options,
+                 nlohmann::ordered_json& document) {
+  if (!options.what.empty() && options.what != title) return;
+  if (options.as_json) {
+    auto& list = document[title] = nlohmann::ordered_json::array();
+    for (const auto& [name, entry] : shelf)
+      list.push_back({{"name", name},
+                      {"doc", doc_of(entry.factory)},
+                      {"reference", entry.factory.reference},
+                      {"plugin", entry.plugin}});
+    return;
+  }
+  if (!options.names) fmt::print("{} ({})\n", title, shelf.size());
   std::size_t width = 0;
   for (const auto& [name, entry] : shelf) width = std::max(width, name.size());
   for (const auto& [name, entry] : shelf)
-    fmt::print("{}\n", comparison::hanging(fmt::format("  {:<{}}  ", name, width),
-                                           fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
+    if (options.names)
+      fmt::print("{}\n", name);
+    else
+      fmt::print("{}\n", comparison::hanging(fmt::format("  {:<{}}  ", name, width),
+                                             fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
 }
 
-int list(const GlobalOptions& global, const std::string& what) {
+int list(const GlobalOptions& global, const ListOptions& options) {
   const std::vector<std::string> shelves = {"models", "tests", "optimizers", "mechanisms"};
+  const auto& what = options.what;
   if (!what.empty() && std::find(shelves.begin(), shelves.end(), what) == shelves.end())
     throw InputError(fmt::format("there is nothing called '{}' to list. {}", what, data::suggestion(what, shelves)));
   const Session session(global);
   const auto& catalogue = session.catalogue();
-  if (what.empty() || what == "models") print_shelf("models", catalogue.models());
-  if (what.empty() || what == "tests") print_shelf("tests", catalogue.tests());
-  if (what.empty() || what == "optimizers") print_shelf("optimizers", catalogue.optimizers());
-  if (what.empty() || what == "mechanisms") print_shelf("mechanisms", catalogue.mechanisms());
+  nlohmann::ordered_json document;
+  print_shelf("models", catalogue.models(), options, document);
+  print_shelf("tests", catalogue.tests(), options, document);
+  print_shelf("optimizers", catalogue.optimizers(), options, document);
+  print_shelf("mechanisms", catalogue.mechanisms(), options, document);
+  if (!options.as_json) return done;
+  auto& plugins = document["plugins"] = nlohmann::ordered_json::array();
+  for (const auto& one : session.loaded())
+    plugins.push_back({{"name", one.name}, {"version", one.version}, {"file", one.file.string()}});
+  document["refused"] = session.refusals();
+  print_json(document);
   return done;
 }
 
 }  // namespace
 
 void add_list(CLI::App& app, GlobalOptions& global, Action& action) {
-  auto what = std::make_shared<std::string>();
+  auto options = std::make_shared<ListOptions>();
   auto* verb = app.add_subcommand("list", "List what the loaded plugins provide");
-  verb->add_option("what", *what, "models, tests, optimizers or mechanisms; everything without it");
-  verb->footer("Examples:\n  tunica list\n  tunica list models\n  tunica list optimizers --plugin-path my_plugins");
-  verb->callback([&global, &action, what] { action = [&global, what] { return list(global, *what); }; });
+  verb->add_option("what", options->what, "models, tests, optimizers or mechanisms; everything without it")
+      ->type_name("models|tests|optimizers|mechanisms");
+  verb->add_flag("--names", options->names, "Only the names, one a line");
+  verb->add_flag("--json", options->as_json, "One JSON object, with the plugins and those that were refused");
+  verb->footer(
+      "Examples:\n  tunica list\n  tunica list models\n  tunica list optimizers --plugin-path my_plugins\n"
+      "  tunica list mechanisms --json | jq '.mechanisms[].name'");
+  verb->callback([&global, &action, options] { action = [&global, options] { return list(global, *options); }; });
 }
 
 }  // namespace tunica::app

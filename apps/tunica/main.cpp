@@ -10,6 +10,7 @@
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -62,13 +63,15 @@ int run(int argc, char** argv) {
   app.fallthrough();
   app.footer(examples);
   for (const auto add : {add_run, add_diagnose, add_report, add_certify, add_check, add_simulate, add_stability,
-                         add_list, add_describe, add_schema})
+                         add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
     add(app, global, action);
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? done : invalid_input;
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    say_error(command_line_error(app, problem));
+    return invalid_input;
   }
   return action();
 }
@@ -82,16 +85,17 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const tunica::InputError& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
+    say_error(problem.what());
     return invalid_input;
   } catch (const PluginRefused& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
+    say_error(problem.what());
     return plugin_refused;
   } catch (const tunica::execution::WriteFailure& problem) {
-    fmt::print(stderr, "error: {}\n", problem.what());
+    say_error(problem.what());
     return invalid_input;
   } catch (const std::exception& problem) {
-    fmt::print(stderr, "internal error: {}\n", problem.what());
+    say_error(fmt::format("internal: {}; this is a fault of tunica, please report it with the files that caused it",
+                          problem.what()));
     return internal_error;
   }
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "messages.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -39,7 +40,8 @@ Session::Session(const GlobalOptions& options) {
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path path : options.plugin_paths) {
     if (!std::filesystem::exists(path))
-      throw InputError(fmt::format("--plugin-path {}: no such file or folder", path.string()));
+      throw InputError(fmt::format(
+          "--plugin-path {}: no such file or folder; name a plugin file, or a folder that holds some", path.string()));
     if (std::filesystem::is_directory(path)) {
       folders.push_back(path);
       continue;
@@ -63,7 +65,7 @@ Session::Session(const GlobalOptions& options) {
           return std::filesystem::equivalent(entry.file, refusal.file, error);
         });
     if (again) continue;
-    if (!options.quiet) fmt::print(stderr, "warning: {}\n", describe(refusal));
+    if (!options.quiet) say_warning(describe(refusal));
     refused_.push_back(std::move(refusal));
   }
 }

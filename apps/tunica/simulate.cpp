@@ -12,6 +12,7 @@
 #include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "report/report.hpp"
 #include "verbs.hpp"
 
@@ -37,7 +38,7 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   request.run = options.run;
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
   fmt::print(stderr, "{}\n", comparison::hanging("", subject.origin));
-  for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
+  for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   const auto tables = comparison::simulate(experiment, session.catalogue(), request, subject);
   std::vector<std::pair<std::string, std::vector<Snapshot>>> fields;
   for (const auto& text : options.fields) {
@@ -65,7 +66,7 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");
   verb->add_option("--run", options->run, "A run of that result.json instead of the best-ranked one of the model")
-      ->type_name("NAME");
+      ->type_name("RUN");
   verb->add_option("--noise", options->noise, "Relative noise: y (1 + R N(0, 1))")
       ->check(CLI::NonNegativeNumber)
       ->type_name("R");

@@ -9,10 +9,13 @@
 #include "comparison/simulation.hpp"
 #include "comparison/stability_map.hpp"
 #include "comparison/stability_report.hpp"
+#include "comparison/summary.hpp"
 #include "comparison/text.hpp"
+#include "describe.hpp"
 #include "execution/files.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "messages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -25,6 +28,7 @@ struct StabilityOptions {
   std::vector<std::string> map;
   std::size_t points = 41;
   double to = 0;
+  bool as_json = false;
 };
 
 /// The stretches to judge a model over: those of its strips, or up to the one that was asked for.
@@ -38,6 +42,38 @@ tunica::stability::Domain domain_of(const calibration::Assembly& assembly, std::
       for (int k = 1; k <= 100; ++k) stretches.push_back(1 + (options.to - 1) * k / 100);
   }
   return domain;
+}
+
+void print(const comparison::Subject& subject, const comparison::StabilitySummary& found,
+           const std::vector<std::string>& files) {
+  fmt::print("{}\n{}\n", subject.model, comparison::hanging("  ", subject.origin));
+  for (const auto& [name, verdict, inadmissible] : found.models) {
+    if (found.models.size() > 1) fmt::print("  model '{}'\n", name);
+    const char* const margin = found.models.size() > 1 ? "    " : "  ";
+    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging(margin, sentence));
+  }
+  for (const auto& file : files) fmt::print("{}\n", file);
+}
+
+/// As `best.stability` of result.json, with the parameters that were judged.
+nlohmann::ordered_json json_of(const comparison::Subject& subject, const comparison::StabilitySummary& found,
+                               const std::vector<std::string>& files) {
+  nlohmann::ordered_json document = {{"model", subject.model}, {"origin", subject.origin}};
+  auto& parameters = document["parameters"] = nlohmann::ordered_json::object();
+  const auto& free = subject.assembly->parameters();
+  for (std::size_t i = 0; i < free.size(); ++i)
+    parameters[free[i].name] = {{"value", subject.free[i]}, {"unit", free[i].unit}};
+  for (const auto& fixed : subject.assembly->fixed_parameters())
+    parameters[fixed.name] = {{"value", fixed.value}, {"unit", fixed.unit}};
+  document["warnings"] = subject.warnings;
+  const auto stable = found.transversely_stable();
+  document["stable"] = stable ? nlohmann::ordered_json(*stable) : nullptr;
+  comparison::RunSummary run;
+  run.stability = found;
+  document["stability"] = comparison::stability_json(run);
+  for (const char* of_runs : {"imposed", "ratio_to_free"}) document["stability"].erase(of_runs);
+  document["files"] = files;
+  return document;
 }
 
 int stability(const GlobalOptions& global, const StabilityOptions& options) {
@@ -59,22 +95,26 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   std::optional<execution::RunDirectory> directory;
   if (!options.directory.empty())
     directory.emplace(execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name));
-  for (const auto& warning : subject.warnings) fmt::print(stderr, "{}\n", comparison::hanging("warning: ", warning));
-  fmt::print("{}\n{}\n", subject.model, comparison::hanging("  ", subject.origin));
-  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-    const auto verdict = tunica::stability::judge(assembly.model(m), assembly.model_parameters(m, subject.free),
-                                                  domain_of(assembly, m, options));
-    if (assembly.model_count() > 1) fmt::print("  model '{}'\n", assembly.model_name(m));
-    const char* const margin = assembly.model_count() > 1 ? "    " : "  ";
-    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging(margin, sentence));
+  for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
+  comparison::StabilitySummary found;
+  for (std::size_t m = 0; m < assembly.model_count(); ++m)
+    found.models.push_back({assembly.model_name(m),
+                            tunica::stability::judge(assembly.model(m), assembly.model_parameters(m, subject.free),
+                                                     domain_of(assembly, m, options)),
+                            {}});
+  std::vector<std::string> files;
+  if (directory) {
+    comparison::write_stability_tables(directory->path(), {{subject.model, &assembly, subject.free, limit}});
+    for (const char* name : {"stability.csv", "energy.csv"}) files.push_back((directory->path() / name).string());
+    if (!options.map.empty()) {
+      files.push_back((directory->path() / "stability_map.csv").string());
+      execution::write_atomically(files.back(), map);
+    }
   }
-  if (!directory) return done;
-  comparison::write_stability_tables(directory->path(), {{subject.model, &assembly, subject.free, limit}});
-  fmt::print("{}\n{}\n", (directory->path() / "stability.csv").string(), (directory->path() / "energy.csv").string());
-  if (options.map.empty()) return done;
-  const auto file = directory->path() / "stability_map.csv";
-  execution::write_atomically(file, map);
-  fmt::print("{}\n", file.string());
+  if (options.as_json)
+    print_json(json_of(subject, found, files));
+  else
+    print(subject, found, files);
   return done;
 }
 
@@ -90,7 +130,7 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
                    "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
       ->type_name("FILE");
   verb->add_option("--run", options->run, "A run of that result.json instead of the best-ranked one of the model")
-      ->type_name("NAME");
+      ->type_name("RUN");
   verb->add_option("--to", options->to, "Judge up to this stretch instead of the largest measured one")
       ->check(CLI::Range(1.0, 100.0))
       ->type_name("STRETCH");
@@ -104,6 +144,7 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("-o,--output", options->directory,
                    "New folder: stability.csv (strips), energy.csv (isocontours), stability_map.csv")
       ->type_name("DIR");
+  verb->add_flag("--json", options->as_json, "One JSON object, in the form of `best.stability` of result.json");
   verb->footer(
       "Examples:\n"
       "  tunica stability experiment.json --model gho --parameters results/a/result.json\n"

@@ -30,5 +30,8 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action);
 void add_list(CLI::App& app, GlobalOptions& global, Action& action);
 void add_describe(CLI::App& app, GlobalOptions& global, Action& action);
 void add_schema(CLI::App& app, GlobalOptions& global, Action& action);
+void add_plugin(CLI::App& app, GlobalOptions& global, Action& action);
+void add_completion(CLI::App& app, GlobalOptions& global, Action& action);
+void add_man(CLI::App& app, GlobalOptions& global, Action& action);
 
 }  // namespace tunica::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "cli/bench.hpp"
 
 using namespace tunica;
@@ -8,11 +10,20 @@ using ::testing::HasSubstr;
 
 namespace {
 const trial::Folder folder;
-const std::vector<std::string> verbs = {"run", "diagnose", "report", "check", "simulate", "list", "describe", "schema"};
+
+/// Read from the help itself, so that a verb that is added is tested too.
+std::vector<std::string> verbs() {
+  const auto help = trial::tunica({"--help"}, folder.path()).out;
+  std::vector<std::string> found;
+  std::istringstream stream(help.substr(help.find("Subcommands:")));
+  for (std::string line; std::getline(stream, line) && !line.empty();)
+    if (line.starts_with("  ") && line[2] != ' ') found.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return found;
+}
 }  // namespace
 
 TEST(Help, OfEveryVerbHasAnExample) {
-  for (const auto& verb : verbs) {
+  for (const auto& verb : verbs()) {
     const auto ended = trial::tunica({verb, "--help"}, folder.path());
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.out, HasSubstr("Examples:\n  tunica " + verb));
@@ -20,10 +31,15 @@ TEST(Help, OfEveryVerbHasAnExample) {
   }
 }
 
+TEST(Help, KnowsTheVerbsOfTheContract) {
+  EXPECT_THAT(verbs(), ::testing::IsSupersetOf({"run", "diagnose", "report", "certify", "check", "simulate",
+                                                "stability", "list", "describe", "schema", "completion", "man"}));
+}
+
 TEST(Help, NamesTheVerbsThatExistAndTheExitCodes) {
   const auto ended = trial::tunica({"--help"}, folder.path());
   EXPECT_EQ(ended.code, 0);
-  for (const auto& verb : verbs) EXPECT_THAT(ended.out, HasSubstr("\n  " + verb + " "));
+  for (const auto& verb : verbs()) EXPECT_THAT(ended.out, HasSubstr("\n  " + verb + " "));
   EXPECT_THAT(ended.out, HasSubstr("130 interrupted"));
   EXPECT_THAT(ended.out, HasSubstr("--plugin-path"));
 }
@@ -41,13 +57,22 @@ TEST(Help, SuggestsTheVerbThatWasMeant) {
   EXPECT_THAT(ended.err, HasSubstr("there is no verb 'simulat'. Did you mean 'simulate'?"));
 }
 
-TEST(Help, RefusesUnknownAndMissingArguments) {
-  EXPECT_EQ(trial::tunica({"run"}, folder.path()).code, 2);
-  const auto ended = trial::tunica({"run", "x.json", "--threds", "2"}, folder.path());
-  EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("--threds"));
-  const auto threads = trial::tunica({"run", "x.json", "-j", "0"}, folder.path());
-  EXPECT_EQ(threads.code, 2);
-  EXPECT_THAT(threads.err, HasSubstr("--threads: Value 0 not in range 1 to 1024"));
-  EXPECT_EQ(trial::tunica({}, folder.path()).code, 2);
+TEST(Help, RefusesUnknownAndMissingArgumentsAndSaysWhereToReadOn) {
+  const auto refusal = [](const std::vector<std::string>& arguments) {
+    const auto ended = trial::tunica(arguments, folder.path());
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_EQ(ended.out, "");
+    return ended.err;
+  };
+  EXPECT_EQ(refusal({"run"}),
+            "error: experiment is required. `tunica run --help` shows what it takes, with\nexamples.\n");
+  EXPECT_EQ(refusal({"run", "x.json", "--threds", "2"}),
+            "error: --threds: there is no such option. Did you mean '--threads'? `tunica run\n"
+            "--help` shows what it takes, with examples.\n");
+  EXPECT_THAT(refusal({"check", "x.json", "--plugn-path=a"}), HasSubstr("Did you mean '--plugin-path'?"));
+  EXPECT_THAT(refusal({"check", "x.json", "y.json"}), HasSubstr("error: 'y.json' is one argument too many."));
+  EXPECT_THAT(refusal({"run", "x.json", "-j", "0"}), HasSubstr("--threads: Value 0 not in range 1 to 1024."));
+  EXPECT_THAT(refusal({"run", "x.json", "--seed", "-1"}), HasSubstr("a seed is a whole number from 0, not '-1'"));
+  EXPECT_THAT(refusal({}), HasSubstr("error: a verb is missing: run, "));
+  EXPECT_THAT(refusal({"completion", "fish"}), HasSubstr("there is no completion for 'fish'. Known: bash, zsh."));
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/progress.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <limits>
 
 #include "execution/laboratory.hpp"
+#include "execution/terminal.hpp"
 
 using namespace tunica;
 using execution::Meter;
@@ -40,4 +43,38 @@ TEST(Progress, ShowsShareRateBestAndTimeLeft) {
   meters[1].running = true;
   const Progress progress(Progress::Style::lines, plan, meters);
   EXPECT_EQ(progress.text(3), " 75 %  1/2 searches  500 /s  m/walk: best 2.5  max 0:01 left");
+}
+
+TEST(Progress, ShortensTheNameOfTheRunBeforeAnyFigure) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk", 1000, 2);
+  auto plan = laboratory.plan();
+  plan.runs[0].label = std::string(90, 'm');
+  std::vector<Meter> meters(2);
+  meters[0].evaluations = 500;
+  meters[0].best = 2.5;
+  meters[0].running = true;
+  const Progress progress(Progress::Style::lines, plan, meters);
+  EXPECT_EQ(progress.text(1, 79),
+            " 25 %  0/2 searches  500 /s  " + std::string(24, 'm') + "…: best 2.5  max 0:03 left");
+  EXPECT_EQ(execution::shown_columns(progress.text(1, 79)), 79u);
+  EXPECT_EQ(progress.text(1, 50), " 25 %  0/2 searches  500 /s  best 2.5  max 0:03 left");
+}
+
+TEST(Terminal, ShortensByCharactersAndShowsNoControlCharacters) {
+  EXPECT_EQ(execution::shown_columns("λ3 ± 2"), 6u);
+  EXPECT_EQ(execution::shortened("λμν", 3), "λμν");
+  EXPECT_EQ(execution::shortened("λμνξ", 3), "λμ…");
+  EXPECT_EQ(execution::shortened("a\033[31mb\r", 20), "a?[31mb?");
+  EXPECT_EQ(execution::shortened("ab", 0), "");
+}
+
+TEST(Terminal, IsNoneWhereOutputIsAFile) {
+  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(null, 0);
+  const auto terminal = execution::Terminal::of(null);
+  ::close(null);
+  EXPECT_FALSE(terminal.redraws);
+  EXPECT_FALSE(terminal.colours);
+  EXPECT_EQ(terminal.columns, 80u);
 }

@@ -2,7 +2,6 @@
 #include "execution/progress.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,20 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <string_view>
 
 namespace tunica::execution {
 
 namespace {
 
 constexpr double bar_interval = 0.1, line_interval = 5;  // s
-constexpr std::size_t shortest_bar = 5;                  // columns
-
-std::size_t terminal_width() {
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20) return size.ws_col;
-  return 80;
-}
 
 std::string rate_text(double rate) {
   if (rate >= 1e6) return fmt::format("{:.1f} M", rate / 1e6);
@@ -47,19 +38,12 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-Progress::Style Progress::style_of_stderr() {
-  const char* terminal = std::getenv("TERM");
-  const bool can_redraw = ::isatty(STDERR_FILENO) == 1 && terminal && std::string_view(terminal) != "dumb";
-  return can_redraw ? Style::bar : Style::lines;
-}
+Progress::Style Progress::style_of_stderr() { return Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines; }
 
 Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters)
-    : style_(style), colour_(false), plan_(plan), meters_(meters) {
-  const char* no_colour = std::getenv("NO_COLOR");
-  colour_ = style == Style::bar && !(no_colour && *no_colour);
-}
+    : style_(style), line_(Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}
 
-std::string Progress::text(double seconds) const {
+std::string Progress::text(double seconds, std::size_t columns) const {
   std::uint64_t evaluations = 0, budget = 0;
   std::size_t finished = 0, current = meters_.size();
   std::vector<double> best(plan_.runs.size(), std::numeric_limits<double>::infinity());
@@ -76,16 +60,23 @@ std::string Progress::text(double seconds) const {
   }
   const double rate = seconds > 0 ? static_cast<double>(evaluations) / seconds : 0;
   const double share = budget > 0 ? static_cast<double>(evaluations) / static_cast<double>(budget) : 1;
-  std::string line =
+  const std::string head =
       fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * share, finished, meters_.size(), rate_text(rate));
+  std::string label, value, left;
   if (current < meters_.size()) {
     const auto run = plan_.tasks[current].run;
-    line += fmt::format("  {}: ", plan_.runs[run].label);
-    line += std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
+    label = plan_.runs[run].label;
+    value = std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
   }
   // The budget is an upper bound, for a search may converge before it is spent; so is the time.
-  if (rate > 0) line += fmt::format("  max {} left", clock_text(static_cast<double>(budget - evaluations) / rate));
-  return line;
+  if (rate > 0) left = fmt::format("  max {} left", clock_text(static_cast<double>(budget - evaluations) / rate));
+  if (value.empty()) return head + left;
+  // The name of the run gives way to the figures.
+  constexpr std::size_t shortest_label = 4;
+  const std::size_t figures = shown_columns(head + value + left) + 4;
+  const std::size_t room = columns > figures ? columns - figures : 0;
+  label = room >= shortest_label ? shortened(label, room) + ": " : std::string();
+  return fmt::format("{}  {}{}{}", head, label, value, left);
 }
 
 void Progress::draw(bool last) {
@@ -97,26 +88,11 @@ void Progress::draw(bool last) {
     fmt::print(stderr, "{}\n", text(seconds));
     return;
   }
-  if (last) {
-    fmt::print(stderr, "\r\033[K");
-    std::fflush(stderr);
-    return;
-  }
+  if (last) return line_.clear();
   if (seconds - drawn_ < bar_interval) return;
   drawn_ = seconds;
-  std::string line = text(seconds);
-  const std::size_t width = terminal_width() - 1;
-  if (line.size() + 3 + shortest_bar <= width) {
-    const std::size_t length = std::min<std::size_t>(width - line.size() - 3, 30);
-    const auto full =
-        static_cast<std::size_t>(std::lround(std::strtod(line.c_str(), nullptr) / 100 * static_cast<double>(length)));
-    const std::string bar = std::string(full, '#') + std::string(length - std::min(full, length), '.');
-    line = fmt::format("[{}{}{}] {}", colour_ ? "\033[36m" : "", bar, colour_ ? "\033[0m" : "", line);
-  } else {
-    line.resize(std::min(line.size(), width));
-  }
-  fmt::print(stderr, "\r{}\033[K", line);
-  std::fflush(stderr);
+  const std::string line = text(seconds, line_.room());
+  line_.draw(line, std::strtod(line.c_str(), nullptr) / 100);
 }
 
 }  // namespace tunica::execution

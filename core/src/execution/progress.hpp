@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "execution/plan.hpp"
+#include "execution/terminal.hpp"
 
 namespace tunica::execution {
 
@@ -21,7 +22,7 @@ struct alignas(64) Meter {
 };
 
 /// What is shown on stderr while a run is under way: on a terminal one line that is redrawn, elsewhere a plain line
-/// every few seconds. NO_COLOR (no-color.org) takes the colour off. One thread calls it.
+/// every few seconds. One thread calls it.
 class Progress {
  public:
   enum class Style { none, lines, bar };
@@ -31,12 +32,13 @@ class Progress {
   Progress(Style style, const Plan& plan, const std::vector<Meter>& meters);
   /// Draws when it is time to; `last` takes the bar off the screen again.
   void draw(bool last = false);
-  /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left.
-  [[nodiscard]] std::string text(double seconds) const;
+  /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left. Where it
+  /// would be wider than `columns`, the name of the run is shortened.
+  [[nodiscard]] std::string text(double seconds, std::size_t columns = 1000) const;
 
  private:
   Style style_;
-  bool colour_;
+  StatusLine line_;
   const Plan& plan_;
   const std::vector<Meter>& meters_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

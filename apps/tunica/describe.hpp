@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "plugins/catalogue.hpp"
+
+namespace tunica::app {
+
+/// Options with their defaults; where the user must give one, the first that is allowed, since the object is made
+/// only to be asked what it is.
+Options any_options(const std::vector<Option>& options);
+
+/// Parameters of a test: its own, each with the value at which it does nothing, NaN where there is none.
+struct TestParameters {
+  std::vector<Parameter> parameters;
+  std::vector<double> nulls;
+};
+TestParameters parameters_of(const plugins::Catalogue::Entry<TestFactory>& entry);
+
+/// What `describe --json` prints of one object.
+nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<ModelFactory>& entry);
+nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<TestFactory>& entry);
+nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry);
+nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry);
+
+/// The one document that --json puts on stdout; numbers that are not finite as null.
+void print_json(const nlohmann::ordered_json& document);
+
+}  // namespace tunica::app

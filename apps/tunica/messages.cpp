@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "messages.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <sstream>
+#include <vector>
+
+#include "comparison/text.hpp"
+#include "data/nearest.hpp"
+#include "execution/terminal.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *bold = "\033[1m", *plain = "\033[0m";
+
+void say(const char* word, const char* colour, const std::string& text) {
+  const bool colours = execution::Terminal::of(STDERR_FILENO).colours;
+  const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
+  fmt::print(stderr, "{}: {}\n", shown, text);
+}
+
+/// "tunica plugin new" for what was being parsed when it went wrong.
+const CLI::App* innermost(const CLI::App& program, std::string& words) {
+  const CLI::App* app = &program;
+  words = program.get_name();
+  for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = app->get_subcommands()) {
+    app = chosen.front();
+    words += ' ' + app->get_name();
+  }
+  return app;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+}  // namespace
+
+void say_error(const std::string& text) { say("error", red, text); }
+void say_warning(const std::string& text) { say("warning", yellow, text); }
+
+void say_wrapped_warning(const std::string& text) {
+  const std::string lead(std::string_view("warning: ").size(), ' ');
+  say_warning(comparison::hanging(lead, text).substr(lead.size()));
+}
+
+std::string highlighted(const std::string& text) {
+  if (!execution::Terminal::of(STDOUT_FILENO).colours) return text;
+  std::string result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t bound = line.find("<- AT ITS ");
+    if (line == "WARNINGS" || line.starts_with("Verdict: "))
+      line = bold + line + plain;
+    else if (line.starts_with("  ! "))
+      line = fmt::format("  {}!{} {}", yellow, plain, line.substr(4));
+    else if (bound != std::string::npos)
+      line = line.substr(0, bound) + yellow + line.substr(bound) + plain;
+    result += line + '\n';
+  }
+  return result;
+}
+
+std::string command_line_error(const CLI::App& program, const CLI::Error& problem) {
+  std::string words;
+  const CLI::App* app = innermost(program, words);
+  std::string text = problem.what();
+  if (const auto extra = program.remaining(true); problem.get_name() == "ExtrasError" && !extra.empty()) {
+    const std::string& word = extra.front();
+    if (word.starts_with('-')) {
+      auto known = option_names(*app);
+      if (app != &program)
+        for (auto& name : option_names(program)) known.push_back(std::move(name));
+      const std::string meant = data::nearest(word.substr(0, word.find('=')), known);
+      text = fmt::format("{}: there is no such option{}", data::excerpt(word),
+                         meant.empty() ? "." : fmt::format(". Did you mean '{}'?", meant));
+    } else {
+      text = fmt::format("'{}' is one argument too many.", data::excerpt(word));
+    }
+  } else if (problem.get_name() == "RequiredError" && app == &program) {
+    std::vector<std::string> verbs;
+    for (const auto* verb : program.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
+      verbs.push_back(verb->get_name());
+    text = fmt::format("a verb is missing: {}.", fmt::join(verbs, ", "));
+  } else if (!text.empty() && text.back() != '.') {
+    text += '.';
+  }
+  return comparison::hanging("", fmt::format("{} `{} --help` shows what it takes, with examples.", text, words));
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace tunica::execution {
+
+/// What is at the other end of stdout or stderr.
+struct Terminal {
+  bool redraws = false;  ///< a terminal that can take a line back: not a file, a pipe or TERM=dumb
+  bool colours = false;  ///< the same, and NO_COLOR (no-color.org) is empty or not set
+  std::size_t columns = 80;
+
+  static Terminal of(int descriptor);
+};
+
+/// As wide on a screen as it looks: characters, not bytes. Control characters stand as '?'.
+std::size_t shown_columns(std::string_view text);
+/// At most so many columns, the end of what is longer as "…"; control characters, which could move the cursor or
+/// colour the screen, as '?'.
+std::string shortened(std::string_view text, std::size_t columns);
+
+/// One line on stderr that is redrawn, with a bar where there is room for one.
+class StatusLine {
+ public:
+  explicit StatusLine(Terminal terminal) : terminal_(terminal) {}
+  /// `share` from 0 to 1 is how far it is.
+  void draw(const std::string& line, double share) const;
+  /// Takes it off the screen again.
+  void clear() const;
+  [[nodiscard]] std::size_t room() const { return terminal_.columns - 1; }  ///< columns for the line
+
+ private:
+  Terminal terminal_;
+};
+
+}  // namespace tunica::execution
