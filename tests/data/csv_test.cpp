@@ -189,7 +189,7 @@ TEST(Csv, RefusesUnitsThatDoNotFitTheObservable) {
             0u);
   EXPECT_NE(strip_refusal("stretch,stress [mm]\n1,0\n")
                 .find("the unit 'mm' cannot be converted to 'kPa': they measure different things. The observable "
-                      "'stress' is in kPa."),
+                      "'stress' is in kPa: correct the unit in the header."),
             std::string::npos);
   EXPECT_NE(strip_refusal("stretch [mm],stress [kPa]\n1,0\n").find("line 1, column 1 ('stretch'): the unit 'mm'"),
             std::string::npos);

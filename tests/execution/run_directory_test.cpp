@@ -47,7 +47,7 @@ TEST(RunDirectory, NeverOverwrites) {
   EXPECT_THAT(refusal(folder.path() / "a" / "b"), ::testing::Not(HasSubstr("--resume")));
   folder.write("a/b/checkpoint.json", "{}");
   EXPECT_THAT(refusal(folder.path() / "a" / "b"), HasSubstr("go on with the run in it with --resume"));
-  EXPECT_THAT(refusal(folder.path() / "a/b/note.txt"), HasSubstr("is a file; -o names a folder"));
+  EXPECT_THAT(refusal(folder.path() / "a/b/note.txt"), HasSubstr("is a file; name a folder with -o"));
 }
 
 TEST(RunDirectory, SaysWhenItCannotBeCreated) {

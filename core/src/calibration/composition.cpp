@@ -114,8 +114,10 @@ void refuse_excluded(const experiment::TestEntry& entry, const std::vector<Param
 void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, const std::string& owner) {
   const auto& applies_to = layer.mechanism->factory.applies_to;
   if (applies_to.empty() || std::find(applies_to.begin(), applies_to.end(), entry.type) != applies_to.end()) return;
-  throw InputError(fmt::format("{}: the mechanism '{}' does not apply to a test of type '{}'; it applies to: {}", owner,
-                               layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
+  throw InputError(
+      fmt::format("{}: the mechanism '{}' does not apply to a test of type '{}'; take it out, or put it into a test "
+                  "that it applies to: {}",
+                  owner, layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
 }
 
 /// What mechanisms that stand for native imperfections say of the test's options. A default says nothing against what
@@ -143,9 +145,9 @@ void expose_native(std::vector<Slot>& slots, const std::vector<Parameter>& of_te
   const auto found =
       std::find_if(of_test.begin(), of_test.end(), [&](const Parameter& p) { return p.name == factory.native; });
   if (found == of_test.end())
-    throw InputError(fmt::format("{}: the mechanism '{}' is the test's own parameter '{}', which it does not have {}",
-                                 owner, factory.id, factory.native,
-                                 entry.layers.empty() ? "with these options" : "with \"layers\""));
+    throw InputError(fmt::format(
+        "{}: the mechanism '{}' is the test's own parameter '{}', which it does not have {}; take the mechanism out",
+        owner, factory.id, factory.native, entry.layers.empty() ? "with these options" : "with \"layers\""));
   Slot& slot = slots[static_cast<std::size_t>(found - of_test.begin())];
   if (slot.setting)
     throw InputError(fmt::format("{}: the mechanism '{}' is the parameter '{}' of {}; name one of the two",

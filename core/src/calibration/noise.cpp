@@ -46,7 +46,9 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
     if (std::find(noise.gross.begin(), noise.gross.end(), rows[k]) != noise.gross.end()) model.sd[k] *= 1000;
   if (noise.correlation == 0) return model;
   if (!(std::abs(noise.correlation) < 1)) {
-    throw InputError(fmt::format("{}: noise.correlation {} is not between -1 and 1", where, noise.correlation));
+    throw InputError(fmt::format(
+        "{}: noise.correlation {} is not between -1 and 1; correct it, or leave it out where rows err independently",
+        where, noise.correlation));
   }
   model.neighbour.assign(rows.size(), 0);
   for (std::size_t k = 1; k < rows.size(); ++k) {

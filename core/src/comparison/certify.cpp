@@ -100,7 +100,8 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
       runs.push_back(std::move(entry));
     }
   } catch (const json::exception& problem) {
-    throw InputError(fmt::format("result.json cannot be understood: {}", problem.what()));
+    throw InputError(
+        fmt::format("result.json cannot be understood: {}; make it again with `tunica run`", problem.what()));
   }
   const json document = {{"runs", std::move(runs)}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';

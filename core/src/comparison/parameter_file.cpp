@@ -36,7 +36,9 @@ json from_result(const json& document, const std::string& model, std::string& wa
   if (!wanted.empty() && !known.empty())
     throw InputError(fmt::format("{}: no run '{}' of the model '{}' has a result in it. {}", file, wanted, model,
                                  data::suggestion(wanted, known)));
-  throw InputError(fmt::format("{}: no run of the model '{}' has a result in it", file, model));
+  throw InputError(fmt::format(
+      "{}: no run of the model '{}' has a result in it; name one of its models with --model, or take another file",
+      file, model));
 }
 
 double value_of(const json& value, const std::string& unit, const std::string& where) {
@@ -64,7 +66,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
       values = from_result(values, model, chosen, file);
       origin = fmt::format("run '{}' of {}", chosen, file);
     } else if (!run.empty()) {
-      throw InputError(fmt::format("{}: is no result.json, so it has no run '{}'", file, run));
+      throw InputError(fmt::format("{}: is no result.json, so it has no run '{}'; leave out --run", file, run));
     }
   } catch (const json::exception& problem) {
     throw InputError(

@@ -112,7 +112,8 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
   auto workspace = assembly.make_workspace();
   const Status status = assembly.predict(free, predictions, {}, *workspace);
   if (!status.ok())
-    throw InputError(fmt::format("the model cannot be evaluated at these parameters: {}", status.reason()));
+    throw InputError(fmt::format("the model cannot be evaluated at these parameters: {}; give others with --parameters",
+                                 status.reason()));
 
   std::vector<SimulatedTable> tables;
   for (const auto& test : experiment.tests) {

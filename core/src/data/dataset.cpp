@@ -39,15 +39,16 @@ void check_request(const DataRequest& request, const std::vector<Observable>& ob
   bool channel = false, time = false;
   for (const auto& [name, column] : request.columns) {
     const Observable& observable = find_observable(name, observables);
-    if (!mapped.insert(name).second) throw InputError(fmt::format("the observable '{}' is mapped twice", name));
+    if (!mapped.insert(name).second)
+      throw InputError(fmt::format("the observable '{}' is mapped twice; leave out one", name));
     channel = channel || observable.role == Observable::Role::channel;
     time = time || observable.role == Observable::Role::time;
   }
   for (const Observable& observable : observables)
     if (observable.required && !mapped.contains(observable.name))
-      throw InputError(
-          fmt::format("no column is mapped to '{}' ({}), which the test needs", observable.name, observable.doc));
-  if (!channel) throw InputError("no measured channel is mapped, so there is nothing to fit");
+      throw InputError(fmt::format("no column is mapped to '{}' ({}), which the test needs; add it to \"columns\"",
+                                   observable.name, observable.doc));
+  if (!channel) throw InputError("no measured channel is mapped, so there is nothing to fit; add one to \"columns\"");
   if (time && request.time_rate) throw InputError("a time column is mapped and \"time_from\" is given: leave out one");
 }
 
@@ -89,10 +90,10 @@ std::vector<std::size_t> selection(const Csv& csv, const RowRange& range, std::s
     if (range.step > count) break;  // also keeps the sum from overflowing
   }
   if (selected.empty())
-    throw InputError(fmt::format("{}, line {}: \"rows\" begins at {} and ends before {}, but there are rows 0 to {}{}.",
-                                 csv.file.string(), csv.header_line, range.first,
-                                 range.last ? fmt::format("{}", *range.last) : "the end", count - 1,
-                                 count < csv.rows.size() ? " after \"where\"" : ""));
+    throw InputError(fmt::format(
+        "{}, line {}: \"rows\" begins at {} and ends before {}, but there are rows 0 to {}{}. Correct \"rows\".",
+        csv.file.string(), csv.header_line, range.first, range.last ? fmt::format("{}", *range.last) : "the end",
+        count - 1, count < csv.rows.size() ? " after \"where\"" : ""));
   if (range.last && *range.last > count)
     warnings.push_back(fmt::format("{}: \"rows\" ends at {}, but there are only {} rows; all up to the end are used.",
                                    csv.file.string(), *range.last, count));
@@ -104,8 +105,9 @@ double in_base_unit(const Series& series, const Series::Column& column, double v
   try {
     return convert(value, column.unit.empty() ? column.observable->unit : column.unit, column.observable->unit);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}. The observable '{}' is in {}.", series.header_place(column), error.what(),
-                                 column.observable->name, column.observable->unit));
+    throw InputError(fmt::format("{}: {}. The observable '{}' is in {}: correct the unit in the header.",
+                                 series.header_place(column), error.what(), column.observable->name,
+                                 column.observable->unit));
   }
 }
 

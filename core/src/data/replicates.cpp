@@ -41,7 +41,7 @@ const Series::Column& path_of(const Series& series) {
   if (path == nullptr)
     throw InputError(
         fmt::format("{}: the replicate has {} rows, a different number from the first file, and no abscissa "
-                    "to compare them along.",
+                    "to compare them along. Give each file a test of its own.",
                     series.file.string(), series.lines.size()));
   for (std::size_t row = 1; row < path->values.size(); ++row)
     if (!(path->values[row] > path->values[row - 1]))
@@ -93,7 +93,8 @@ void align(std::vector<Series>& replicates, std::vector<std::string>& warnings) 
     if (path[row] >= low && path[row] <= high) common.push_back(row);
   if (common.empty())
     throw InputError(
-        fmt::format("{}: no row of this file lies where all replicates have measured ('{}' from {} to {}).",
+        fmt::format("{}: no row of this file lies where all replicates have measured ('{}' from {} to {}). Give each "
+                    "file a test of its own.",
                     first.file.string(), path_of(first).name, low, high));
   if (common.size() < path.size())
     warnings.push_back(

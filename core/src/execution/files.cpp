@@ -96,7 +96,9 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
 
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+  if (!stream)
+    throw InputError(
+        fmt::format("{}: cannot be read: {}; check its name and permissions", file.string(), std::strerror(errno)));
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

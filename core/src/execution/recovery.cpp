@@ -38,7 +38,9 @@ namespace {
 /// Calls `use` with every whole line and its number, and cuts off what follows the last line end.
 void read_lines(const std::filesystem::path& file, const std::function<void(const std::string&, std::size_t)>& use) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  if (!stream)
+    throw InputError(
+        fmt::format("{}: cannot be read; check its permissions, or start anew with another -o", file.string()));
   std::uintmax_t whole = 0;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line) && !stream.eof(); ++number) {
@@ -106,7 +108,8 @@ Recovered recover(const std::filesystem::path& directory, const EvaluationTable&
       return;
     }
     if (line + '\n' != table.header())
-      throw InputError(fmt::format("{}:1: the columns are not those of this experiment", main.string()));
+      throw InputError(
+          fmt::format("{}:1: the columns are not those of this experiment; start anew with another -o", main.string()));
     has_header = true;
   });
   if (!has_header) AppendFile(main).append(table.header());

@@ -55,7 +55,7 @@ RunDirectory RunDirectory::create(const std::optional<std::filesystem::path>& re
   std::error_code error;
   if (requested) {
     if (std::filesystem::exists(*requested, error) && !std::filesystem::is_directory(*requested, error))
-      throw InputError(fmt::format("{}: is a file; -o names a folder", requested->string()));
+      throw InputError(fmt::format("{}: is a file; name a folder with -o", requested->string()));
     if (std::filesystem::is_directory(*requested, error) && !std::filesystem::is_empty(*requested, error))
       throw InputError(fmt::format(
           "{}: is not empty, and results are never overwritten; name another folder with -o{}", requested->string(),

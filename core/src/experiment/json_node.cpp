@@ -55,7 +55,7 @@ std::optional<Node> Node::find(const std::string& key) const {
 
 Node Node::require(const std::string& key, std::string_view owner) const {
   if (auto found = find(key)) return *std::move(found);
-  fail(fmt::format("the key '{}' is missing in {}", key, owner));
+  fail(fmt::format("the key '{}' is missing in {}", key, owner), "Add it.");
 }
 
 Node Node::element(std::size_t i) const { return {*document_, value_->at(i), fmt::format("{}/{}", pointer_, i)}; }

@@ -11,10 +11,10 @@ using Kind = Option::Kind;
 void check_range(const Node& node, const Option& option, double value) {
   if (option.min && value < *option.min)
     node.fail(fmt::format("the option '{}' is {}, less than its least value {}", option.name, value, *option.min),
-              option.doc);
+              fmt::format("Give at least that. {}", option.doc));
   if (option.max && value > *option.max)
     node.fail(fmt::format("the option '{}' is {}, more than its largest value {}", option.name, value, *option.max),
-              option.doc);
+              fmt::format("Give at most that. {}", option.doc));
 }
 
 Option::Value read_option(const Node& node, const Option& option) {
@@ -61,7 +61,8 @@ Options read_options(const Node& entry, const std::vector<Option>& declared, std
     else if (option.fallback)
       options.set(option.name, *option.fallback);
     else
-      entry.fail(fmt::format("the option '{}' is missing in {}", option.name, owner), option.doc);
+      entry.fail(fmt::format("the option '{}' is missing in {}", option.name, owner),
+                 fmt::format("Add it. {}", option.doc));
   }
   return options;
 }

@@ -55,7 +55,8 @@ void read_columns(const Node& block, const std::vector<Observable>& observables,
   }
   for (const Observable& observable : observables)
     if (observable.required && !node.find(observable.name))
-      node.fail(fmt::format("no column is mapped to '{}', which {} needs", observable.name, owner), observable.doc);
+      node.fail(fmt::format("no column is mapped to '{}', which {} needs", observable.name, owner),
+                fmt::format("Add it. {}", observable.doc));
   if (!channel)
     node.fail(fmt::format("no measured quantity of {} is mapped, so there is nothing to fit", owner),
               suggestion("", observable_names(observables, true)));
@@ -79,7 +80,8 @@ data::Noise read_noise_of(const Node& node, const Observable& channel) {
               "Give \"absolute\" or \"relative\" greater than zero, or leave \"noise\" out to have it estimated.");
   if (!(noise.correlation > -1 && noise.correlation < 1))
     node.child_or_self("correlation")
-        .fail(fmt::format("the correlation {} is not between -1 and 1", noise.correlation));
+        .fail(fmt::format("the correlation {} is not between -1 and 1", noise.correlation),
+              "Correct it, or leave it out where rows err independently.");
   return noise;
 }
 
@@ -116,7 +118,8 @@ void read_time_from(const Node& node, const std::vector<Observable>& observables
       node.fail(fmt::format("\"time_from\" is given, and the column '{}' is mapped to '{}' too", excerpt(column), name),
                 "Leave out one of the two.");
   }
-  if (path == nullptr) node.fail("\"time_from\" needs an abscissa, and none is mapped");
+  if (path == nullptr)
+    node.fail("\"time_from\" needs an abscissa, and none is mapped", "Map one in \"columns\", or give a time column.");
   const Node rate = node.require("rate", "\"time_from\"");
   const double value = rate.quantity(path->unit + "/s", fmt::format("the rate of '{}'", path->name));
   if (!(value > 0))

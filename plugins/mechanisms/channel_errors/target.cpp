@@ -62,7 +62,7 @@ std::vector<double> rows_chosen(const std::string& id, const Options& options, s
   for (std::size_t row = first; row < last; row += std::min(step, count)) share[row] = 1;
   if (first >= last)
     throw InputError(
-        fmt::format("{}: \"rows\" is '{}', which is none of the test's rows 0 to {}", id, text, count - 1));
+        fmt::format("{}: \"rows\" is '{}', which is none of the test's rows 0 to {}; correct it", id, text, count - 1));
   return share;
 }
 
