@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
+#include "comparison/text.hpp"
+
 using namespace tunica::comparison;
 using ::testing::HasSubstr;
 
@@ -141,4 +145,43 @@ TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
   const auto text = ranking_table(summary);
   EXPECT_THAT(text, HasSubstr("\n            profile (21.8 … open), bootstrap (21.7 … 23.1)\n"));
   EXPECT_THAT(text, HasSubstr("\n  - the profile of mu is open towards the upper bound\n"));
+}
+
+TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
+  const std::string name(60, 'x');
+  Summary summary;
+  summary.warnings = {name + " is odd in many ways, and this sentence says at length in which of them"};
+  RunSummary run;
+  run.label = name + "/" + name;
+  run.group = "least_squares on " + name + ", " + name;
+  run.has_result = true;
+  run.objective = 1.2345678e-21;
+  run.realisations = 20, run.successes = 19;
+  run.reason = "the largest of 20 starts was evaluated, and the others came to the same point within rounding";
+  run.parameters = {estimate(-1.234567e-5, Interval{-2.3456e-5, 9.8765e-5}, Estimate::Bound::upper)};
+  run.parameters[0].name = name + "." + name;
+  run.quality.resize(1);
+  run.quality[0].test = name, run.quality[0].channel = "transverse_stretch";
+  run.certificate.verdict = "no better neighbour " + name;
+  run.stability.emplace();
+  run.stability->imposed = "h(stretch), admissible";
+  run.stability->ratio_to_free = 5.33;
+  run.stability->models.resize(1);
+  for (const double stretch : {1.25, 1.5}) {
+    tunica::stability::TransverseVerdict verdict;
+    verdict.axis = stretch < 1.4 ? 0 : 1;
+    verdict.first_unstable = stretch;
+    run.stability->models[0].verdict.transverse.push_back(verdict);
+  }
+  run.stability->models[0].verdict.domain.largest = 1.5;
+  summary.runs = {run, run};
+  summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
+  const auto text = ranking_table(summary);
+  EXPECT_THAT(text, HasSubstr("1.250 circ")) << "the table of stability is missing";
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    // A single name of more than 80 columns cannot be broken, and stands alone.
+    const bool alone = line.find_first_of(' ', line.find_first_not_of(' ')) == line.npos;
+    EXPECT_TRUE(alone || columns(line) <= 80) << columns(line) << ": " << line;
+  }
 }

@@ -23,3 +23,9 @@ TEST(Text, WrapsBehindItsLead) {
   EXPECT_EQ(hanging("a: ", "unbreakably", 5), "a: unbreakably");
   EXPECT_EQ(hanging("a", "", 5), "a");
 }
+
+TEST(Text, PutsALongLeadOnALineOfItsOwn) {
+  EXPECT_EQ(hanging("  a_long_name: ", "one two three", 16), "  a_long_name:\n    one two\n    three");
+  EXPECT_EQ(hanging("  a_long_name: ", "", 16), "  a_long_name: ");
+  EXPECT_EQ(hanging("            ", "one two", 16), "            one\n            two") << "blanks are a column";
+}

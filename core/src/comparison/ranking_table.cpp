@@ -12,6 +12,7 @@
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/text.hpp"
+#include "execution/terminal.hpp"
 
 namespace tunica::comparison {
 
@@ -76,7 +77,7 @@ std::string row(const Ranked& entry, const RunSummary& run, bool compares_models
   const auto& to_target = run.evaluations_to_target.box;
   const std::size_t width = label_width(compares_models);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
-  if (columns(label) > width) text += label + '\n' + std::string(3, ' ');
+  if (columns(label) > width) text += execution::shortened(label, 77) + '\n' + std::string(3, ' ');
   text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(label) > width ? "" : label, width),
                       objective, fmt::format("{}/{}", run.successes, run.realisations),
                       count_text(to_target ? std::optional(to_target->median) : std::nullopt),
@@ -155,6 +156,9 @@ std::string ending(const RunSummary& run) {
                      run.converged ? "had" : "had not", reason);
 }
 
+/// A parameter with a longer name has it on a line of its own.
+constexpr std::size_t widest_name = 30;
+
 std::string run_lines(const RunSummary& run) {
   const std::string how = ending(run);
   std::string text = run.label;
@@ -164,8 +168,11 @@ std::string run_lines(const RunSummary& run) {
   if (!run.certificate.verdict.empty()) text += hanging("  optimum: ", run.certificate.verdict) + '\n';
   std::size_t width = 8;
   for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
+  width = std::min(width, widest_name);
   for (const auto& parameter : run.parameters) {
-    text += fmt::format("  {}  {}\n", pad(parameter.name, width), value_text(parameter));
+    const bool fits = columns(parameter.name) <= width;
+    if (!fits) text += fmt::format("  {}\n", parameter.name);
+    text += fmt::format("  {}  {}\n", pad(fits ? parameter.name : "", width), value_text(parameter));
     if (const auto other = other_intervals(parameter); !other.empty())
       text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }
@@ -174,8 +181,7 @@ std::string run_lines(const RunSummary& run) {
   text += side_by_side;
   for (const auto& quality : run.quality) {
     if (!side_by_side.empty()) break;
-    const std::string name = fmt::format("  {}, {}: ", quality.test, quality.channel);
-    text += hanging(columns(name) < 40 ? name : name + "\n    ", quality_text(quality)) + '\n';
+    text += hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
   }
   for (const auto& sentence : run.uncertainty) text += hanging("  - ", sentence) + '\n';
   return text;

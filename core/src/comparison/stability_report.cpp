@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/text.hpp"
+#include "execution/terminal.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -156,9 +157,10 @@ std::string stability_table(const Summary& summary) {
   for (const auto& run : summary.runs)
     if (run.stability) any = true, width = std::max(width, columns(run.label));
   if (!any) return {};
-  width = std::min<std::size_t>(width, 26);
+  constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
+  width = std::min(width, widest_label);
   std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
-  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<8} λ3 grows from stretch\n", pad("run", width), "imposed",
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", pad("run", width), "imposed",
                       "objective", "x free", "stable");
   for (const auto& run : summary.runs) {
     if (!run.stability) continue;
@@ -170,13 +172,32 @@ std::string stability_table(const Summary& summary) {
           where.push_back(fmt::format("{:.3f} {}{}", *verdict.first_unstable, verdict.axis == 0 ? "circ" : "axial",
                                       found.models.size() > 1 ? " (" + model.name + ')' : ""));
     const std::optional<bool> stable = found.transversely_stable();
-    text += fmt::format("  {}  {:<10} {:>#12.6g} {:>7}  {:<8} {}\n", pad(run.label, width),
-                        found.imposed.empty() ? "-" : found.imposed, run.objective,
-                        found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
-                        !stable   ? "-"
-                        : *stable ? "yes"
-                                  : "NO",
-                        fmt::join(where, ", "));
+    std::string label = run.label, imposed = found.imposed.empty() ? "-" : found.imposed;
+    if (columns(label) > width || columns(imposed) > widest_constraint) {
+      const bool with_constraint = columns(imposed) > widest_constraint;
+      text += hanging(fmt::format("  {}{}", execution::shortened(label, 77), with_constraint ? ": " : ""),
+                      with_constraint ? imposed : "") +
+              '\n';
+      label.clear();
+      if (with_constraint) imposed.clear();
+    }
+    const std::string row =
+        fmt::format("  {}  {} {:>#12.6g} {:>7}  {:<6}", pad(label, width), pad(imposed, widest_constraint),
+                    run.objective, found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
+                    !stable   ? "-"
+                    : *stable ? "yes"
+                              : "NO");
+    // The list is wrapped in its own column, which begins beyond the middle of the line.
+    const std::size_t begins = columns(row) + 1;
+    const std::string list =
+        hanging("", fmt::format("{}", fmt::join(where, ", ")), 80 - std::min<std::size_t>(begins, 79));
+    text += row;
+    for (std::size_t from = 0; from < list.size();) {
+      const std::size_t end = std::min(list.find('\n', from), list.size());
+      text += (from == 0 ? " " : '\n' + std::string(begins, ' ')) + list.substr(from, end - from);
+      from = end + 1;
+    }
+    text += '\n';
   }
   const auto& runs = summary.runs;
   const bool any_ratio = std::any_of(

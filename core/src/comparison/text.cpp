@@ -25,6 +25,9 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 }
 
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
+  const std::size_t end_of_lead = lead.find_last_not_of(' ');
+  if (columns(lead) > width / 2 && end_of_lead != lead.npos && text.find_first_not_of(" \n") != text.npos)
+    return std::string(lead.substr(0, end_of_lead + 1)) + '\n' + hanging("    ", text, width);
   const std::size_t indent = columns(lead);
   std::string result(lead);
   std::size_t used = indent;

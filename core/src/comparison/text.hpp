@@ -17,7 +17,8 @@ std::string pad_left(std::string_view text, std::size_t width);
 /// "1 search", "20 searches".
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
-/// `text` after `lead`, wrapped to `width` columns, further lines indented to where the text began.
+/// `text` after `lead`, wrapped to `width` columns, further lines indented to where the text began. A lead that takes
+/// more than half of that, a long name for example, stands on a line of its own.
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width = 80);
 
 }  // namespace tunica::comparison
