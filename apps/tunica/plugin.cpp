@@ -12,6 +12,7 @@ void add_plugin(CLI::App& app, GlobalOptions& global, Action& action) {
       "Examples:\n  tunica plugin new model my_model      a project that builds and passes as it stands\n"
       "  tunica plugin check build/my_model.so  what every model has to hold");
   add_plugin_new(*verb, global, action);
+  add_plugin_check(*verb, global, action);
 }
 
 }  // namespace tunica::app

@@ -7,5 +7,6 @@
 namespace tunica::app {
 
 void add_plugin_new(CLI::App& plugin, GlobalOptions& global, Action& action);
+void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action);
 
 }  // namespace tunica::app

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conformance/test_properties.hpp"
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
-#include "support/test_conformance.hpp"
 
 namespace tunica::testing {
 namespace {

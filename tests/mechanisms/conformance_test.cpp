@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model inside a mechanism is a model: every property of support/model_conformance.hpp holds for it too. One seed,
+// A model inside a mechanism is a model: every property of conformance/model_properties.hpp holds for it too. One seed,
 // so the outcome is deterministic, and was a pass when this was committed.
 #include <gtest/gtest.h>
 
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
 #include "shelf.hpp"
-#include "support/model_conformance.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
-using Case = std::tuple<const char*, const char*, Property>;  // mechanism, fibre_switch
+using Case = std::tuple<const char*, const char*, ModelProperty>;  // mechanism, fibre_switch
 
 class DecoratedModel : public ::testing::TestWithParam<Case> {};
 
 TEST_P(DecoratedModel, KeepsTheProperties) {
   const auto& [mechanism, fibre_switch, property] = GetParam();
-  EXPECT_EQ(property.check(*wrapped(mechanism, model("hgo", fibre_switch)), 20230211), "");
+  EXPECT_EQ(property.check(*wrapped(mechanism, model("hgo", fibre_switch)), 20230211).counter_example, "");
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "conformance/test_properties.hpp"
 #include "shelf.hpp"
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
-#include "support/test_conformance.hpp"
 
 namespace tunica::testing {
+
+using namespace conformance;
 
 /// A test inside a mechanism that acts on tests, and the bare one; of a mechanism that stands for a parameter of the
 /// test twice the same. The material is set S of Canales et al. 2023 (gho).

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "support/model_conformance.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 double exponential(double k1, double k2, double e) { return e > 0 ? k1 / (2 * k2) * (std::exp(k2 * e * e) - 1) : 0; }

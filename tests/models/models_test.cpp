@@ -4,13 +4,15 @@
 #include <cmath>
 #include <random>
 
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "support/model_conformance.hpp"
 #include "tunica/autodiff.hpp"
 #include "tunica/hyperelastic.hpp"
 #include "tunica/laws.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 /// Largest relative difference between the hand-written response of a law and the one differentiated from its formula.
@@ -179,9 +181,9 @@ TEST(Hyperelastic, CarriesTheSecondInvariantThroughBothPaths) {
   std::vector<std::unique_ptr<EnergyPart>> parts;
   parts.push_back(std::make_unique<SecondInvariantPart>());
   const Hyperelastic model(description, std::move(parts));
-  for (const Property& property : model_properties())
-    if (property.check != deviatoric_stress_vanishes_at_rest) {
-      EXPECT_EQ(property.check(model, 11), "") << property.name;
+  for (const ModelProperty& property : model_properties())
+    if (property.function != deviatoric_stress_vanishes_at_rest) {
+      EXPECT_EQ(property.check(model, 11).counter_example, "") << property.name;
     }
 }
 
@@ -199,7 +201,7 @@ TEST(Conformance, CatchesAStressThatIsNotTheGradient) {
    private:
     std::unique_ptr<Model> right_;
   };
-  EXPECT_NE(stress_is_the_gradient_of_the_energy(Wrong(make_model("gho")), 1), "");
+  EXPECT_NE(stress_is_the_gradient_of_the_energy(Wrong(make_model("gho")), 1).counter_example, "");
 }
 
 }  // namespace

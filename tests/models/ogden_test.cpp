@@ -5,10 +5,12 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "support/model_conformance.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 using Matrix = Eigen::Matrix3d;

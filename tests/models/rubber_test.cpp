@@ -5,12 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "support/model_conformance.hpp"
 #include "tunica/autodiff.hpp"
 #include "tunica/rubber_laws.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 struct Invariants {
@@ -25,8 +27,7 @@ void expect_energy(const char* type, const Formula& formula) {
   const auto model = make_model(type);
   Sampler sampler(7);
   for (int draw = 0; draw < 50; ++draw) {
-    const std::vector<double> p = sampler.parameters(model->describe());
-    const Tensor C = sampler.right_cauchy_green();
+    const auto [C, p] = sampler.point(*model);
     const double expected = formula(Invariants(C), p);
     EXPECT_NEAR(evaluate(*model, C, p).energy, expected, 1e-12 * std::max(1.0, std::abs(expected)));
   }

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "optimizers/constrained_functions.hpp"
+#include "conformance/constrained_functions.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 using Progress = AugmentedLagrangian::Progress;

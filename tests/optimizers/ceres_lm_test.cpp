@@ -5,11 +5,12 @@
 #include <limits>
 #include <random>
 
-#include "optimizers/functions.hpp"
+#include "conformance/functions.hpp"
 #include "optimizers/lamb_aorta.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 Given one_start() { return {{"starts", std::int64_t{1}}}; }

@@ -3,13 +3,14 @@
 
 #include <ctime>
 
+#include "conformance/constrained_functions.hpp"
 #include "optimizers/allocations.hpp"
-#include "optimizers/constrained_functions.hpp"
 #include "optimizers/g_suite.hpp"
 #include "optimizers/lamb_aorta.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 TEST(Es, RefusesCommaSelectionWithoutSurplusOffspring) {

@@ -2,10 +2,11 @@
 // The test doubles themselves: a wrong Jacobian here would be blamed on the optimisers.
 #include <gtest/gtest.h>
 
-#include "optimizers/constrained_functions.hpp"
+#include "conformance/constrained_functions.hpp"
 #include "optimizers/lamb_aorta.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 void expect_jacobian_is_the_derivative(const Function& function, std::vector<double> x) {

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
-#include "optimizers/function_problem.hpp"
+#include "conformance/function_problem.hpp"
 
 namespace tunica::testing {
+
+using namespace conformance;
 
 /// Problems of Michalewicz & Schoenauer (1996), numbered as by Runarsson & Yao (2000, 2005), each with several
 /// constraints active at the optimum. The objective has to be a sum of squares here: r = √(f + offset), where the

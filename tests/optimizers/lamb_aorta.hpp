@@ -9,9 +9,11 @@
 #include <optional>
 #include <sstream>
 
-#include "optimizers/function_problem.hpp"
+#include "conformance/function_problem.hpp"
 
 namespace tunica::testing {
+
+using namespace conformance;
 
 struct Strip {
   bool circumferential;

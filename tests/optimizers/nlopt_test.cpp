@@ -3,11 +3,12 @@
 
 #include <thread>
 
-#include "optimizers/constrained_functions.hpp"
+#include "conformance/constrained_functions.hpp"
 #include "optimizers/g_suite.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 Given algorithm(const std::string& name) { return {{"algorithm", name}}; }

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "conformance/test_properties.hpp"
 #include "support/strip.hpp"
-#include "support/test_conformance.hpp"
 #include "support/tube.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 constexpr double inner = 3.71, wall = 2.06, outer = inner + wall;
@@ -172,14 +173,21 @@ TEST_P(LayeredTubeConformance, Holds) {
   for (const auto& stretches : {std::vector<double>{}, std::vector<double>{1.05, 1.1, 1.2, 1.15, 1.3, 1.25}}) {
     const TubeSetup setup{.channels = all_channels, .axial_stretches = stretches, .layers = {0.9, wall - 0.9}};
     const auto tube = make_tube({0.5, 3, 8, 12, 16, 20}, setup);
-    EXPECT_EQ(property.check({*tube, *fibres, joined(set_s, of_weave), own, {fibres.get(), weave.get()}}), "");
-    EXPECT_EQ(property.check({*tube, *matrix, joined({30}, set_s), own, {matrix.get(), fibres.get()}}), "");
+    EXPECT_EQ(
+        property.check({*tube, *fibres, joined(set_s, of_weave), own, {fibres.get(), weave.get()}}).counter_example,
+        "");
+    EXPECT_EQ(property.check({*tube, *matrix, joined({30}, set_s), own, {matrix.get(), fibres.get()}}).counter_example,
+              "");
   }
   const auto sandwich = make_tube({0.5, 4, 9}, {.channels = all_channels, .layers = {0.5, 1, wall - 1.5}});
-  EXPECT_EQ(
-      property.check(
-          {*sandwich, *matrix, joined({30}, joined(of_weave, {30})), own, {matrix.get(), weave.get(), matrix.get()}}),
-      "");
+  EXPECT_EQ(property
+                .check({*sandwich,
+                        *matrix,
+                        joined({30}, joined(of_weave, {30})),
+                        own,
+                        {matrix.get(), weave.get(), matrix.get()}})
+                .counter_example,
+            "");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LayeredTubeConformance,

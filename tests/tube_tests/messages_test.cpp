@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "conformance/test_properties.hpp"
 #include "support/strip.hpp"
-#include "support/test_conformance.hpp"
 #include "support/tube.hpp"
 
 namespace tunica::testing {
+using namespace conformance;
 namespace {
 
 std::string refusal(const std::vector<double>& pressure, const TubeSetup& setup) {
@@ -62,7 +63,7 @@ TEST(TubeMessages, RowsThatCannotBeSimulatedAreRefused) {
 
 TEST(TubeMessages, OverflowIsAStatusThatNamesTheRow) {
   const auto tube = make_tube(evenly(0, 20, 5), {.axial_stretch = 3});
-  EXPECT_EQ(overflow_is_a_status({*tube, *make_model("gho"), {10, 0.1, 500, 100, 0}, bare_tube}), "");
+  EXPECT_EQ(overflow_is_a_status({*tube, *make_model("gho"), {10, 0.1, 500, 100, 0}, bare_tube}).counter_example, "");
   EXPECT_SAYS(inflate(*tube, *make_model("gho"), {10, 0.1, 500, 100, 0}).status.reason(), "the energy overflows");
   EXPECT_SAYS(inflate(*make_tube({5}, {.axial_stretch = 2}), *make_model("gent"), {60, 1}).status.reason(),
               "the energy overflows or is undefined on the path from rest, beyond");

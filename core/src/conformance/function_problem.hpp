@@ -12,7 +12,7 @@
 #include "tunica/optimizer.hpp"
 #include "tunica/random.hpp"
 
-namespace tunica::testing {
+namespace tunica::conformance {
 
 /// A function over the unit box, written as residuals so that every kind of optimiser can be asked.
 struct Function {
@@ -112,7 +112,7 @@ class FunctionProblem : public Problem {
     }
     if (fails(x) || !function_.residuals(x, residuals, jacobian)) {
       ++failures;
-      return Status::failed("the test double fails here");
+      return Status::failed("the function fails here");
     }
     objective = 0;
     for (const ResidualBlock& block : function_.blocks) {
@@ -124,7 +124,7 @@ class FunctionProblem : public Problem {
     if (const double violation = this->violation(x); violation > 0) {
       ++infeasible;
       least_violation = std::min(least_violation, violation);
-      return Status::infeasible("the test double breaks a constraint here", violation);
+      return Status::infeasible("a constraint is broken here", violation);
     }
     least_violation = 0;
     if (objective < best) {
@@ -183,4 +183,4 @@ class FunctionProblem : public Problem {
   bool in_batch_ = false;
 };
 
-}  // namespace tunica::testing
+}  // namespace tunica::conformance

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "optimizers/function_problem.hpp"
+#include "conformance/function_problem.hpp"
 
-namespace tunica::testing {
+namespace tunica::conformance {
 
 /// A sum of squares on [lower, upper]^n, given over the box's own coordinates y; the Jacobian is scaled to x.
 template <class Residuals>
@@ -85,4 +85,4 @@ inline Function rastrigin(std::size_t n) {
                        });
 }
 
-}  // namespace tunica::testing
+}  // namespace tunica::conformance

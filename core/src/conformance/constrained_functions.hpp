@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "optimizers/functions.hpp"
+#include "conformance/functions.hpp"
 
-namespace tunica::testing {
+namespace tunica::conformance {
 
 /// Adds m inequality constraints to a function on [lower, upper]^n, given over the box's own coordinates y as
 /// constraints(y, c, jacobian); the Jacobian is scaled to x.
@@ -106,4 +106,4 @@ inline Function nothing_feasible() {
   return function;
 }
 
-}  // namespace tunica::testing
+}  // namespace tunica::conformance

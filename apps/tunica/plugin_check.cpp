@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison/text.hpp"
+#include "conformance/plugin_check.hpp"
+#include "exit_codes.hpp"
+#include "messages.hpp"
+#include "plugin.hpp"
+#include "plugins/loader.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using comparison::hanging;
+using conformance::Finding;
+using json = nlohmann::ordered_json;
+
+struct Asked {
+  std::string file, experiment;
+  std::uint64_t seed = conformance::CheckSettings().seed;
+  std::vector<std::string> only;
+  bool as_json = false;
+};
+
+/// The plugin under check before all others, so that its names are its own; the others are its partners.
+struct OnTheBench {
+  plugins::Catalogue catalogue;
+  plugins::Loaded loaded;
+  conformance::Contents contents;
+
+  OnTheBench(const GlobalOptions& global, const fs::path& file) {
+    const bool trusting = global.allow_world_writable_plugins;
+    if (!fs::exists(file)) throw InputError(fmt::format("{}: no such file; expected a plugin to check", file.string()));
+    try {
+      loaded = plugins::load_file(file, catalogue, trusting);
+    } catch (const plugins::Refused& refused) {
+      throw PluginRefused(fmt::format("{}: {}", file.string(), refused.what()));
+    }
+    contents = conformance::contents_of(catalogue);
+    std::vector<fs::path> folders;
+    for (const fs::path path : global.plugin_paths) {
+      if (fs::is_directory(path))
+        folders.push_back(path);
+      else
+        load_partner(path, trusting);
+    }
+    auto search = plugins::default_search_path(folders);
+    search.allow_world_writable = trusting;
+    for (const auto& refusal : plugins::load_all(search, catalogue).refused) warn(refusal.file, refusal.reason);
+  }
+
+ private:
+  void load_partner(const fs::path& path, bool trusting) {
+    try {
+      plugins::load_file(path, catalogue, trusting);
+    } catch (const plugins::Refused& refused) {
+      warn(path, refused.what());
+    }
+  }
+  void warn(const fs::path& file, const std::string& reason) const {
+    // The plugin itself, met again on the search path.
+    std::error_code error;
+    if (fs::equivalent(file, loaded.file, error)) return;
+    say_wrapped_warning(fmt::format("plugin {} was refused: {}", file.string(), reason));
+  }
+};
+
+const char* outcome(const Finding& finding) {
+  if (!finding.verdict.skipped.empty()) return "not checked";
+  if (finding.verdict.counter_example.empty()) return "ok";
+  return finding.advisory ? "noted" : "FAILED";
+}
+
+/// One line a property, worst error beside its tolerance; below it what went wrong.
+class Table {
+ public:
+  void add(const Finding& finding) {
+    const std::string head = finding.kind + " " + finding.name + (finding.with.empty() ? "" : ", " + finding.with);
+    if (head != head_) fmt::print("{}{}\n", head_.empty() ? "" : "\n", hanging("", head));
+    head_ = head;
+    const conformance::Verdict& verdict = finding.verdict;
+    std::string figures;
+    if (verdict.skipped.empty() && (verdict.worst > 0 || verdict.tolerance > 0))
+      figures = fmt::format("{:.1e} of {:.0e}", verdict.worst, verdict.tolerance);
+    fmt::print("  {:<11} {:<50} {}\n", outcome(finding), finding.property, figures);
+    constexpr const char* indent = "              ";
+    if (!verdict.skipped.empty()) fmt::print("{}\n", hanging(indent, verdict.skipped));
+    if (verdict.counter_example.empty()) {
+      if (!verdict.note.empty() && finding.advisory) fmt::print("{}\n", hanging(indent, verdict.note));
+    } else {
+      if (!verdict.compared.empty()) fmt::print("{}\n", hanging(indent, "Compared: " + verdict.compared + "."));
+      fmt::print("{}\n", hanging(indent, verdict.counter_example));
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string head_;
+};
+
+json as_json(const Finding& finding) {
+  const conformance::Verdict& verdict = finding.verdict;
+  json one{{"kind", finding.kind},         {"name", finding.name},        {"with", finding.with},
+           {"property", finding.property}, {"outcome", outcome(finding)}, {"compared", verdict.compared}};
+  // An error that is infinite is no number in JSON.
+  one["worst"] = verdict.worst, one["tolerance"] = verdict.tolerance;
+  if (!verdict.counter_example.empty()) one["counter_example"] = verdict.counter_example;
+  if (!verdict.skipped.empty()) one["reason"] = verdict.skipped;
+  if (!verdict.note.empty()) one["note"] = verdict.note;
+  one["seconds"] = finding.seconds;
+  return one;
+}
+
+int check_plugin(const GlobalOptions& global, const Asked& asked) {
+  const OnTheBench bench(global, asked.file);
+  const std::string plugin = fmt::format("{} {}", bench.loaded.name, bench.loaded.version);
+  if (bench.contents.empty())
+    throw InputError(
+        fmt::format("{}: the plugin '{}' registers nothing; add a factory to the registry in "
+                    "TUNICA_PLUGIN",
+                    asked.file, plugin));
+  conformance::CheckSettings settings{.seed = asked.seed, .only = asked.only};
+  std::optional<experiment::Experiment> experiment;
+  if (!asked.experiment.empty()) {
+    experiment = experiment::read_experiment(asked.experiment, bench.catalogue);
+    settings.experiment = &*experiment;
+  }
+  if (!asked.as_json) fmt::print("plugin {} from {}, seed {}\n\n", plugin, asked.file, asked.seed);
+  Table table;
+  const auto findings = conformance::check_plugin(bench.contents, bench.catalogue, settings, [&](const Finding& one) {
+    if (!asked.as_json) table.add(one);
+  });
+  std::size_t failed = 0, skipped = 0;
+  for (const Finding& one : findings) failed += one.failed(), skipped += !one.verdict.skipped.empty();
+  if (asked.as_json) {
+    json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
+    for (const Finding& one : findings) all["findings"].push_back(as_json(one));
+    fmt::print("{}\n", all.dump(2));
+    return failed == 0 ? done : not_converged;
+  }
+  const std::string checked = fmt::format("{} of {} held", findings.size() - failed - skipped, findings.size()) +
+                              (skipped > 0 ? fmt::format(", {} not checked", skipped) : std::string());
+  if (failed == 0)
+    fmt::print("\n{}\n", hanging("", fmt::format("In order: {}. Next: an experiment of your own with it, beside a "
+                                                 "built-in one; put the plugin on TUNICA_PLUGIN_PATH.",
+                                                 checked)));
+  else
+    fmt::print("\n{}\n", hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
+                                                 "follow from it, and check again with --only NAME; what each "
+                                                 "property means is in docs/plugin-check.md.",
+                                                 comparison::counted(failed, "property failed", "properties failed") +
+                                                     ", " + checked)));
+  return failed == 0 ? done : not_converged;
+}
+
+}  // namespace
+
+void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action) {
+  auto asked = std::make_shared<Asked>();
+  auto* verb = plugin.add_subcommand("check", "Hold a plugin to every property that tunica relies on");
+  verb->add_option("file", asked->file, "The plugin, a shared library")->required()->type_name("FILE");
+  verb->add_option("--seed", asked->seed, "Of the states, parameters and searches that are tried")
+      ->check(seed_number())
+      ->type_name("S");
+  verb->add_option("--only", asked->only, "A property, or one of the things the plugin provides; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  verb->add_option("--experiment", asked->experiment, "Check tests and mechanisms of tests as they stand in this file")
+      ->type_name("EXP");
+  verb->add_flag("--json", asked->as_json, "The verdicts as JSON on stdout");
+  verb->footer(
+      "Examples:\n  tunica plugin check build/my_model.so\n  tunica plugin check build/my_model.so --only "
+      "concurrent_calls_agree\n  tunica plugin check build/my_test.so --experiment experiment.json\n\nExit code 0: "
+      "every property holds; 1: one failed; 3: the plugin was refused. Each property is\nchecked in a process of its "
+      "own, so that one that crashes is a finding.");
+  verb->callback([&global, &action, asked] { action = [&global, asked] { return check_plugin(global, *asked); }; });
+}
+
+}  // namespace tunica::app

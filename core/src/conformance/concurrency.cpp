@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/concurrency.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <barrier>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <random>
+#include <thread>
+#include <vector>
+
+namespace tunica::conformance {
+
+Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds) {
+  const std::size_t threads = std::max<std::size_t>(8, 2 * std::thread::hardware_concurrency());
+  std::atomic<bool> over = false;
+  std::atomic<std::uint64_t> calls = 0;
+  std::mutex guard;
+  Race race;
+  race.threads = threads;
+  std::exception_ptr thrown;
+  std::barrier begin(static_cast<std::ptrdiff_t>(threads));
+  const auto run = [&](std::size_t thread) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::mt19937 engine(static_cast<std::uint32_t>(thread));
+    std::shuffle(order.begin(), order.end(), engine);
+    begin.arrive_and_wait();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    try {
+      do {
+        for (const std::size_t input : order) {
+          if (over) return;
+          ++calls;
+          if (agrees(input)) continue;
+          const std::lock_guard lock(guard);
+          over = race.lost = true, race.input = input;
+          return;
+        }
+      } while (std::chrono::steady_clock::now() < end);
+    } catch (...) {
+      const std::lock_guard lock(guard);
+      over = true, thrown = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> all;
+    for (std::size_t thread = 0; thread < threads; ++thread) all.emplace_back(run, thread);
+  }
+  race.calls = calls;
+  if (thrown && !race.lost) std::rethrow_exception(thrown);
+  return race;
+}
+
+}  // namespace tunica::conformance

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "calibration/composition.hpp"
+#include "conformance/declarations.hpp"
+#include "conformance/isolated.hpp"
+#include "conformance/jobs.hpp"
+#include "conformance/mechanism_properties.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+using Entry = plugins::Catalogue::Entry<MechanismFactory>;
+
+/// Options to try: as declared; then texts that are empty by default with the names a text may stand for.
+std::vector<Options> guesses(const std::vector<Option>& declared, const TestRows* rows) {
+  std::vector<Options> all{plausible_options(declared)};
+  std::vector<std::string> words{"1:3", "1"};
+  if (rows != nullptr) {
+    for (auto channel = rows->channels.rbegin(); channel != rows->channels.rend(); ++channel) words.push_back(*channel);
+    for (const auto& column : rows->abscissae) words.push_back(column.observable);
+  }
+  for (const Option& option : declared) {
+    if (option.kind != Option::Kind::text) continue;
+    const std::vector<Options> before = all;
+    for (const Options& one : before)
+      for (const std::string& word : words) all.push_back(one), all.back().set(option.name, word);
+  }
+  return all;
+}
+
+/// The mechanism around a model; throws InputError where it does not apply.
+WrappedModel around_model(const Entry& entry, const std::function<std::unique_ptr<Model>()>& make,
+                          const std::vector<double>& parameters) {
+  std::string last;
+  for (const Options& options : guesses(entry.factory.options, nullptr)) try {
+      return {entry.factory, make(), plugins::wrap(entry, make(), options), parameters};
+    } catch (const InputError& problem) {
+      last = problem.what();
+    }
+  throw InputError(last);
+}
+
+/// Around the first of our own materials that it applies to, or else of the models that are loaded.
+WrappedModel around_some_model(const Entry& entry, const Around& around) {
+  std::string last;
+  const std::vector<double> wall = materials().front().parameters, soft = materials().back().parameters;
+  const std::vector<std::pair<std::unique_ptr<Model> (*)(), std::vector<double>>> own{
+      {slack_fibrous, wall}, {fibrous, wall}, {rubber, soft}};
+  for (const auto& [make, parameters] : own) try {
+      return around_model(entry, make, parameters);
+    } catch (const InputError& problem) {
+      last = problem.what();
+    }
+  for (const auto& [name, model] : around.catalogue.models()) try {
+      const auto make = [&model = model] { return plugins::create(model, plausible_options(model.factory.options)); };
+      return around_model(entry, make, initial_values(make()->describe().parameters));
+    } catch (const InputError& problem) {
+      last = problem.what();
+    }
+  throw std::runtime_error("it applies to none of the models that are loaded (" + last + ")");
+}
+
+/// A test of the experiment once more: one that is wrapped is owned.
+std::unique_ptr<Test> composed_test(const std::string& name, const Around& around) {
+  return calibration::compose_test(around.settings.experiment->test(name), around.catalogue).test;
+}
+
+WrappedTest around_test(const Entry& entry, const std::string& type, const Around& around) {
+  const MechanismFactory& mechanism = entry.factory;
+  const auto& factory = around.catalogue.tests().find(type)->second;
+  const auto made = [&]() -> Benched {
+    if (around.settings.experiment == nullptr) return make_up(factory, around.settings.seed);
+    auto all = from_experiment(*around.settings.experiment, {type}, around.catalogue);
+    if (all.empty()) throw std::runtime_error("the experiment has no test of type '" + type + "'");
+    return std::move(all.front());
+  };
+  Benched bare = made();
+  WrappedTest on{mechanism, bare.test, bare.test, 0, bare.own, bare.own, bare.material};
+  if (!mechanism.native.empty()) {
+    const auto& own = bare.test->describe().parameters;
+    const auto found =
+        std::find_if(own.begin(), own.end(), [&](const Parameter& p) { return p.name == mechanism.native; });
+    if (found == own.end())
+      throw std::runtime_error(fmt::format("the test '{}' has no parameter '{}'", type, mechanism.native));
+    on.amplitude = static_cast<std::size_t>(found - own.begin());
+    return on;
+  }
+  std::string last;
+  for (const Options& options : guesses(mechanism.options, &bare.test->rows())) try {
+      on.with = plugins::wrap(
+          entry, bare.from ? plugins::create(factory, bare.from->setup()) : composed_test(bare.name, around), options);
+      on.amplitude = bare.own.size();
+      on.own.push_back(mechanism.null);
+      for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) on.own.push_back(mechanism.parameters[k].initial);
+      return on;
+    } catch (const InputError& problem) {
+      last = problem.what();
+    }
+  throw std::runtime_error(last);
+}
+
+/// Adds the properties of what `wrap` makes, or why it cannot be made.
+template <class Subject, class Wrap>
+void add_wrapped(Jobs& jobs, const Finding& head, const std::vector<PropertyOf<Subject>>& properties,
+                 const Around& around, const Wrap& wrap) {
+  const Verdict able = isolated(
+      [&] {
+        static_cast<void>(wrap());
+        return Verdict{};
+      },
+      around.settings.time_limit);
+  if (!able.held()) {
+    const std::string why = able.counter_example;
+    add(jobs, head, properties.front().name,
+        [why] { return not_checked("what it wraps with what it makes of that", why); });
+    return;
+  }
+  add_properties(jobs, head, properties, around.settings.seed, [wrap](const auto& check) { return check(wrap()); });
+}
+
+}  // namespace
+
+Jobs mechanism_jobs(const std::string& id, const Around& around) {
+  const auto& entry = around.catalogue.mechanisms().find(id)->second;
+  Finding head{"mechanism", id, "", ""};
+  Jobs jobs;
+  add(jobs, head, "declaration_is_complete",
+      [&entry, around] { return declaration_is_complete(entry.factory, around.catalogue); });
+  if (entry.factory.stage < Stage::test) {
+    add_wrapped(jobs, head, wrapped_model_properties(), around,
+                [&entry, around] { return around_some_model(entry, around); });
+    return jobs;
+  }
+  std::vector<std::string> types = entry.factory.applies_to;
+  if (types.empty())
+    for (const auto& [type, factory] : around.catalogue.tests()) types.push_back(type);
+  for (const std::string& type : types) {
+    if (!around.catalogue.tests().contains(type)) continue;  // the declaration says so
+    head.with = "on " + type;
+    add_wrapped(jobs, head, wrapped_test_properties(), around,
+                [&entry, type, around] { return around_test(entry, type, around); });
+  }
+  return jobs;
+}
+
+}  // namespace tunica::conformance

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fast path of models, along principal axes, against their tensors.
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "conformance/differences.hpp"
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+constexpr int draws = 20;
+constexpr double tolerance = 1e-12;
+
+struct OnAxes {
+  double energy = 0;
+  std::array<double, 3> gradient{};
+  std::array<double, 6> hessian{};
+  std::vector<double> gradient_dp;
+};
+OnAxes evaluate_axes(const Model& model, const Point& point, bool parameter_derivatives) {
+  OnAxes out;
+  if (parameter_derivatives) out.gradient_dp.resize(3 * point.p.size());
+  const std::array c{point.C[0], point.C[1], point.C[2]};
+  const Status status =
+      model.evaluate_axes({1, c, point.p}, {{&out.energy, 1}, out.gradient, out.hessian, out.gradient_dp});
+  if (!status.ok()) throw std::runtime_error("evaluate_axes answers '" + status.reason() + "'");
+  return out;
+}
+
+}  // namespace
+
+Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed) {
+  Meter meter("evaluate_axes with evaluate at C without shear", tolerance);
+  const ModelDescription& description = model.describe();
+  if (!description.principal_axes)
+    return not_checked(meter.verdict().compared, "the model declares no principal-axes path");
+  Sampler sampler(seed);
+  for (int draw = 0; draw < draws; ++draw) {
+    const Point point = sampler.diagonal_point(model);
+    const Evaluated tensor = evaluate(model, point.C, point.p);
+    const OnAxes axes = evaluate_axes(model, point, false);
+    const auto see = [&](const std::string& what, double one, double other, double scale) {
+      meter.see(std::abs(one - other) / scale, [&] {
+        return fmt::format("{} is {:.15g} from evaluate_axes, {:.15g} from evaluate,", what, one, other) +
+               where(model, point);
+      });
+    };
+    see("W", axes.energy, tensor.energy, std::max(std::abs(tensor.energy), 1e-3 * scale_of(tensor.stress)));
+    for (std::size_t a = 0; a < 3; ++a)
+      see(fmt::format("S of axis {}", a), 2 * axes.gradient[a], tensor.stress[a], scale_of(tensor.stress));
+    constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+    for (std::size_t k = 0; k < 6; ++k)
+      see(fmt::format("the tangent of axes {} and {}", pair[k][0], pair[k][1]), 4 * axes.hessian[k],
+          tensor.tangent[6 * pair[k][0] + pair[k][1]],
+          std::max(scale_of(tensor.tangent), 1e-3 * scale_of(tensor.stress)));
+  }
+  meter.note(sampler.drawn_again());
+  return meter.verdict();
+}
+
+Verdict axes_parameter_derivatives_agree_with_tensors(const Model& model, std::uint64_t seed) {
+  Meter meter("dg/dp of evaluate_axes with dS/dp of evaluate", tolerance);
+  const ModelDescription& description = model.describe();
+  if (!description.principal_axes || !description.parameter_derivatives)
+    return not_checked(meter.verdict().compared, description.principal_axes
+                                                     ? "the model declares no parameter derivatives"
+                                                     : "the model declares no principal-axes path");
+  Sampler sampler(seed);
+  for (int draw = 0; draw < draws; ++draw) {
+    const Point point = sampler.diagonal_point(model);
+    const Evaluated tensor = evaluate(model, point.C, point.p);
+    const OnAxes axes = evaluate_axes(model, point, true);
+    for (std::size_t j = 0; j < point.p.size(); ++j) {
+      const auto row = std::span(tensor.stress_dp).subspan(6 * j, 6);
+      const double scale = scale_of(row, 1e-6 * scale_of(tensor.stress) / std::max(1e-300, std::abs(point.p[j])));
+      for (std::size_t a = 0; a < 3; ++a)
+        meter.see(std::abs(2 * axes.gradient_dp[3 * j + a] - row[a]) / scale, [&] {
+          return fmt::format("dS of axis {} by {} is {:.15g} from evaluate_axes, {:.15g} from evaluate,", a,
+                             description.parameters[j].name, 2 * axes.gradient_dp[3 * j + a], row[a]) +
+                 where(model, point);
+        });
+    }
+  }
+  meter.note(sampler.drawn_again());
+  return meter.verdict();
+}
+
+}  // namespace tunica::conformance

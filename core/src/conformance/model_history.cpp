@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Models with memory.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "conformance/differences.hpp"
+#include "conformance/model_batch.hpp"
+#include "conformance/model_properties.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+constexpr std::size_t n = 20;
+
+struct Step {
+  std::vector<double> stress, state;
+};
+Step step(const Model& model, const Batch& batch) {
+  return {answers(model, batch, {false, true, false, false, false}),
+          answers(model, batch, {false, false, false, false, true})};
+}
+
+/// The stresses against each other, relative to the largest.
+void see(Meter& meter, const Model& model, const Batch& batch, const std::vector<double>& one,
+         const std::vector<double>& other, const std::string& words) {
+  for (std::size_t i = 0; i < one.size(); ++i)
+    meter.see(std::abs(one[i] - other[i]) / scale_of(one), [&] {
+      return fmt::format("S is {:.10g} {} {:.10g},", one[i], words, other[i]) +
+             where(model, batch.point(i % batch.count));
+    });
+}
+
+Batch at_states(const Model& model, std::uint64_t seed) {
+  Sampler sampler(seed);
+  Batch batch = Batch::draw(model, sampler, n);
+  batch.state.clear(), batch.time_step.clear();
+  return batch;
+}
+
+}  // namespace
+
+Verdict history_begins_at_rest(const Model& model, std::uint64_t seed) {
+  Meter meter("S from no state with S from the state that is left at rest", 1e-9);
+  if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
+  Batch batch = at_states(model, seed);
+  Batch rest = batch;
+  for (std::size_t i = 0; i < rest.C.size(); ++i) rest.C[i] = i < 3 * n ? 1 : 0;
+  const std::vector<double> state = step(model, rest).state;
+  if (!std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }))
+    return broken(meter.verdict().compared,
+                  fmt::format("of history_size = {} numbers a point some are not written, or no numbers",
+                              model.describe().history_size));
+  for (const double dt : {-1., 0., 1e-3, 1., 1e3}) {
+    batch.time_step.assign(dt < 0 ? 0 : n, dt);
+    batch.state.clear();
+    const std::vector<double> from_nothing = step(model, batch).stress;
+    batch.state = state;
+    see(meter, model, batch, from_nothing, step(model, batch).stress,
+        "without an old state, and from what C = 1 leaves behind");
+  }
+  return meter.verdict();
+}
+
+Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed) {
+  Meter meter("S with S of the same C again, no time later", 1e-9);
+  if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
+  Batch batch = at_states(model, seed);
+  for (const double dt : {0., 1e-2, 1., 1e2}) {
+    batch.time_step.assign(n, dt);
+    batch.state.clear();
+    const Step first = step(model, batch);
+    if (!std::all_of(first.stress.begin(), first.stress.end(), [](double x) { return std::isfinite(x); }))
+      return broken(meter.verdict().compared, fmt::format("S is no number after a step of {:g} s", dt));
+    batch.state = first.state;
+    batch.time_step.assign(n, 0);
+    see(meter, model, batch, first.stress, step(model, batch).stress, "and after a second step of 0 s at the same C");
+  }
+  return meter.verdict();
+}
+
+}  // namespace tunica::conformance

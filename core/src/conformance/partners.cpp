@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/partners.hpp"
+
+#include <algorithm>
+
+#include "tunica/arterial_fibres.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+enum { mu, k1, k2, theta, parameter_count };
+
+struct Diagonal {
+  template <class T>
+  static InvariantOf<T> invariant(std::span<const T> p) {
+    InvariantOf<T> e;
+    e.fibre = T(1);
+    e.offset = T(-1);
+    e.angle = p[theta] * degree;
+    return e;
+  }
+};
+
+std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
+  ModelDescription description;
+  description.type = "fibrous";
+  description.parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()};
+  Options options;
+  options.set("fibre_switch", fibre_switch);
+  std::vector<std::unique_ptr<EnergyPart>> parts;
+  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options));
+  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+}
+
+}  // namespace
+
+std::unique_ptr<Model> rubber() {
+  ModelDescription description;
+  description.type = "rubber";
+  description.parameters = {arterial::mu()};
+  std::vector<std::unique_ptr<EnergyPart>> parts;
+  parts.push_back(arterial::matrix<1>(mu));
+  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+}
+std::unique_ptr<Model> fibrous() { return with_fibres("none"); }
+std::unique_ptr<Model> slack_fibrous() { return with_fibres("strain"); }
+
+std::vector<Material> materials() {
+  const std::vector<double> wall{30, 20, 0.6, 42};
+  return {{"a neo-Hookean matrix with fibres", fibrous(), wall},
+          {"a neo-Hookean matrix with fibres that only pull", slack_fibrous(), wall},
+          {"a neo-Hookean rubber", rubber(), {60}}};
+}
+
+Options plausible_options(const std::vector<Option>& declared) {
+  Options options;
+  for (const Option& option : declared) {
+    if (option.fallback)
+      options.set(option.name, *option.fallback);
+    else if (option.kind == Option::Kind::choice && !option.choices.empty())
+      options.set(option.name, option.choices.front());
+    else if (option.kind == Option::Kind::number || option.kind == Option::Kind::quantity)
+      options.set(option.name, std::clamp(1.0, option.min.value_or(1.0),
+                                          std::max(option.min.value_or(1.0), option.max.value_or(1.0))));
+    else if (option.kind == Option::Kind::integer)
+      options.set(option.name, static_cast<std::int64_t>(option.min.value_or(1.0)));
+    else if (option.kind == Option::Kind::flag)
+      options.set(option.name, false);
+    else if (option.kind == Option::Kind::json)
+      options.set(option.name, std::string("null"));
+    else
+      options.set(option.name, std::string());
+  }
+  return options;
+}
+
+std::vector<double> initial_values(const std::vector<Parameter>& parameters) {
+  std::vector<double> values;
+  for (const Parameter& parameter : parameters) values.push_back(parameter.initial);
+  return values;
+}
+
+}  // namespace tunica::conformance

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "conformance/verdict.hpp"
+#include "tunica/test.hpp"
+
+/// The properties every Test must have. What each means for an author, and why its tolerance: docs/plugin-check.md.
+namespace tunica::conformance {
+
+/// A test, a model, and parameters at which the evaluation succeeds.
+struct Simulation {
+  const Test& test;
+  const Model& model;
+  std::vector<double> model_parameters, test_parameters;
+  std::vector<const Model*> layers = {};
+
+  [[nodiscard]] TestInput input() const { return {model, model_parameters, test_parameters, {}, layers}; }
+};
+
+/// What is handed in comes back: ok with numbers, no diagnostics left unwritten, nothing written beyond.
+Verdict predictions_are_numbers(const Simulation& simulation, std::uint64_t seed = 0);
+/// The Jacobian by model and test parameters against differences, relative to the largest entry of the column in the
+/// channel.
+Verdict jacobian_matches_differences(const Simulation& simulation, std::uint64_t seed = 0);
+/// ∂values/∂abscissa against differences through TestInput::abscissae.
+Verdict abscissa_derivative_matches_differences(const Simulation& simulation, std::uint64_t seed = 0);
+/// Values do not depend on what else is asked for, and asking for nothing is no error.
+Verdict values_do_not_depend_on_the_other_outputs(const Simulation& simulation, std::uint64_t seed = 0);
+/// Bound abscissae handed in again give the bound predictions.
+Verdict given_abscissae_replace_the_bound_ones(const Simulation& simulation, std::uint64_t seed = 0);
+/// The same call answers the same bits, whatever was asked in between.
+Verdict predictions_repeat_themselves(const Simulation& simulation, std::uint64_t seed = 0);
+/// Threads with the same calls get the same numbers.
+Verdict concurrent_predictions_agree(const Simulation& simulation, std::uint64_t seed = 0);
+/// With a model that yields no numbers, or none at all: failed, with a reason; no exception.
+Verdict failures_are_statuses(const Simulation& simulation, std::uint64_t seed = 0);
+
+/// With parameters at which the energy overflows: failed, with a reason that names a row. Not among the properties
+/// below: it needs parameters of its own.
+Verdict overflow_is_a_status(const Simulation& simulation);
+
+using TestProperty = PropertyOf<Simulation>;
+const std::vector<TestProperty>& test_properties();
+
+}  // namespace tunica::conformance

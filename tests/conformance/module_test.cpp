@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The means of comparison: a suite that is wrong itself would blame the plugins.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "conformance/concurrency.hpp"
+#include "conformance/declarations.hpp"
+#include "conformance/differences.hpp"
+#include "conformance/model_properties.hpp"
+#include "conformance/partners.hpp"
+#include "conformance/test_bench.hpp"
+#include "support/loaded.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Differences, AreAsGoodAsTheySay) {
+  const auto f = [](double t) { return std::vector<double>{std::exp(3 * t), std::sin(t), 5.0, std::exp(300 * t)}; };
+  const std::vector<Difference> slope = differentiate(f, 1e-2);
+  const double exact[] = {3, 1, 0, 300};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(slope[i].value, exact[i], 4 * slope[i].uncertainty) << i;
+    EXPECT_LT(slope[i].uncertainty, 1e-7 * (1 + exact[i])) << i;
+  }
+}
+
+TEST(Differences, SaySoAtAJumpAndWhereThereIsNothing) {
+  const auto jump = differentiate([](double t) { return std::vector<double>{t > 0 ? 1.0 : 0.0}; }, 1e-2);
+  EXPECT_GT(jump[0].uncertainty, 10);
+  const auto none = differentiate([](double) { return std::vector<double>{std::nan("")}; }, 1e-2);
+  EXPECT_EQ(none[0].uncertainty, std::numeric_limits<double>::infinity());
+}
+
+TEST(Meter, KeepsTheWorstAndTakesWhatIsNoNumberForTheWorstOfAll) {
+  Meter meter("a with b", 1e-6);
+  meter.see(1e-7, [] { return "small"; });
+  EXPECT_TRUE(meter.verdict().held());
+  meter.see(1e-3, [] { return "large"; });
+  meter.see(1e-5, [] { return "less"; });
+  EXPECT_EQ(meter.verdict().counter_example, "large");
+  EXPECT_EQ(meter.verdict().worst, 1e-3);
+  meter.see(std::nan(""), [] { return "no number"; });
+  EXPECT_EQ(meter.verdict().counter_example, "no number");
+}
+
+TEST(Race, IsLostByACallThatAnswersOtherwiseAndThrowsWhatACallThrows) {
+  EXPECT_FALSE(race_threads(
+                   3, [](std::size_t) { return true; }, 0.01)
+                   .lost);
+  EXPECT_EQ(race_threads(
+                3, [](std::size_t input) { return input != 1; }, 0.01)
+                .input,
+            1u);
+  EXPECT_THROW(race_threads(
+                   1, [](std::size_t) -> bool { throw std::runtime_error("no"); }, 0.01),
+               std::runtime_error);
+}
+
+/// The materials that tests and mechanisms are checked with, by the properties of models.
+TEST(Partners, AreInOrderThemselves) {
+  for (const Material& material : materials())
+    for (const ModelProperty& property : model_properties())
+      EXPECT_EQ(property.check(*material.model, 3).counter_example, "") << material.name << ": " << property.name;
+}
+
+TEST(Declarations, NameWhatIsMissing) {
+  const Parameter good{"mu", "kPa", 10, 1, 100, Scale::log, "Shear modulus.", ""};
+  const auto complaint = [&](auto change) {
+    Parameter changed = good;
+    change(changed);
+    return parameters_are_declared({changed}).counter_example;
+  };
+  EXPECT_EQ(complaint([](Parameter&) {}), "");
+  EXPECT_THAT(complaint([](Parameter& p) { p.name = "mu.1"; }), HasSubstr("no plain name"));
+  EXPECT_THAT(complaint([](Parameter& p) { p.unit = "stiffs"; }), HasSubstr("'stiffs', which is no unit"));
+  EXPECT_THAT(complaint([](Parameter& p) { p.doc = ""; }), HasSubstr("has no doc"));
+  EXPECT_THAT(complaint([](Parameter& p) { p.max = std::numeric_limits<double>::infinity(); }), HasSubstr("finite"));
+  EXPECT_THAT(complaint([](Parameter& p) { p.initial = 0.5; }), HasSubstr("outside its bounds"));
+  EXPECT_THAT(complaint([](Parameter& p) { p.min = 0, p.initial = 1; }), HasSubstr("expected min > 0"));
+  EXPECT_THAT(parameters_are_declared({good, good}).counter_example, HasSubstr("declared twice"));
+}
+
+/// Rows are made up for every built-in test, without a word about any of them in the module.
+TEST(TestBench, MakesUpRowsForEveryTestThatIsLoaded) {
+  for (const auto& [type, entry] : testing::catalogue().tests()) {
+    const Benched bench = make_up(entry, 1);
+    ASSERT_TRUE(bench.test) << type;
+    EXPECT_GE(bench.test->rows().channels.size(), 1u) << type;
+    EXPECT_EQ(bench.own.size(), bench.test->describe().parameters.size()) << type;
+  }
+}
+
+}  // namespace
+}  // namespace tunica::conformance
