@@ -13,7 +13,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 #include "comparison/text.hpp"
@@ -93,12 +95,18 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   if (!was_there) made.push_back(directory.path());
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
   diagnosis::Diagnosis found;
-  {
+  try {
     UnfinishedFolder folder(made, farewell());
     Stages stages(global.quiet);
     settings.progress = [&stages](const std::string& what, double share) { stages.tell(what, share); };
     found = diagnosis::diagnose(experiment, settings, session.catalogue());
     folder.keep();
+  } catch (const std::runtime_error& problem) {
+    // The base model cannot be fitted; kinds of their own are for others to tell.
+    if (typeid(problem) != typeid(std::runtime_error)) throw;
+    say_error(fmt::format("{}. `tunica check {}` evaluates the initial point and shows what fails", problem.what(),
+                          options.file));
+    return not_converged;
   }
   found.settings.progress = {};
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done

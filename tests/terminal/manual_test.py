@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True  # nothing is left beside the sources
 from screen import need
 
 tunica, page = sys.argv[1], sys.argv[2]

@@ -11,21 +11,23 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True  # nothing is left beside the sources
 from screen import Screen, need
 
 need("tmux", "tmux")
 tunica = pathlib.Path(sys.argv[1]).resolve()
 recording = pathlib.Path(sys.argv[2]).resolve() / "session.log"
-command = f"{tunica} --allow-world-writable-plugins"
-PROGRESS = re.compile(r"^(?:\[[#.]+\] )? *(\d+) %  (\d+)/(\d+) searches  (\S+(?: [kM])?) ?/s  (?:\S+: )?best (\S+)  max (\d+:\d\d(?::\d\d)?) left$", re.M)
+# `t` on the screen, so that no command fills more than a line.
+SHELL = f"PS1='> '; t() {{ '{tunica}' --allow-world-writable-plugins \"$@\"; }}; clear"
+PROGRESS = re.compile(r"^(?:\[#*\.*\] )? *(\d+) %  (\d+)/(\d+) searches  (\S+ ?[kM]?)/s  (?:\S+: )?best (\S+)  "
+                      r"max (\d+:\d\d(?::\d\d)?) left *$", re.M)
 
 
-def write_experiment(folder, name, evaluations, realisations):
-    """A made-up strip, curves with a ripple, and a name that is longer than a terminal is wide."""
+def write_experiment(folder, name, model, evaluations, realisations):
+    """A made-up strip whose curve has a ripple."""
     rows = [(1 + 0.02 * i, 0.2 * math.sin(7 * i)) for i in range(1, 21)]
     text = "stretch [1],stress [kPa]\n" + "".join(f"{x:.2f},{30 * (x * x - 1 / x) + e:.6f}\n" for x, e in rows)
     (folder / "strip.csv").write_text(text, encoding="utf-8")
-    model = "a_model_with_a_name_that_is_much_too_long_for_one_line_of_eighty_columns"
     experiment = {
         "format": 1, "name": "session", "seed": 7,
         "models": {model: {"type": "gho"}},
@@ -48,7 +50,7 @@ def result_of(folder):
 
 
 def show_that_progress_updates(screen, work):
-    screen.enter(f"{command} run long.json -o cut -j 1; echo CODE=$?")
+    screen.enter("t run long.json -o cut -j 1; echo CODE=$?")
     shown = []
 
     def look(text):
@@ -79,7 +81,7 @@ def show_that_ctrl_c_can_be_resumed(screen, work):
     resume = " ".join(said.replace("\n", "").split())
     assert "-o cut --resume" in resume, resume
     screen.enter("clear")
-    screen.enter(f"{resume.replace('tunica', str(tunica), 1)} -j 1 >/dev/null; echo CODE=$?")
+    screen.enter(f"{resume.replace('tunica ', 't ', 1)} -j 1 >/dev/null; echo CODE=$?")
     screen.wait_for(lambda text: "CODE=0" in text, "the end of the resumed run")
 
 
@@ -97,7 +99,8 @@ def show_that_colours_can_be_refused(work):
     for name, setting in (("colour", ""), ("no_colour", "NO_COLOR=1 "), ("dumb", "TERM=dumb ")):
         log = recording.with_name(f"session_{name}.log")
         with Screen(["bash", "--norc", "--noprofile"], work, log) as screen:
-            screen.enter(f"PS1='> '; {setting}{command} run short.json -o {name}; {setting}{command} run nothing.json; echo CODE=$?")
+            screen.enter(SHELL)
+            screen.enter(f"{setting}t run short.json -o {name}; {setting}t run nothing.json; echo CODE=$?")
             screen.wait_for(lambda text: "CODE=2" in text, "the end of a run")
         seen[name] = log.read_text(encoding="utf-8")
         text = seen[name]
@@ -106,14 +109,16 @@ def show_that_colours_can_be_refused(work):
     assert error in seen["colour"] and "\033[36m#" in seen["colour"], seen["colour"]
     for name in ("no_colour", "dumb"):
         assert error not in seen[name] and "\033[36m" not in seen[name] and "\033[33m" not in seen[name], seen[name]
-    assert "searches" in seen["no_colour"], "no progress line"
-    assert "[#" not in seen["dumb"] and "searches  " not in seen["dumb"].replace("1 run, 8 searches", ""), seen["dumb"]
+    bar = re.compile(r"\[#*\.*\] +\d+ %|\d+ %  \d/8 searches[^\n]*\r")
+    assert bar.search(seen["no_colour"]), "no progress line"
+    assert not bar.search(seen["dumb"].replace("\r\n", "\n")), seen["dumb"]
 
 
 def show_that_an_interrupted_diagnosis_leaves_nothing(work):
     with Screen(["bash", "--norc", "--noprofile"], work) as screen:
-        screen.enter(f"PS1='> '; {command} diagnose long.json; echo CODE=$?")
-        screen.wait_for(lambda text: re.search(r"^(?:\[[#.]+\] )? *\d+ %  .* \d:\d\d", text, re.M), "a stage of the diagnosis")
+        screen.enter(SHELL)
+        screen.enter("t diagnose long.json; echo CODE=$?")
+        screen.wait_for(lambda text: re.search(r"^(?:\[#*\.*\] )? *\d+ %  .* \d:\d\d", text, re.M), "a stage of the diagnosis")
         assert list((work / "results").iterdir()), "no folder while it is under way"
         screen.press("C-c")
         text = screen.wait_for(lambda text: text if "CODE=130" in text else None, "exit code 130")
@@ -124,10 +129,10 @@ def show_that_an_interrupted_diagnosis_leaves_nothing(work):
 def main():
     work = pathlib.Path(tempfile.mkdtemp())
     try:
-        write_experiment(work, "long.json", 150000, 4)
-        write_experiment(work, "short.json", 20000, 8)
+        write_experiment(work, "long.json", "a_model_with_a_name_that_is_much_too_long_for_one_line_of_a_terminal", 120000, 4)
+        write_experiment(work, "short.json", "m", 15000, 8)
         with Screen(["bash", "--norc", "--noprofile"], work, recording) as screen:
-            screen.enter("PS1='> '; clear")
+            screen.enter(SHELL)
             shown = show_that_progress_updates(screen, work)
             show_that_ctrl_c_can_be_resumed(screen, work)
         show_that_pipes_get_plain_text(work)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """zsh_test.py TUNICA FOLDER: zsh takes the completion in FOLDER and completes what is typed, on a terminal."""
-import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True  # nothing is left beside the sources
 from screen import Screen, need
 
 tunica, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
@@ -30,9 +30,8 @@ with tempfile.TemporaryDirectory() as work:
     (pathlib.Path(work) / "results").mkdir()
     (pathlib.Path(work) / "experiment.json").touch()
     (pathlib.Path(work) / "strip.csv").touch()
-    path = f"{tunica.parent}:{os.environ['PATH']}"
-    with Screen(["zsh", "-f"], work, environment={"PATH": path, "HOME": work}) as screen:
-        screen.enter(f"PS1='> '; fpath=({folder} $fpath); autoload -U compinit; compinit -u -D; print ready | tr a-z A-Z")
+    with Screen(["zsh", "-f"], work, environment={"HOME": work}) as screen:
+        screen.enter(f"PS1='> '; PATH={tunica.parent}:$PATH; fpath=({folder} $fpath); autoload -U compinit; compinit -u -D; print ready | tr a-z A-Z")
         screen.wait_for(lambda text: "READY" in text, "the prompt")
         for typed, completed in CASES:
             screen.enter("clear")

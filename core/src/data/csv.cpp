@@ -172,8 +172,8 @@ void refuse_encodings(const std::filesystem::path& file, std::string_view text) 
 std::string read_bytes(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    throw InputError(
-        fmt::format("{}: there is no such file. Paths are relative to the experiment file.", file.string()));
+    throw InputError(fmt::format(
+        "{}: there is no such file. Check its name; paths in an experiment file are relative to it.", file.string()));
   if (std::filesystem::is_directory(file, error))
     throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
   if (!std::filesystem::is_regular_file(file, error))
