@@ -32,6 +32,7 @@ TEST(Admissibility, LostStabilityIsACauseWhereItIsAskedFor) {
   EXPECT_EQ(found.causes[0].id, "fibre_dispersion");
   EXPECT_THAT(found.reasons.front(), HasSubstr("the base fit loses transverse stability"));
   ASSERT_TRUE(found.extension);
+  EXPECT_LT(found.p_after, 1) << "what the extension leaves is tested as well";
   EXPECT_LE(found.gain->after, found.gain->before + 6);
   EXPECT_THAT(summary(found), HasSubstr("fibre_dispersion mends it"));
 }

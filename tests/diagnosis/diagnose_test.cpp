@@ -2,6 +2,8 @@
 // `tunica diagnose` from outside, as a user has it.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "cli/process.hpp"
 #include "diagnosis/measured.hpp"
 
@@ -126,6 +128,35 @@ TEST(Diagnose, TakesAlphaAndSeedFromTheCommandLineFirst) {
   EXPECT_EQ(said["alpha"], 0.2);
   // Other draws: the p-value is another, but not much.
   EXPECT_NE(said["p_smooth"], result(measured, "file")["diagnosis"]["p_smooth"]);
+}
+
+TEST(Diagnose, WritesTheNoiseOfAMeanWhereThereAreReplicates) {
+  Measured measured;
+  measured.measure(28,
+                   [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
+  json& data = measured.experiment["tests"]["axial"]["data"];
+  data.erase("file");
+  data["files"] = {"axial.csv", "2.csv", "3.csv", "4.csv"};
+  for (const char* copy : {"2.csv", "3.csv", "4.csv"})
+    std::filesystem::copy_file(measured.folder.path() / "axial.csv", measured.folder.path() / copy);
+  ASSERT_EQ(tunica(measured, {"diagnose", "experiment.json", "-o", "out", "--quick", "--quiet"}).code, 0);
+  std::istringstream table(text_of(measured.folder.path() / "out" / "residuals.csv"));
+  std::string line;
+  std::getline(table, line);
+  ASSERT_THAT(line, HasSubstr("measured,predicted,extended,sigma,residual,residual_extended,signature_"));
+  int rows = 0;
+  while (std::getline(table, line)) {
+    std::vector<std::string> cells;
+    std::istringstream one(line);
+    for (std::string cell; std::getline(one, cell, ',');) cells.push_back(cell);
+    const auto number = [&cells](std::size_t k) { return std::stod(cells.at(k)); };
+    EXPECT_NEAR(number(10), cells[0] == "axial" ? 0.15 : 0.3, 1e-9) << line;
+    EXPECT_NEAR((number(7) - number(8)) / number(10), number(11), 1e-4) << line;
+    // What the cause changes is what it takes from the residuals.
+    EXPECT_NEAR(number(11) - number(12), number(13), 1e-4) << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 60);
 }
 
 TEST(Diagnose, ConsidersOnlyTheMechanismsAskedFor) {

@@ -53,7 +53,7 @@ Found judge(const calibration::Assembly& assembly, std::span<const double> free)
 
 }  // namespace
 
-void judge_admissibility(Diagnosis& d, const plugins::Catalogue&) {
+void judge_admissibility(Diagnosis& d) {
   Found found = judge(*d.base, d.fit.free);
   d.admissibility.stable = found.stable;
   d.admissibility.where = fmt::format("{}", fmt::join(found.lost, "; "));

@@ -5,24 +5,43 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
 #include "calibration/refit.hpp"
+#include "diagnosis/causes.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::diagnosis {
 namespace {
 
-/// The tests of the run that fits this model, or all.
-std::vector<std::string> tests_of(const experiment::Experiment& experiment, const std::string& model) {
+/// The run that fits this model; null where none does.
+const experiment::RunEntry* run_of(const experiment::Experiment& experiment, const std::string& model) {
   for (const experiment::RunEntry& run : experiment.runs)
-    if (run.model == model) return run.tests;
+    if (run.model == model) return &run;
+  return nullptr;
+}
+
+/// The tests of that run, or all.
+std::vector<std::string> tests_of(const experiment::Experiment& experiment, const experiment::RunEntry* run) {
+  if (run != nullptr) return run->tests;
   std::vector<std::string> names;
   for (const auto& test : experiment.tests) names.push_back(test.name);
   return names;
+}
+
+/// What the file asks of the run and a diagnosis does not keep to.
+void tell_of_constraints(Diagnosis& d, const experiment::RunEntry* run) {
+  if (run == nullptr || run->constraints.empty()) return;
+  std::vector<std::string> types;
+  for (const experiment::ConstraintEntry& constraint : run->constraints) types.push_back(constraint.type);
+  d.warnings.push_back(fmt::format(
+      "the constraints of the run ({}) do not bind the fits of a diagnosis: a bound that holds a fit back would pass "
+      "for a misfit of the model; lost stability is reported, and is a misfit with \"admissibility\": true",
+      fmt::join(types, ", ")));
 }
 
 std::vector<std::vector<double>> random_starts(const calibration::Assembly& assembly, std::size_t count,
@@ -75,7 +94,8 @@ std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::v
 void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
   d.experiment = experiment;
   d.run.model = d.settings.model;
-  d.run.tests = tests_of(experiment, d.settings.model);
+  const experiment::RunEntry* const run = run_of(experiment, d.settings.model);
+  d.run.tests = tests_of(experiment, run);
   d.run.optimizer = d.settings.optimizer;
   d.run.objective = experiment::ObjectiveType::least_squares;
   d.noise = state_noise(d.experiment, d.run.tests, catalogue);
@@ -88,13 +108,14 @@ void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugi
         fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to judge by; fix "
                     "parameters or give more rows",
                     d.base->parameters().size(), d.base->residual_count()));
+  tell_of_constraints(d, run);
   for (const NoiseSource& source : d.noise)
     if (source.kind == NoiseSource::Kind::differences)
       d.warnings.push_back(fmt::format(
-          "test '{}', channel '{}': no noise is stated; σ = {:.3g} {} from differences of neighbouring rows, "
-          "which takes them for independent: where they are not, the alarm comes too easily; state "
-          "noise.absolute, noise.relative and noise.correlation, or give replicates",
-          source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : source.unit));
+          "test '{}', channel '{}': no noise is stated; σ = {:.3g}{} from differences of neighbouring rows. Where rows "
+          "err alike it is too small, and the alarm comes too easily; where few rows bend it is too large, and what is "
+          "wrong can hide; state noise.absolute, noise.relative and noise.correlation, or give replicates",
+          source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : " " + source.unit));
 }
 
 void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
@@ -133,10 +154,7 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
                                          fits.size(), fits.front().status.reason()));
   d.fit = *best;
   // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index k = 0; k < d.fit.jacobian.cols(); ++k)
-    if (!d.fit.at_bound[static_cast<std::size_t>(k)]) free.push_back(k);
-  const Projection projection(d.fit.jacobian(Eigen::all, free));
+  const Projection projection(interior(d.fit));
   const double left = d.fit.chi2 - projection.off(d.fit.residuals).squaredNorm();
   if (left > 0.1)
     d.warnings.push_back(

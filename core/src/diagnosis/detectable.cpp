@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/causes.hpp"
+
 namespace tunica::diagnosis {
 namespace {
 
@@ -12,10 +14,28 @@ constexpr double power_80 = 0.8416;     ///< quantile of the normal distribution
 constexpr double identified_at = 5.41;  ///< 2 · 1.645²: one of two is preferred with 95 % probability
 constexpr double equal_above = 0.999;
 
-/// Where the mechanism shows best at the null; of its nuisance settings, whose scales may differ by orders of
-/// magnitude, the one in the middle. Null where it shows nowhere.
+/// How far a plausible amplitude may lie from its null, in the unit of what it acts on.
+double reach_of(const Diagnosis& d, const MechanismFactory& mechanism, const Target& target) {
+  const auto [low, high] = plausible_range(d, mechanism, target);
+  return std::max(high - mechanism.null, mechanism.null - low);
+}
+
+/// Amplitudes of what acts on a channel have the channel's unit.
+std::string unit_of(const Diagnosis& d, const MechanismFactory& mechanism, const Target& target) {
+  for (const calibration::ChannelView& view : d.base->channels())
+    if (!target.channel.empty() && view.test == target.tests.front() && view.observable == target.channel)
+      return view.unit;
+  return mechanism.parameters.front().unit;
+}
+
+/// Where the mechanism shows best at the null, by what its largest plausible amplitude would do; of its nuisance
+/// settings, whose scales may differ by orders of magnitude, the one in the middle. Null where it shows nowhere.
 const Direction* typical(const Diagnosis& d, std::size_t candidate) {
-  std::vector<const Direction*> best;  // one a setting
+  struct Best {
+    const Direction* direction;
+    double effect;
+  };
+  std::vector<Best> best;  // one a setting
   const auto hypothesis = [&](const Direction& direction) -> const Hypothesis& {
     return d.candidates[candidate].hypotheses[direction.hypothesis];
   };
@@ -23,18 +43,19 @@ const Direction* typical(const Diagnosis& d, std::size_t candidate) {
     if (direction.candidate != candidate) continue;
     const Hypothesis& own = hypothesis(direction);
     if (own.addition.target.row || own.at_large) continue;
-    const auto same = std::find_if(best.begin(), best.end(), [&](const Direction* other) {
-      return hypothesis(*other).addition.setting == own.addition.setting;
+    const double reach = reach_of(d, *own.mechanism, own.addition.target);
+    const double effect = direction.length * (std::isfinite(reach) ? reach : 1);
+    const auto same = std::find_if(best.begin(), best.end(), [&](const Best& other) {
+      return hypothesis(*other.direction).addition.setting == own.addition.setting;
     });
     if (same == best.end())
-      best.push_back(&direction);
-    else if (direction.length > (*same)->length)
-      *same = &direction;
+      best.push_back({&direction, effect});
+    else if (effect > same->effect)
+      *same = {&direction, effect};
   }
   if (best.empty()) return nullptr;
-  std::stable_sort(best.begin(), best.end(),
-                   [](const Direction* a, const Direction* b) { return a->length < b->length; });
-  return best[best.size() / 2];
+  std::stable_sort(best.begin(), best.end(), [](const Best& a, const Best& b) { return a.effect < b.effect; });
+  return best[best.size() / 2].direction;
 }
 
 }  // namespace
@@ -61,6 +82,7 @@ std::vector<Detectable> detectable(const Diagnosis& d, const Detection& detectio
     const Candidate& candidate = d.candidates[c];
     Detectable entry;
     entry.id = candidate.id, entry.unit = candidate.mechanism->parameters.front().unit;
+    entry.null = candidate.mechanism->null, entry.reach = reach_of(d, *candidate.mechanism, {});
     const Direction* const best = typical(d, c);
     if (!best) {
       entry.absent = candidate.absent.empty() ? "a refit of the parameters absorbs it" : candidate.absent;
@@ -69,6 +91,8 @@ std::vector<Detectable> detectable(const Diagnosis& d, const Detection& detectio
       continue;
     }
     entry.target = candidate.hypotheses[best->hypothesis].addition.target, entry.retained = best->retained;
+    entry.unit = unit_of(d, *candidate.mechanism, entry.target);
+    entry.reach = reach_of(d, *candidate.mechanism, entry.target);
     for (const Direction& other : d.directions) {
       if (other.candidate == c) continue;
       const double c_abs = std::min(1.0, std::abs(best->unit.dot(other.unit)));

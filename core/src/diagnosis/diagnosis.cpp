@@ -13,10 +13,13 @@
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/gross_rows.hpp"
+#include "diagnosis/large_noise.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/naming.hpp"
 #include "diagnosis/next_experiment.hpp"
+#include "diagnosis/outputs.hpp"
 #include "diagnosis/refit_draws.hpp"
+#include "diagnosis/rest.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -54,6 +57,15 @@ struct Judgement {
   std::unique_ptr<Detection> detection;
   bool alarm = false;
 };
+
+/// How much larger than it is taken to be the noise could be, and the alarm would stand.
+std::optional<double> alarm_factor(const Diagnosis& d, const Detection& detection) {
+  constexpr double step = 1.05, most = 20;
+  double factor = 1;
+  while (factor * step < most && detection.judge(-d.fit.residuals / (factor * step)).p <= d.settings.alpha)
+    factor *= step;
+  return factor > 1 ? std::optional(factor) : std::nullopt;
+}
 
 Judgement judge(Diagnosis& d, const plugins::Catalogue& catalogue) {
   Judgement judgement;
@@ -98,9 +110,10 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
     // Where something is wrong with the other rows too, the gross ones would only be in its way.
     if (rest.alarm) d = std::move(without), judgement = std::move(rest), gross.clear();
   }
+  if (judgement.alarm) d.alarm_factor = alarm_factor(d, *judgement.detection);
   d.misfit = misfits(d);
   d.detectable = detectable(d, *judgement.detection);
-  judge_admissibility(d, catalogue);
+  judge_admissibility(d);
 
   // What is no material is wrong however well it fits, where the user asks for it.
   const bool inadmissible = settings.admissibility && d.admissibility.stable == false;
@@ -108,16 +121,19 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   if (alarm || inadmissible) report(d, "fitting the mechanisms", 0.4);
   if (inadmissible) name_admissible_extension(d, catalogue);
   if (alarm && !d.extension && !gross.empty()) name_gross_rows(d, gross, catalogue);
+  if (d.extension) d.p_after = p_of_rest(d, *d.extension, judgement.shapes, judgement.draws);
   if (alarm && !d.extension) name_causes(d, *judgement.detection, judgement.draws, judgement.shapes, catalogue);
   if (!alarm && !inadmissible)
     d.reasons.push_back(
         fmt::format("what is left over could be noise (p = {:.2g})", d.p_refits.value_or(d.detection.p)));
   if (d.extension) {
     report(d, "gain on rows that were not fitted", 0.7);
-    measure_gain(d, catalogue);
+    measure_gain(d);
     d.gain->expected_under_nothing = judgement.detection->gain_of_nothing();
     if (!settings.quick) refine_intervals(d, catalogue);
+    warn_of_run(d, gross, catalogue);
   }
+  warn_of_large_noise(d, d.extension ? d.extension->fit : d.fit);
   report(d, "the next experiment", 0.9);
   d.next = next_experiment(d, catalogue);
   report(d, "done", 1);

@@ -71,7 +71,10 @@ struct GrossRow {
 struct Detectable {
   std::string id, unit, absent;  ///< absent: why it leaves no trace; else empty
   Target target;
-  double detectable = 0, identifiable = 0;  ///< identifiable: infinite where another has the same signature
+  /// Distances of the amplitude from its null; identifiable: infinite where another has the same signature.
+  double detectable = 0, identifiable = 0;
+  double null = 0;   ///< the amplitude that does nothing
+  double reach = 0;  ///< the largest plausible distance from it
   double retained = 0;
   std::string closest;     ///< the other mechanism whose projected signature is most alike
   double correlation = 0;  ///< with it, absolute
@@ -126,6 +129,7 @@ struct Diagnosis {
   Detection::Verdict detection;        ///< of the base fit
   double p_after = 1;                  ///< of the residuals with the causes added
   std::optional<double> p_refits;      ///< of the detection, from full refits
+  std::optional<double> alarm_factor;  ///< times the noise up to which the alarm stands
   std::optional<double> noise_factor;  ///< times the stated noise at which what is left would be clean
   std::vector<std::string> reasons;    ///< of the verdict, in sentences
   std::vector<Misfit> misfit;

@@ -98,6 +98,8 @@ json diagnosis_json(const Diagnosis& d) {
     detectable.push_back({{"id", one.id},
                           {"detectable", finite(one.detectable)},
                           {"identifiable", finite(one.identifiable)},
+                          {"null", one.null},
+                          {"reach", finite(one.reach)},
                           {"unit", one.unit},
                           {"target", target_json(one.target)},
                           {"retained_fraction", std::min(1.0, one.retained)},
@@ -174,6 +176,7 @@ json diagnosis_json(const Diagnosis& d) {
     result["left_out"] = std::move(rows);
   }
   if (d.extension) result["p_after"] = d.p_after;
+  if (d.alarm_factor) result["alarm_factor"] = *d.alarm_factor;
   if (d.noise_factor) result["noise_factor"] = *d.noise_factor;
   if (d.next)
     result["next_experiment"] = {

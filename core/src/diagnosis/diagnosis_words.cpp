@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include "comparison/text.hpp"
-#include "diagnosis/causes.hpp"
 #include "diagnosis/outputs.hpp"
 
 namespace tunica::diagnosis {
@@ -15,6 +14,9 @@ namespace {
 std::string amount(double value, const std::string& unit) {
   return unit == "1" || unit.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
 }
+
+/// Factors are looked for up to twenty.
+std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "19 and more"; }
 
 std::string p_text(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
 
@@ -38,23 +40,59 @@ std::string verdict_line(const Diagnosis& d) {
   return fmt::format("UNKNOWN: {}", fmt::join(d.reasons, "; "));
 }
 
-/// The mechanisms that could still hide: least detectable amplitudes beyond what is plausible, or no trace at all.
+/// The amplitudes that would not be found, around the null; not beyond what is plausible.
+std::string undetected(const Detectable& one, const MechanismFactory& mechanism) {
+  if (one.detectable >= one.reach) return one.id + " at any plausible amplitude";
+  const bool one_sided = mechanism.side == MechanismFactory::Side::positive;
+  if (one.null == 0)
+    return fmt::format("{} {} {}", one.id, one_sided ? "below" : "within ±", amount(one.detectable, one.unit));
+  if (one_sided)
+    return fmt::format("{} from {:.3g} to {}", one.id, one.null, amount(one.null + one.detectable, one.unit));
+  return fmt::format("{} within {:.3g} ± {}", one.id, one.null, amount(one.detectable, one.unit));
+}
+
+/// The mechanisms that could still hide: least detectable amplitudes that are large, or no trace at all.
 std::string could_hide(const Diagnosis& d) {
   std::vector<std::string> large, invisible;
   for (std::size_t c = 0; c < d.detectable.size(); ++c) {
     const Detectable& one = d.detectable[c];
     const MechanismFactory& mechanism = *d.candidates[c].mechanism;
-    const auto [low, high] = plausible_range(d, mechanism, one.target);
-    const double reach = std::max(high - mechanism.null, mechanism.null - low);
     if (!one.absent.empty())
       invisible.push_back(one.id);
-    else if (one.detectable > 0.3 * reach)
-      large.push_back(fmt::format("{} below {}", one.id, amount(one.detectable, one.unit)));
+    else if (one.detectable > 0.3 * one.reach)
+      large.push_back(undetected(one, mechanism));
   }
   std::string text;
   if (!large.empty()) text += fmt::format("{}", fmt::join(large, ", "));
   if (!invisible.empty())
     text += fmt::format("{}no trace in these data: {}", text.empty() ? "" : "; ", fmt::join(invisible, ", "));
+  return text;
+}
+
+/// "0.82", "82.9", "1241": root mean squares for sentences.
+std::string size_of(double sigmas) {
+  return sigmas < 10 ? fmt::format("{:.2f}", sigmas) : fmt::format("{:.{}f}", sigmas, sigmas < 100 ? 1 : 0);
+}
+
+/// What the extension makes of blocks that it has not seen: the one that it does most for among those that it
+/// predicts, and the one that it is furthest from.
+std::string predicted(const Gain& gain) {
+  constexpr double near = 2, better = 0.98, worse = 1.2;  // of σ, of the error without the extension
+  const HeldOut *best = nullptr, *worst = nullptr;
+  for (const HeldOut& block : gain.held_out) {
+    if (block.after < near && block.after < better * block.before &&
+        (best == nullptr || block.before - block.after > best->before - best->after))
+      best = &block;
+    if ((block.after >= near || block.after > worse * block.before) && (worst == nullptr || block.after > worst->after))
+      worst = &block;
+  }
+  std::string text;
+  if (best != nullptr)
+    text += fmt::format("; predicted without having seen it, {}: error {} → {} σ", best->block, size_of(best->before),
+                        size_of(best->after));
+  if (worst != nullptr)
+    text += fmt::format("{} {}: {} → {} σ", best != nullptr ? ", but not" : "; not predicted,", worst->block,
+                        size_of(worst->before), size_of(worst->after));
   return text;
 }
 
@@ -66,9 +104,11 @@ std::string summary(const Diagnosis& d) {
     if (!text.empty()) lines.push_back(comparison::hanging(lead, text, 100));
   };
   line("Verdict:  ", verdict_line(d));
-  line("Alarm:    ", fmt::format("{} that noise alone looks like this ({} rows, |r|² = {:.1f}, {} mechanisms)",
-                                 p_text(d.p_refits.value_or(d.detection.p)), d.fit.residuals.size(), d.fit.chi2,
-                                 d.candidates.size()));
+  line("Alarm:    ",
+       fmt::format("{} that noise alone looks like this ({} rows, |r|² = {:.1f}, {} mechanisms){}",
+                   p_text(d.p_refits.value_or(d.detection.p)), d.fit.residuals.size(), d.fit.chi2, d.candidates.size(),
+                   d.alarm_factor ? fmt::format("; it stands up to {} times this noise", factor_words(*d.alarm_factor))
+                                  : std::string()));
   if (d.verdict != Verdict::nothing_detected) {
     std::vector<std::string> where;
     for (std::size_t k = 0; k < std::min<std::size_t>(d.misfit.size(), 2); ++k)
@@ -94,18 +134,7 @@ std::string summary(const Diagnosis& d) {
   if (d.extension && d.gain) {
     std::string text = fmt::format("|r|² {:.1f} → {:.1f} (by chance {:.1f} would go)", d.gain->before, d.gain->after,
                                    d.gain->expected_under_nothing);
-    const auto best =
-        std::max_element(d.gain->held_out.begin(), d.gain->held_out.end(),
-                         [](const HeldOut& a, const HeldOut& b) { return a.before - a.after < b.before - b.after; });
-    if (best != d.gain->held_out.end())
-      text += fmt::format("; predicted without having seen it, {}: error {:.2f} → {:.2f} σ", best->block, best->before,
-                          best->after);
-    const auto worst =
-        std::max_element(d.gain->held_out.begin(), d.gain->held_out.end(),
-                         [](const HeldOut& a, const HeldOut& b) { return a.after - a.before < b.after - b.before; });
-    constexpr double worse = 1.2;
-    if (worst != d.gain->held_out.end() && worst->after > worse * worst->before)
-      text += fmt::format(", but not {}: {:.2f} → {:.3g} σ", worst->block, worst->before, worst->after);
+    text += predicted(*d.gain);
     if (!d.gain->best_wrong.empty())
       text += fmt::format("; the best wrong one, {}, leaves {:.1f}", d.gain->best_wrong, d.gain->best_wrong_after);
     line("Gain:     ", text);
@@ -114,7 +143,7 @@ std::string summary(const Diagnosis& d) {
     line("Material: ", "the base fit loses " + d.admissibility.where +
                            (d.admissibility.remedy.empty() ? "" : "; " + d.admissibility.remedy + " mends it"));
   if (d.next) line("Next:     ", d.next->description);
-  if (d.verdict == Verdict::nothing_detected) line("Could hide:", " " + could_hide(d));
+  if (d.verdict == Verdict::nothing_detected) line("May hide: ", could_hide(d));
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "diagnosis/outputs.hpp"
 #include "experiment/reader.hpp"
@@ -119,6 +121,42 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
   experiment.runs = {run};
   experiment.name += "_extended";
   return experiment::write_input(experiment, catalogue);
+}
+
+void warn_of_run(Diagnosis& d, std::vector<GrossRow> gross, const plugins::Catalogue& catalogue) {
+  Experiment experiment = d.extension->extended->experiment();
+  for (auto& test : experiment.tests)
+    for (auto& [channel, noise] : test.data.noise) noise.level.clear();
+  const calibration::Assembly assembly(experiment, d.run, catalogue);
+  Eigen::VectorXd residuals;
+  const Fit& fit = d.extension->fit;
+  constexpr double alike = 1e-3;
+  if (whitened(assembly, fit.free, *assembly.make_workspace(), residuals, nullptr).ok())
+    if (const double run = residuals.squaredNorm(); std::abs(run - fit.chi2) > alike * fit.chi2)
+      d.warnings.push_back(
+          fmt::format("a run of extended.json takes relative noise as a share of the measured values, and not of the "
+                      "smoothed fit as the diagnosis does: |r|² of the same fit is {:.5g} there, {:.5g} here",
+                      run, fit.chi2));
+  // One gross row of a test is taken out by a mechanism: one that is named, or else the first.
+  if (gross.empty()) gross = d.gross;
+  std::vector<std::string> taken, left;
+  for (const Addition& addition : d.extension->additions)
+    if (addition.target.row) taken.push_back(addition.target.tests.front());
+  for (const GrossRow& row : gross) {
+    const bool named = std::any_of(d.extension->additions.begin(), d.extension->additions.end(), [&](const auto& one) {
+      return one.target.row == row.row && one.target.tests.front() == row.test && one.target.channel == row.channel;
+    });
+    if (named) continue;
+    if (std::find(taken.begin(), taken.end(), row.test) == taken.end() && !d.gross.empty())
+      taken.push_back(row.test);
+    else
+      left.push_back(fmt::format("row {} of {}, {}", row.row, row.test, row.channel));
+  }
+  if (!left.empty())
+    d.warnings.push_back(
+        fmt::format("extended.json takes out one gross row of a test; a run counts the others as they are: {}; strike "
+                    "them out of the data file",
+                    fmt::join(left, "; ")));
 }
 
 }  // namespace tunica::diagnosis

@@ -111,8 +111,7 @@ bool shows(const Prediction& prediction, const Refitted& extension, const std::v
 
 }  // namespace
 
-void measure_gain(Diagnosis& d, const plugins::Catalogue& catalogue) {
-  static_cast<void>(catalogue);
+void measure_gain(Diagnosis& d) {
   if (!d.gain) d.gain.emplace();
   Gain& gain = *d.gain;
   const Refitted& extension = *d.extension;

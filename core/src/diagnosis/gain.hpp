@@ -12,6 +12,6 @@ namespace tunica::diagnosis {
 ///
 /// With residuals r_H of a block at the refit, their Jacobian J_H and the covariance C of the parameters from the rest,
 /// r_Hᵀ (I + J_H C J_Hᵀ)⁻¹ r_H ~ χ² of as many degrees of freedom as rows: the p-value.
-void measure_gain(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
+void measure_gain(Diagnosis& diagnosis);
 
 }  // namespace tunica::diagnosis

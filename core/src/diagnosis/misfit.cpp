@@ -9,9 +9,12 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Means over windows of a fifth of the curve, along its rows, in standard errors of such a mean.
+/// Rows of a window on either side of its centre: a fifth of the curve in all.
+Eigen::Index half_window(Eigen::Index rows) { return std::max<Eigen::Index>(1, rows / 10); }
+
+/// Means over windows along the rows of a curve, in standard errors of such a mean.
 std::vector<double> smoothed(const Eigen::VectorXd& r) {
-  const Eigen::Index n = r.size(), half = std::max<Eigen::Index>(1, n / 10);
+  const Eigen::Index n = r.size(), half = half_window(n);
   std::vector<double> means;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index from = std::max<Eigen::Index>(0, i - half), to = std::min(n, i + half + 1);
@@ -20,7 +23,7 @@ std::vector<double> smoothed(const Eigen::VectorXd& r) {
   return means;
 }
 
-/// The rows around the largest mean over which it keeps its sign and at least half its size.
+/// The rows of the windows around the largest mean over which it keeps its sign and at least half its size.
 std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
   const auto worst =
       std::max_element(means.begin(), means.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -28,7 +31,8 @@ std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
   const auto alike = [&](std::size_t k) { return means[k] * *worst > 0 && std::abs(means[k]) > std::abs(*worst) / 2; };
   while (first > 0 && alike(first - 1)) --first;
   while (last + 1 < means.size() && alike(last + 1)) ++last;
-  return {first, last};
+  const auto half = static_cast<std::size_t>(half_window(static_cast<Eigen::Index>(means.size())));
+  return {first - std::min(first, half), std::min(last + half, means.size() - 1)};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "diagnosis/designs.hpp"
+#include "diagnosis/undetermined.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -66,12 +67,17 @@ std::string isolating(const plugins::Catalogue& catalogue, const std::string& id
 }  // namespace
 
 std::optional<NextExperiment> next_experiment(const Diagnosis& d, const plugins::Catalogue& catalogue) {
-  if (d.rivals.empty()) return std::nullopt;
+  if (d.rivals.empty()) {
+    if (d.verdict != Verdict::nothing_detected || !d.base) return std::nullopt;
+    return determining_experiment(d, bare(d, catalogue), catalogue);
+  }
   NextExperiment next;
   next.separates = d.ambiguity_set;
   if (d.rivals.size() == 1) {
     next.description =
         fmt::format("To confirm {}: {}.", d.ambiguity_set.front(), isolating(catalogue, d.ambiguity_set.front()));
+    if (const auto more = determining_experiment(d, d.rivals.front(), catalogue))
+      next.description += fmt::format(" {}", more->description);
     return next;
   }
   const std::vector<Design> library = designs(d, catalogue, d.rivals.front());

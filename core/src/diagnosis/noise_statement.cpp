@@ -81,7 +81,7 @@ std::pair<double, double> neighbours(const data::Channel& channel, const data::N
   return {products, squares};
 }
 
-/// Effective degrees of freedom of the difference estimator: its terms overlap (Gasser et al. 1986: var = 35/18 σ⁴/n).
+/// Effective degrees of freedom of the difference estimator: its terms overlap (Gasser et al. 1986: var = 35/9 σ⁴/n).
 constexpr double difference_share = 18.0 / 35;
 
 NoiseSource from_differences(const data::Channel& channel, const data::Dataset& dataset, const std::string& where) {

@@ -25,8 +25,13 @@ std::string summary(const Diagnosis& diagnosis);
 /// text of extended.json. Empty without an extension.
 std::string extended_experiment(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
-/// residuals.csv: one line a fitted row; measured, predicted by the base and by the extension, σ, whitened residuals of
-/// both, and for the causes what their signatures would add to the prediction at their amplitude, in σ.
+/// Warns of what a run of extended.json takes otherwise than the diagnosis: relative noise, which is of the measured
+/// values there, and gross rows beyond the first of a test. `gross`: those that are the verdict, if they are.
+void warn_of_run(Diagnosis& diagnosis, std::vector<GrossRow> gross, const plugins::Catalogue& catalogue);
+
+/// residuals.csv: one line a fitted row; measured, predicted by the base and by the extension, σ of the measured value
+/// (of its mean over replicates), whitened residuals of both, and what each cause changes: how its refit differs from
+/// the base fit, or for one of several its own share of their refit, whitened.
 /// confusability.csv: largest absolute correlation of projected signatures, mechanism by mechanism.
 void write_tables(const std::filesystem::path& directory, const Diagnosis& diagnosis);
 

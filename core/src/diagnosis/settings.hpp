@@ -13,7 +13,7 @@ namespace tunica::diagnosis {
 /// What is asked: the "diagnosis" block of the experiment file and the command line.
 struct Settings {
   std::string model;                    ///< name of an entry of "models"; empty where every test names its layers
-  std::string optimizer;                ///< of the base fit; empty = least squares from several starts
+  std::string optimizer;                ///< one more start of the base fit is what it finds; empty = none
   double alpha = 0.05;                  ///< false alarms that are accepted
   std::vector<std::string> mechanisms;  ///< ids to consider; empty = all
   bool admissibility = false;           ///< lost stability changes the verdict
@@ -23,8 +23,8 @@ struct Settings {
   std::function<void(const std::string& what, double share)> progress = {};
 };
 
-/// Fills in what the file leaves open: the model and optimiser of the first run. Throws InputError where a mechanism is
-/// named that no plugin provides.
+/// Fills in what the file leaves open: the model of the first run. Throws InputError where a mechanism is named that no
+/// plugin provides.
 Settings settings_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::diagnosis

@@ -3,12 +3,41 @@
 
 #include <fmt/format.h>
 
+#include "calibration/noise.hpp"
+#include "diagnosis/causes.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
 
 namespace tunica::diagnosis {
 namespace {
+
+/// What a cause changes in every row, in σ. One that is an explanation by itself: how its refit differs from the base
+/// fit. A member of several: what its amplitude does in their refit, as far as the parameters could not do it.
+Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
+  if (d.named < 2 && which < d.rivals.size()) return d.rivals[which].fit.residuals - d.fit.residuals;
+  Eigen::VectorXd nothing = Eigen::VectorXd::Zero(d.fit.residuals.size());
+  if (!d.extension || which >= d.extension->additions.size()) return nothing;
+  const Extended& extended = *d.extension->extended;
+  const Extended::Part& part = extended.parts()[which];
+  std::vector<double> without = d.extension->fit.free;
+  for (const std::size_t member : part.amplitude) without[member] = part.null;
+  Eigen::VectorXd residuals;
+  if (!whitened(extended.assembly(), without, *extended.assembly().make_workspace(), residuals, nullptr).ok())
+    return nothing;
+  return Projection(interior(d.fit)).off(d.extension->fit.residuals - residuals);
+}
+
+/// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
+/// that of their neighbours, and not the one that silences them.
+std::vector<double> deviations(const calibration::ChannelView& view) {
+  auto noise = view.noise;
+  noise->gross.clear();
+  std::vector<std::string> said;
+  return calibration::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
+                                  view.test, said)
+      .sd;
+}
 
 std::string residual_table(const Diagnosis& d) {
   const auto predicted = [](const calibration::Assembly& assembly, std::span<const double> free) {
@@ -20,6 +49,8 @@ std::string residual_table(const Diagnosis& d) {
   const std::vector<double> base = predicted(*d.base, d.fit.free);
   const std::vector<double> extended =
       d.extension ? predicted(d.extension->extended->assembly(), d.extension->fit.free) : std::vector<double>();
+  std::vector<Eigen::VectorXd> signatures;
+  for (std::size_t k = 0; k < d.causes.size(); ++k) signatures.push_back(signature_of(d, k));
   std::string text =
       "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,residual_"
       "extended";
@@ -29,25 +60,16 @@ std::string residual_table(const Diagnosis& d) {
   for (const calibration::ChannelView& view : d.base->channels()) {
     if (c >= d.curves.size() || d.curves[c].test != view.test || d.curves[c].channel != view.observable) continue;
     const Curve& curve = d.curves[c++];
+    const std::vector<double> sd = deviations(view);
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
-      const double sigma = std::hypot(curve.noise.noise.absolute, curve.noise.noise.relative * base[view.offset + row]);
       text += fmt::format(
           "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
           view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
-          base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sigma,
+          base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
           -d.fit.residuals[i], d.extension ? fmt::format("{:.6g}", -d.extension->fit.residuals[i]) : "");
-      for (const Cause& cause : d.causes) {
-        double value = 0;
-        for (const Direction& direction : d.directions) {
-          const Hypothesis& hypothesis = d.candidates[direction.candidate].hypotheses[direction.hypothesis];
-          if (hypothesis.addition.id != cause.id || !(hypothesis.addition.target == cause.target)) continue;
-          value = direction.unit[i] * direction.unit.dot(-d.fit.residuals);
-          break;
-        }
-        text += fmt::format(",{:.6g}", value);
-      }
+      for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
       text += '\n';
     }
   }
