@@ -25,7 +25,7 @@ Chart residual_chart(const Table& table, const Json& diagnosis, const ResidualCu
   Chart chart;
   chart.id = fmt::format("residuals_{}_{}", curve.test, curve.channel);
   chart.title = fmt::format("{}: {}", curve.test, curve.channel);
-  chart.about = "Residuals in units of the noise over the abscissa, with the signatures of candidate causes";
+  chart.about = "Residuals in units of the noise over the abscissa, with what candidate causes change";
   chart.x.title = curve.abscissa;
   chart.y = {"residual / noise", false, {-3, 3}, {}};
   chart.files = {table.file_name()};
@@ -38,8 +38,8 @@ Chart residual_chart(const Table& table, const Json& diagnosis, const ResidualCu
   int style = 0;
   for (const auto& column : table.columns()) {
     if (!column.name.starts_with(signature)) continue;
-    Series series =
-        curve_series(table, curve, column.text, "signature of " + column.name.substr(signature.size()), "line", style);
+    Series series = curve_series(table, curve, column.text, "what " + column.name.substr(signature.size()) + " changes",
+                                 "line", style);
     series.hidden = style++ >= 3;
     chart.series.push_back(std::move(series));
   }
@@ -95,6 +95,14 @@ void add_confusability(Page& page, const Folder& folder) {
     chart.values.push_back(std::move(line));
   }
   page.chart(std::move(chart), folder.address());
+}
+
+/// "1 ± 0.4", "3.2 kPa"; in words where no plausible amplitude is so large.
+std::string least_amplitude(const Json& one, const char* key) {
+  const double distance = number(one, key), null = number(one, "null"), reach = number(one, "reach");
+  if (std::isfinite(reach) && distance > reach) return "beyond what is plausible";
+  const std::string text = amount(distance, word(one, "unit"));
+  return std::isfinite(distance) && std::isfinite(null) && null != 0 ? figure(null) + " ± " + text : text;
 }
 
 }  // namespace
@@ -174,10 +182,10 @@ void add_reach(Page& page, const Folder& folder) {
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> unseen;
   for (const Json& one : list(diagnosis, "detectable")) {
-    const std::string unit = word(one, "unit"), absent = word(one, "absent");
+    const std::string absent = word(one, "absent");
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
-                    {amount(number(one, "detectable"), unit), true},
-                    {amount(number(one, "identifiable"), unit), true},
+                    {least_amplitude(one, "detectable"), true},
+                    {least_amplitude(one, "identifiable"), true},
                     {word(one, "closest")},
                     {figure(number(one, "correlation")), true}});
     if (!absent.empty()) unseen.push_back(word(one, "id") + ": " + absent);

@@ -75,9 +75,9 @@ Chart gain_chart(const Json& gain) {
   chart.kind = "rows";
   chart.id = "gain_held_out";
   chart.title = "Gain on blocks that were held out";
-  chart.about = "Mean square of the residuals over the noise on each held-out block, without and with the cause";
+  chart.about = "Root mean square of the residuals over the noise on each held-out block, without and with the cause";
   chart.note = "Each block is predicted by fits that have not seen it; 1 is what noise alone leaves.";
-  chart.x = {"mean square of residual / noise", false, {1}, {}};
+  chart.x = {"root mean square of residual / noise", false, {1}, {}};
   chart.rule(1, "noise", 'x');
   RowSeries before{"model as given", 1, {}}, after{"with the cause", 0, {}};
   for (const Json& block : list(gain, "held_out")) {

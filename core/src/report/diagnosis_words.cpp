@@ -56,6 +56,12 @@ std::string gain_words(const Json& diagnosis) {
   const Json& blocks = list(gain, "held_out");
   for (const Json& block : blocks) better += number(block, "after") < number(block, "before") ? 1 : 0;
   if (!blocks.empty()) text += fmt::format("; better on {} of {} blocks that were held out", better, blocks.size());
+  constexpr double near = 2;  // σ
+  std::vector<std::string> missed;
+  for (const Json& block : blocks)
+    if (number(block, "after") >= near)
+      missed.push_back(fmt::format("{} ({} σ)", word(block, "block"), figure(number(block, "after"))));
+  if (!missed.empty()) text += "; not predicted: " + joined(missed);
   return text + '.';
 }
 
@@ -84,7 +90,7 @@ std::string place_words(const Json& target) {
   if (tests.empty() && !word(target, "test").empty()) tests.push_back(word(target, "test"));
   std::string text = tests.empty() ? "" : " in " + joined(tests);
   if (const std::string channel = word(target, "channel"); !channel.empty()) text += ", " + channel;
-  if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row + 1);
+  if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row);
   return text;
 }
 
@@ -101,10 +107,11 @@ void add_verdict(Page& page, const Folder& folder) {
   const double p = number(diagnosis, "p_value");
   std::vector<std::string> sure{fmt::format("Noise alone would do this with {}; below {} counts as detected.",
                                             chance(p), figure(number(diagnosis, "alpha")))};
+  // What a verdict calls clean (diagnosis/groups.hpp): one rest in a hundred looks worse by chance.
+  constexpr double clean_above = 0.01;
   if (const double after = number(diagnosis, "p_after"); std::isfinite(after))
-    sure.push_back(
-        fmt::format("With the cause added {}: {}.", chance(after),
-                    after > number(diagnosis, "alpha") ? "nothing is left to explain" : "something is left still"));
+    sure.push_back(fmt::format("With the cause added, noise alone would leave what is left with {}: {}.", chance(after),
+                               after > clean_above ? "nothing is left to explain" : "something is left still"));
   const auto one = [](std::string text) {
     return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
   };
