@@ -14,22 +14,26 @@
 #include "tunica/plugin.hpp"
 
 namespace tunica {
-inline constexpr double degree = std::numbers::pi / 180;
+inline constexpr double degree = std::numbers::pi / 180;  ///< in radians: parameters are declared in degrees
 }
 
 /// What the models of the arterial wall have in common: a neo-Hookean matrix, a mirrored pair of fibre families at
 /// ±theta from the axial direction with an exponential response, and the option that says when fibres carry load.
 namespace tunica::arterial {
 
+/// Shear modulus of the matrix, kPa. These four are shared so that models agree on names, bounds and sources.
 inline Parameter mu() {
   return {"mu", "kPa", 10, 0.1, 200, Scale::log, "Shear modulus of the matrix.", "Holzapfel, Gasser, Ogden 2000"};
 }
+/// Stiffness of the fibres, kPa.
 inline Parameter k1() {
   return {"k1", "kPa", 10, 0.01, 1000, Scale::log, "Stiffness of the fibres.", "Holzapfel, Gasser, Ogden 2000"};
 }
+/// How fast the fibres stiffen, dimensionless.
 inline Parameter k2() {
   return {"k2", "1", 1, 0.001, 100, Scale::log, "How fast the fibres stiffen.", "Holzapfel, Gasser, Ogden 2000"};
 }
+/// Angle of the families from the axial direction, in degrees as in files; Geometry turns it into radians.
 inline Parameter theta() {
   return {"theta",
           "deg",
@@ -51,6 +55,7 @@ inline Option fibre_switch() {
           .choices = {"strain", "stretch", "none"}};
 }
 
+/// What the option fibre_switch() means for a part.
 inline EnergyPart::Active active(const Options& options) {
   const std::string& value = options.text("fibre_switch");
   return value == "strain"    ? EnergyPart::Active::argument_positive
@@ -76,6 +81,7 @@ std::unique_ptr<EnergyPart> fibres(std::vector<std::size_t> invariant_parameters
 /// E = I_i − 1 of a single family at a fixed angle from the axial direction.
 template <int degrees>
 struct FixedFibres {
+  /// M·CM − 1 at the fixed angle, of no parameter.
   template <class T>
   static InvariantOf<T> invariant(std::span<const T>) {
     InvariantOf<T> e;

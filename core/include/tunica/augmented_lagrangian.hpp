@@ -12,7 +12,7 @@ namespace tunica {
 
 /// A constrained problem as an unconstrained one, for optimisers that know bounds alone:
 ///
-///   L(x) = f(x) + (ρ/2) Σ max(0, c_i(x) + λ_i/ρ)²,
+///     L(x) = f(x) + (ρ/2) Σ max(0, c_i(x) + λ_i/ρ)²,
 ///
 /// the augmented Lagrangian of Powell, Hestenes and Rockafellar without its constant. The penalty is one more residual
 /// block, √(ρ/2) max(0, c + λ/ρ), so that least-squares methods see it and its Jacobian.
@@ -34,14 +34,16 @@ class AugmentedLagrangian : public Problem {
     double objective = 0;                                        ///< f
     double violation = std::numeric_limits<double>::infinity();  ///< Status::violation()
   };
+  /// What update() has found.
   enum class Progress {
     converged,   ///< feasible, and every multiplier belongs to an active constraint
     going_on,    ///< minimise again
     infeasible,  ///< the penalty has grown to its limit and some constraint is still broken
     nothing      ///< no point could be evaluated since the last update
   };
-  static constexpr double margin = 0.5 * constraint_tolerance;
+  static constexpr double margin = 0.5 * constraint_tolerance;  ///< by which constraints are tightened
 
+  /// Nothing is evaluated yet; all multipliers are 0.
   explicit AugmentedLagrangian(Problem& problem)
       : problem_(problem),
         blocks_(problem.blocks().begin(), problem.blocks().end()),
@@ -57,8 +59,8 @@ class AugmentedLagrangian : public Problem {
   [[nodiscard]] const Point& point() const { return point_; }
   /// Best point so far: feasible ones by objective, before infeasible ones by violation.
   [[nodiscard]] const Point& best() const { return best_; }
-  [[nodiscard]] double penalty() const { return penalty_; }
-  [[nodiscard]] std::span<const double> multipliers() const { return multipliers_; }
+  [[nodiscard]] double penalty() const { return penalty_; }  ///< ρ; 0 before the first evaluation
+  [[nodiscard]] std::span<const double> multipliers() const { return multipliers_; }  ///< λ, one a constraint
 
   /// λ ← max(0, λ + ρ c) at the lowest point; ρ ← 10 ρ where infeasibility and complementarity, max |max(c, −λ/ρ)|,
   /// have not come down to the half. After the first minimisation ρ is set anew: a random start says little about f.

@@ -15,6 +15,8 @@ namespace tunica {
 /// derivatives by parameters are wanted.
 class DecoratedModel final : public Hyperelastic {
  public:
+  /// `own`: the mechanism's parameters, the amplitude first; `null`: of the amplitude; `parts`: of the whole changed
+  /// energy, with parameters of base and mechanism in that order.
   DecoratedModel(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, double null,
                  std::vector<std::unique_ptr<EnergyPart>> parts)
       : Hyperelastic(described(*base, own), std::move(parts)),

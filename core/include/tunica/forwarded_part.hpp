@@ -13,6 +13,7 @@ namespace tunica {
 /// that the indices of the part stay valid.
 class ForwardedPart : public EnergyPart {
  public:
+  /// `part` is one of base->parts().
   ForwardedPart(std::shared_ptr<const Model> base, const EnergyPart& part)
       : base_(std::move(base)), part_(part), description_(part.describe()) {}
 
@@ -26,16 +27,18 @@ class ForwardedPart : public EnergyPart {
   }
 
  protected:
+  /// Parameters of the base, which come first.
   [[nodiscard]] std::size_t base_count() const { return base_->describe().parameters.size(); }
 
-  std::shared_ptr<const Model> base_;
-  const EnergyPart& part_;
-  Description description_;
+  std::shared_ptr<const Model> base_;  ///< owner of the part
+  const EnergyPart& part_;             ///< the part of the base, unchanged
+  Description description_;            ///< a copy, which a mechanism may change in its constructor
 };
 
 /// A part of the mechanism's own, with parameters of its own that stand behind those of the base.
 class AddedPart final : public EnergyPart {
  public:
+  /// `part` counts parameters from the mechanism's own first one; `base_count` is added to its indices.
   AddedPart(std::size_t base_count, std::unique_ptr<EnergyPart> part)
       : base_count_(base_count), part_(std::move(part)), description_(part_->describe()) {
     for (auto* indices : {&description_.invariant_parameters, &description_.response_parameters})

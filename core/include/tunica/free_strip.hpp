@@ -18,7 +18,7 @@
 /// once, for models with a principal-axes path.
 ///
 /// With the squared stretches c = (λ1², u = λ2², 1/(λ1² u)) and g_a = ∂W/∂c_a:
-///   σ11 = 2 (c1 g1 − c3 g3),   0 = r = 2 (u g2 − c3 g3)       (physics: docs/theory.md, uniaxial strip)
+///     σ11 = 2 (c1 g1 − c3 g3),   0 = r = 2 (u g2 − c3 g3)       (physics: docs/theory.md, uniaxial strip)
 /// Newton's method on r(y), y = ln u, runs over a whole batch. Its start (`Start`): r is first solved at a few
 /// Chebyshev points of the stretch range, and λ1 u (1 for an isotropic material, smooth in λ1) interpolated to the
 /// rows. Used by the test `uniaxial` and by the host's transverse stability.
@@ -26,6 +26,7 @@ namespace tunica::free_strip {
 
 /// A relative step of λ2² this small may be applied to first order: the error left behind is its square.
 inline constexpr double last_step = 1e-6;
+/// Of a batch; rows that need more are solved one by one.
 inline constexpr int newton_iterations = 12;
 
 /// Positions of the Hessian components (a, b) in the order tt, zz, rr, tz, zr, tr.
@@ -33,15 +34,25 @@ inline constexpr std::array<std::array<std::size_t, 3>, 3> pair{{{0, 3, 5}, {3, 
 
 /// The material and the axis it is pulled along: 0 = circumferential, 1 = axial.
 struct Pull {
-  const Model& model;
-  std::span<const double> parameters;
-  std::size_t loaded;
-  [[nodiscard]] std::size_t transverse() const { return 1 - loaded; }
+  const Model& model;                                                  ///< with a principal-axes path
+  std::span<const double> parameters;                                  ///< of the model
+  std::size_t loaded;                                                  ///< the axis
+  [[nodiscard]] std::size_t transverse() const { return 1 - loaded; }  ///< the free axis in the plane
 };
 
 /// Scratch of one thread; it grows to the largest batch seen and then allocates nothing.
 struct Scratch {
-  std::vector<double> c, gradient, hessian, gradient_dp, u, step, stress, slope, stress_by_y, ratio;
+  std::vector<double> c,  ///< squared stretches, as AxisPoints::c
+      gradient,           ///< as in AxisResponse
+      hessian,            ///< as in AxisResponse
+      gradient_dp,        ///< as in AxisResponse
+      u,                  ///< λ2²
+      step,               ///< of Newton in y = ln u
+      stress,             ///< σ11, kPa
+      slope,              ///< ½ ∂r/∂y
+      stress_by_y,        ///< ∂σ11/∂y
+      ratio;              ///< stress_by_y/slope
+  /// Room for n rows and that many parameters; never shrinks.
   void reserve(std::size_t n, std::size_t parameters) {
     if (step.size() < n) {
       for (auto* v : {&u, &step, &stress, &slope, &stress_by_y, &ratio}) v->resize(n);
@@ -50,6 +61,7 @@ struct Scratch {
     if (gradient_dp.size() < 3 * n * parameters) gradient_dp.resize(3 * n * parameters);
   }
 };
+/// The scratch of the calling thread.
 inline Scratch& scratch() {
   thread_local Scratch instance;
   return instance;
@@ -58,6 +70,7 @@ inline Scratch& scratch() {
 /// One batch of squared stretches through the model: lateral residual, its slope and the Newton step in y = ln u.
 class Batch {
  public:
+  /// For rows of these stretches; spans and scratch must outlive it.
   Batch(const Pull& pull, std::span<const double> stretch, Scratch& scratch)
       : pull_(pull), n_(stretch.size()), s_(scratch), stretch_(stretch), l_(pull.loaded), t_(pull.transverse()) {
     s_.reserve(n_, pull.parameters.size());
@@ -130,6 +143,7 @@ class Batch {
     for (std::size_t i = 0; i < n_; ++i)
       column[i] = 2 * (c1[i] * gp1[i] - c3[i] * gp3[i]) - ratio[i] * (c2[i] * gp2[i] - c3[i] * gp3[i]);
   }
+  /// To be called once after evaluate(u, true), before stress_by_parameter().
   void prepare_parameters() {
     for (std::size_t i = 0; i < n_; ++i) s_.ratio[i] = s_.stress_by_y[i] / s_.slope[i];
   }
@@ -142,10 +156,9 @@ class Batch {
     stress_p = 2 * (s_.c[l_ * n_ + i] * gp[l_ * n_] - normal) + s_.stress_by_y[i] * y_p;
   }
 
-  Residual residual() const {  // of a batch of one
-    return {-s_.step[0] * s_.slope[0], s_.slope[0]};
-  }
-  Scratch& scratch_of() { return s_; }
+  /// ½ r and its slope, of a batch of one.
+  Residual residual() const { return {-s_.step[0] * s_.slope[0], s_.slope[0]}; }
+  Scratch& scratch_of() { return s_; }  ///< where the values of the rows are
 
  private:
   const double* g(std::size_t a) const { return s_.gradient.data() + a * n_; }
@@ -232,6 +245,7 @@ inline Status iterate(const Pull& pull, std::span<const double> stretch, double 
 class Start {
  public:
   Start() = default;
+  /// Places the nodes and prepares the interpolation, once a test.
   explicit Start(std::span<const double> stretch) {
     const std::size_t n = stretch.size();
     if (n < 2 * node_count) return;

@@ -13,6 +13,7 @@ namespace tunica::isotropic {
 
 /// x = I1 − 3
 struct FirstInvariant {
+  /// I1 − 3, of no parameter.
   template <class T>
   static InvariantOf<T> invariant(std::span<const T>) {
     InvariantOf<T> x;
@@ -24,6 +25,7 @@ struct FirstInvariant {
 
 /// x = I2 − 3
 struct SecondInvariant {
+  /// I2 − 3, of no parameter.
   template <class T>
   static InvariantOf<T> invariant(std::span<const T>) {
     InvariantOf<T> x;

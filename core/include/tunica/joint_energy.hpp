@@ -17,12 +17,12 @@ namespace tunica {
 /// faster, and its parts can be transformed by mechanisms; this one exposes none, and takes what is added to an energy
 /// or remembers its history. An Energy is a type with
 ///
-///   static constexpr const char *type, *doc, *reference;
-///   static constexpr std::size_t parameter_count, invariant_count;
-///   static std::vector<Parameter> parameters();
-///   template <class T> static std::array<InvariantOf<T>, invariant_count> invariants(std::span<const T> p);
-///   template <class T> static T energy(std::span<const T> x, std::span<const T> p);
-///   static std::vector<Combination> admissible();                        // optional, as in ModelDescription
+///     static constexpr const char *type, *doc, *reference;
+///     static constexpr std::size_t parameter_count, invariant_count;
+///     static std::vector<Parameter> parameters();
+///     template <class T> static std::array<InvariantOf<T>, invariant_count> invariants(std::span<const T> p);
+///     template <class T> static T energy(std::span<const T> x, std::span<const T> p);
+///     static std::vector<Combination> admissible();                        // optional, as in ModelDescription
 ///
 /// Mathematics: with G_k = ∂x_k/∂C, S = 2 Σ_k Ψ_k G_k and 2 ∂S/∂C = 4 Σ_kl Ψ_kl G_k ⊗ G_l + 4 Σ_k Ψ_k i2_k (1⊗1 − 𝕀);
 /// derivatives of Ψ by automatic differentiation over (x; p), no more of them than are asked for.

@@ -12,13 +12,14 @@ namespace tunica {
 
 /// An energy part from two formulas: a law ψ(x; p) (laws.hpp) and the invariant x it is a function of,
 ///
-///   struct Geometry { template <class T> static InvariantOf<T> invariant(std::span<const T> parameters); };
+///     struct Geometry { template <class T> static InvariantOf<T> invariant(std::span<const T> parameters); };
 ///
 /// with the whole model's parameters, angles in degrees as declared. Derivatives follow by automatic
 /// differentiation, by hand where the law says so.
 template <class Law, class Geometry, std::size_t model_parameters>
 class LawPart final : public EnergyPart {
  public:
+  /// description.response_parameters are the p of the law, in its order.
   explicit LawPart(Description description) : description_(std::move(description)) {}
 
   [[nodiscard]] const Description& describe() const override { return description_; }

@@ -11,9 +11,9 @@
 
 /// Responses ψ(x; p) that many models share. A law is a type with
 ///
-///   static constexpr std::size_t parameter_count;
-///   template <class T> static T energy(const T& x, std::span<const T> p);     // the formula
-///   static void respond(std::span<const double> p, const ResponseBatch&);      // optional: by hand, for speed
+///     static constexpr std::size_t parameter_count;
+///     template <class T> static T energy(const T& x, std::span<const T> p);     // the formula
+///     static void respond(std::span<const double> p, const ResponseBatch&);      // optional: by hand, for speed
 ///
 /// Without `respond` the derivatives come from the formula by automatic differentiation (autodiff.hpp); with it,
 /// the tests hold the two against each other.
@@ -21,12 +21,14 @@ namespace tunica::laws {
 
 /// ψ = (a/2) x: a neo-Hookean matrix with x = I1 − 3 and shear modulus a = μ.
 struct Linear {
-  static constexpr std::size_t parameter_count = 1;
+  static constexpr std::size_t parameter_count = 1;  ///< a, kPa
 
+  /// ψ for any scalar type.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     return 0.5 * p[0] * x;
   }
+  /// Derivatives by hand: constants.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     const std::size_t n = b.x.size();
     for (std::size_t i = 0; i < b.value.size(); ++i) b.value[i] = 0.5 * p[0] * b.x[i];
@@ -39,21 +41,24 @@ struct Linear {
 
 /// ψ = k1/(2 k2) [exp(k2 x²) − 1], with its limit (k1/2) x² at k2 = 0 (Holzapfel, Gasser, Ogden 2000, eq. 65).
 struct Exponential {
-  static constexpr std::size_t parameter_count = 2;
+  static constexpr std::size_t parameter_count = 2;  ///< k1 in kPa, k2
 
+  /// ψ for any scalar type; 0/0 at k2 = 0, which respond() takes in its stride.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     using std::exp;
     return p[0] / (2.0 * p[1]) * (exp(p[1] * x * x) - 1.0);
   }
 
-  /// φ(y) = (e^y − 1)/y and φ'(y) = (e^y (y − 1) + 1)/y², series about 0.
+  /// φ(y) = (e^y − 1)/y, series about 0: the limit k2 = 0 without a case.
   static double phi(double y) { return std::abs(y) < 1e-5 ? 1 + y / 2 + y * y / 6 : std::expm1(y) / y; }
+  /// φ'(y) = (e^y (y − 1) + 1)/y², series about 0.
   static double phi_prime(double y) {
     if (std::abs(y) < 1e-2) return 1. / 2 + y * (1. / 3 + y * (1. / 8 + y * (1. / 30 + y * (1. / 144 + y / 840))));
     return (std::exp(y) * (y - 1) + 1) / (y * y);
   }
 
+  /// Derivatives by hand, one exponential a point.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     const double k1 = p[0], k2 = p[1];
     const std::size_t n = b.x.size();

@@ -10,8 +10,10 @@
 #include "tunica/parameter.hpp"
 #include "tunica/status.hpp"
 
+/// What plugins are written against; docs/sdk.md says in which order to read it.
 namespace tunica {
 
+/// What a model says of itself; it never changes during the model's life.
 struct ModelDescription {
   std::string type;                       ///< "gho"
   std::vector<Parameter> parameters;      ///< order of every parameter span below
@@ -44,9 +46,9 @@ struct MaterialResponse {
 
 /// Points whose C is diagonal in material axes, given by the squared stretches c = (c_t, c_z, c_r).
 struct AxisPoints {
-  std::size_t count = 0;      ///< n
-  std::span<const double> c;  ///< 3n, component-major
-  std::span<const double> parameters;
+  std::size_t count = 0;               ///< n
+  std::span<const double> c;           ///< 3n, component-major
+  std::span<const double> parameters;  ///< in the order and base units of the description
 };
 
 /// First and second derivatives of W by the squared stretches; empty = not wanted.
@@ -73,12 +75,16 @@ struct AxisResponse {
 class Model {
  public:
   virtual ~Model() = default;
+  /// Asked at any time, by any thread; cheap.
   [[nodiscard]] virtual const ModelDescription& describe() const = 0;
+  /// Energy, stress and derivatives of a batch; writes what `response` has room for, and nothing else.
   virtual Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const = 0;
+  /// The same in principal axes, called only where ModelDescription::principal_axes says so.
   virtual Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const {
     static_cast<void>(points), static_cast<void>(response);
     return Status::failed("this model has no principal-axes path");
   }
+  /// The terms of the energy that mechanisms can transform; empty where it is no sum over invariants.
   [[nodiscard]] virtual std::span<const std::unique_ptr<EnergyPart>> parts() const { return {}; }
 };
 

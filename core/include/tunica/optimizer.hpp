@@ -14,10 +14,12 @@ namespace tunica {
 
 /// Rows [offset, offset + size) of the residual vector, entering the objective as weight · ρ(‖r‖²).
 struct ResidualBlock {
+  /// How the norm of a block enters the objective.
   enum class Loss { quadratic, root };  ///< ρ(s) = s; ρ(s) = √s, smoothed at zero as in Problem::root_smoothing
-  std::size_t offset = 0, size = 0;
-  double weight = 1;
-  Loss loss = Loss::quadratic;
+  std::size_t offset = 0,               ///< first row
+      size = 0;                         ///< rows
+  double weight = 1;                    ///< w > 0
+  Loss loss = Loss::quadratic;          ///< ρ
 };
 
 /// The minimisation problem an optimiser is given, by the host. All x are in the unit box [0, 1]^n: the host maps
@@ -34,10 +36,11 @@ class Problem {
   static constexpr double constraint_tolerance = 1e-6;  ///< a point is feasible where every c(x) is at most this
 
   virtual ~Problem() = default;
-  [[nodiscard]] virtual std::size_t dimension() const = 0;
+  [[nodiscard]] virtual std::size_t dimension() const = 0;          ///< n, the parameters that are searched
   [[nodiscard]] virtual std::span<const double> start() const = 0;  ///< initial point, n
+  /// They cover the residuals without gap or overlap.
   [[nodiscard]] virtual std::span<const ResidualBlock> blocks() const = 0;
-  [[nodiscard]] virtual std::size_t residual_count() const = 0;
+  [[nodiscard]] virtual std::size_t residual_count() const = 0;    ///< entries of the residual vector
   [[nodiscard]] virtual std::size_t constraint_count() const = 0;  ///< inequality constraints c(x) ≤ 0
 
   /// One evaluation. `objective` is set unless the status is failed; where a constraint is broken it may lack costly
@@ -58,9 +61,9 @@ class Problem {
   /// that it ran at all, depends on the clock and is to be forgotten.
   virtual std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) = 0;
 
-  [[nodiscard]] virtual bool should_stop() const = 0;
-  [[nodiscard]] virtual std::uint64_t evaluations() const = 0;
-  [[nodiscard]] virtual std::uint64_t budget() const = 0;  ///< evaluations that remain
+  [[nodiscard]] virtual bool should_stop() const = 0;           ///< budget or time is used up, or a person wants it
+  [[nodiscard]] virtual std::uint64_t evaluations() const = 0;  ///< counted so far
+  [[nodiscard]] virtual std::uint64_t budget() const = 0;       ///< evaluations that remain
   /// A seed for this task and purpose, the same for any number of threads: derive_seed(task seed, purpose).
   [[nodiscard]] virtual std::uint64_t seed(std::string_view purpose) const = 0;
 };
@@ -72,6 +75,7 @@ class Problem {
 /// has converged or should_stop() turns true, with a word for the report.
 class Optimizer {
  public:
+  /// What it asks of a problem: the host refuses runs that cannot give it, before they begin.
   struct Needs {
     bool residuals = false;    ///< linearise() with residual blocks
     bool gradient = false;     ///< a Jacobian
@@ -85,12 +89,14 @@ class Optimizer {
     /// is refused.
     std::size_t most_parameters = std::numeric_limits<std::size_t>::max();
   };
+  /// How the search ended. The point is not in it: the host has kept the best.
   struct Outcome {
-    bool converged = false;
-    std::string reason;  ///< "step below tolerance", "restarts exhausted", "stopped"
+    bool converged = false;  ///< by the method's own criterion, not by budget
+    std::string reason;      ///< "step below tolerance", "restarts exhausted", "stopped"
   };
   virtual ~Optimizer() = default;
-  [[nodiscard]] virtual const Needs& needs() const = 0;
+  [[nodiscard]] virtual const Needs& needs() const = 0;  ///< fixed by the options it was made with
+  /// One search, from problem.start().
   virtual Outcome minimise(Problem& problem) = 0;
 };
 

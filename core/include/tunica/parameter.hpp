@@ -8,6 +8,7 @@
 
 namespace tunica {
 
+/// How the host maps the bounds of a parameter to [0, 1]: by the value or by its logarithm.
 enum class Scale { linear, log };
 
 /// One parameter as its owner (model, test or mechanism) declares it. Everything the outside sees of it – schema,
@@ -16,7 +17,8 @@ struct Parameter {
   std::string name;       ///< symbol of the literature, for example "mu"; no dots
   std::string unit;       ///< base unit in UDUNITS spelling: "kPa", "mm", "mN", "s", "deg", "1"
   double initial;         ///< default start, min <= initial <= max
-  double min, max;        ///< default bounds, finite
+  double min,             ///< default lower bound, finite
+      max;                ///< default upper bound, finite
   Scale scale;            ///< log needs min > 0
   std::string doc;        ///< one sentence
   std::string reference;  ///< where the parameter is defined or the range comes from; may be empty

@@ -14,9 +14,10 @@
 #include "tunica/autodiff.hpp"
 #include "tunica/model.hpp"
 
+/// What PrincipalStretches needs of tensors.
 namespace tunica::principal_stretches {
 
-using Tensor = std::array<double, 6>;  // tt, zz, rr, tz, zr, tr
+using Tensor = std::array<double, 6>;  ///< tt, zz, rr, tz, zr, tr
 
 /// n_a ⊗ n_b, symmetrised.
 inline Tensor dyad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -30,9 +31,10 @@ inline Tensor dyad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 /// C = Σ_a c_a n_a ⊗ n_a; not-a-number throughout where C is no finite tensor.
 struct Spectrum {
-  std::array<double, 3> c;
-  std::array<Eigen::Vector3d, 3> n;
+  std::array<double, 3> c;           ///< squared stretches, rising
+  std::array<Eigen::Vector3d, 3> n;  ///< unit vectors of their directions
 
+  /// By the iterative solver: the closed form loses half the digits where stretches are close.
   explicit Spectrum(const Tensor& C) {
     Eigen::Matrix3d matrix;
     matrix << C[0], C[3], C[5], C[3], C[1], C[4], C[5], C[4], C[2];
@@ -53,11 +55,13 @@ namespace tunica {
 /// A model whose energy is a sum over the principal stretches, W(C; p) = Σ_a w(λ_a; p) (Valanis, Landel 1967), from
 /// its one function w. A model plugin is a parameter table and a law (laws.hpp) with x = λ:
 ///
-///   PrincipalStretches<laws::Ogden<3>>(description)
+///     PrincipalStretches<laws::Ogden<3>>(description)
 ///
 /// Mathematics: with f(c) = w'(λ)/(2λ), c = λ², the stress S = 2 f(C) is an isotropic function of C, so that in
 /// principal axes S_aa = 2 f(c_a) and, for coaxial and turning increments alike,
-///   2 ∂S/∂C = 4 Σ_ab f[c_a, c_b] sym(n_a⊗n_b) ⊗ sym(n_a⊗n_b)
+///
+///     2 ∂S/∂C = 4 Σ_ab f[c_a, c_b] sym(n_a⊗n_b) ⊗ sym(n_a⊗n_b)
+///
 /// with the divided difference f[x, y] = (f(y) − f(x))/(y − x), f[x, x] = f'(x) (Daletskii, Krein 1951; Ogden 1984,
 /// Non-Linear Elastic Deformations, §6.1.4). No limit has to be told apart: where two stretches come together, f[x, y]
 /// is taken as the mean of f' between them, which is what it is, without the cancellation.

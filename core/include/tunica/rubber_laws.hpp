@@ -13,8 +13,9 @@ namespace tunica::laws {
 
 /// ψ = c x: a term of Mooney's energy, x = I1 − 3 or I2 − 3 (Mooney 1940; Rivlin 1948).
 struct Proportional {
-  static constexpr std::size_t parameter_count = 1;
+  static constexpr std::size_t parameter_count = 1;  ///< c, kPa
 
+  /// ψ for any scalar type.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     return p[0] * x;
@@ -23,8 +24,9 @@ struct Proportional {
 
 /// ψ = c10 x + c20 x² + c30 x³, x = I1 − 3 (Yeoh 1993).
 struct Cubic {
-  static constexpr std::size_t parameter_count = 3;
+  static constexpr std::size_t parameter_count = 3;  ///< c10, c20, c30, kPa
 
+  /// ψ for any scalar type.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     return x * (p[0] + x * (p[1] + x * p[2]));
@@ -35,14 +37,16 @@ struct Cubic {
 /// length, there is no energy: every number is infinite. Automatic differentiation would go on beyond the limit, where
 /// ln is not a number but its derivative is an ordinary one; hence by hand.
 struct Gent {
-  static constexpr std::size_t parameter_count = 2;
+  static constexpr std::size_t parameter_count = 2;  ///< μ in kPa, Jm
 
+  /// ψ for any scalar type; not a number beyond the limit.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     using std::log;
     return -0.5 * p[0] * p[1] * log(1.0 - x / p[1]);
   }
 
+  /// Derivatives by hand, infinite from x = Jm on.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     constexpr double beyond = std::numeric_limits<double>::infinity();
     const double mu = p[0], limit = p[1];
@@ -73,8 +77,9 @@ struct Gent {
 /// parameters μ_1, α_1, μ_2, α_2, …. At α_i = 0 the limit μ_i ln λ.
 template <std::size_t terms>
 struct Ogden {
-  static constexpr std::size_t parameter_count = 2 * terms;
+  static constexpr std::size_t parameter_count = 2 * terms;  ///< μ_i in kPa, α_i
 
+  /// w for any scalar type; 0/0 at α_i = 0, where respond() has the limit.
   template <class T>
   static T energy(const T& lambda, std::span<const T> p) {
     using std::exp, std::log;
@@ -83,6 +88,7 @@ struct Ogden {
     return sum;
   }
 
+  /// Derivatives by hand, one logarithm a point and one exponential a term.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     const std::size_t n = b.x.size();
     constexpr std::size_t chunk = 64;

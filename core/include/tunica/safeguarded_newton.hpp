@@ -5,8 +5,10 @@
 
 namespace tunica::free_strip {
 
+/// r and its derivative at some y.
 struct Residual {
-  double value, slope;  ///< r(y), dr/dy; not finite where the energy overflows
+  double value,  ///< r(y); not finite where the energy overflows
+      slope;     ///< dr/dy
 };
 
 /// Root of r(y) by Newton's method inside a bracket, from a start where r is finite. r is expected to rise through

@@ -11,6 +11,7 @@ namespace tunica {
 /// constraint. Wrong input is an exception (error.hpp); a bug is an assertion.
 class [[nodiscard]] Status {
  public:
+  /// `failed`: no value, and nothing else of the evaluation may be read.
   enum class Kind { ok, infeasible, failed };
 
   Status() = default;  ///< ok; allocates nothing
@@ -18,12 +19,13 @@ class [[nodiscard]] Status {
   static Status infeasible(std::string reason, double violation) {
     return {Kind::infeasible, std::move(reason), violation};
   }
+  /// The reason says what, where (row, abscissa, iteration) and, where known, what to do; it goes into the report.
   static Status failed(std::string reason) { return {Kind::failed, std::move(reason), 0}; }
 
-  [[nodiscard]] Kind kind() const { return kind_; }
-  [[nodiscard]] bool ok() const { return kind_ == Kind::ok; }
-  [[nodiscard]] const std::string& reason() const { return reason_; }
-  [[nodiscard]] double violation() const { return violation_; }  ///< 0 unless infeasible
+  [[nodiscard]] Kind kind() const { return kind_; }                    ///< what became of it
+  [[nodiscard]] bool ok() const { return kind_ == Kind::ok; }          ///< evaluated, and no constraint broken
+  [[nodiscard]] const std::string& reason() const { return reason_; }  ///< empty under ok
+  [[nodiscard]] double violation() const { return violation_; }        ///< 0 unless infeasible
 
  private:
   Status(Kind kind, std::string reason, double violation)
