@@ -21,12 +21,14 @@
 #include "comparison/summary.hpp"
 #include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
+#include "comparison/wall_tables.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
+#include "messages.hpp"
 #include "report/report.hpp"
 #include "verbs.hpp"
 
@@ -161,8 +163,8 @@ int run(const GlobalOptions& global, const RunOptions& options) {
     outcome = execution::execute(plan, settings);
   }
   if (!outcome.write_failure.empty()) {
-    fmt::print(stderr, "error: {}. Then go on with\n  {}\n", outcome.write_failure,
-               resume_command(global, options, directory.path()));
+    say_error(fmt::format("{}. Then go on with\n  {}", outcome.write_failure,
+                          resume_command(global, options, directory.path())));
     return interrupted;
   }
   if (outcome.interrupted) {
@@ -175,6 +177,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
   const auto provenance = comparison::provenance_of(plan);
   comparison::write_fit_tables(directory.path(), plan, summary);
+  comparison::write_wall_tables(directory.path(), plan, summary);
   comparison::write_stability_tables(directory.path(), plan, summary);
   comparison::write_study_tables(directory.path(), plan, outcome.runs, summary);
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
@@ -194,10 +197,10 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   const auto page = report::write_report(directory.path());
   fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
-             comparison::ranking_table(summary));
+             highlighted(comparison::ranking_table(summary)));
   const auto code = judge(summary);
   if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
-    fmt::print(stderr, "error: no evaluation succeeded; the first reason: {}\n", summary.runs.front().status.reason());
+    say_error(fmt::format("no evaluation succeeded; the first reason: {}", summary.runs.front().status.reason()));
   const auto result = directory.path() / "result.json";
   fmt::print("\nReport:  {}\nResults: {}\n{}\n", page.string(), result.string(),
              comparison::hanging("Next:    ", next_step(summary, options.file, result)));
@@ -212,9 +215,9 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
   verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
       ->type_name("DIR");
-  verb->add_option("-j,--threads", options->threads, "Threads, for realisations and population members together")
+  verb->add_option("-j,--threads", options->threads,
+                   "Threads, for realisations and population members together; all of the machine without it")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str()
       ->type_name("N");
   verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
       ->check(seed_number())

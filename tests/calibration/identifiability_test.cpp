@@ -45,6 +45,20 @@ TEST(Identifiability, GivesTheIntervalsOfLinearRegression) {
   EXPECT_TRUE(found.sentences().empty());
 }
 
+TEST(Identifiability, GivesTheIntervalOfTheFittedLine) {
+  Bench bench;
+  bench.parameter("c").fixed = 0;
+  add_line(bench);
+  const Identifiability found = identify(bench, {1, 2});
+  // Textbook: var ŷ(x) = s² (1/n + (x − x̄)²/Σ(x − x̄)²).
+  const double s = std::sqrt(8 * 0.01 / 6);
+  ASSERT_EQ(found.curve_ci95.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double away = static_cast<double>(i) - 3.5;
+    EXPECT_NEAR(found.curve_ci95[i], 2.446912 * s * std::sqrt(1.0 / 8 + away * away / 42), 1e-6) << i;
+  }
+}
+
 TEST(Identifiability, TakesStatedNoiseInsteadOfResiduals) {
   Bench bench;
   bench.parameter("c").fixed = 0;

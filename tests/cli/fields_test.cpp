@@ -90,6 +90,20 @@ TEST_F(Fields, OfWhichCheckComparesTheSimulationWithOthers) {
   EXPECT_THAT(good.out, ::testing::Not(HasSubstr("WAS EXPECTED")));
 }
 
+TEST_F(Fields, OfTheBestPointComeWithEveryRun) {
+  bench.experiment["models"]["gho"]["parameters"]["mu"] = {{"initial", 18.668}};
+  bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "lm"}, {"tests", {"tube"}}}};
+  bench.experiment["stop"] = {{"max_evaluations", 3}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_LE(ended.code, 1) << ended.err;
+  const auto table = bench.text("out/wall_tube.csv");
+  EXPECT_THAT(table, ::testing::StartsWith("run,row,unloaded_radius [mm],radius [mm],"));
+  EXPECT_THAT(table.substr(0, table.find('\n')), ::testing::EndsWith(",prescribed_pressure [kPa]"));
+  for (const char* row : {"\ngho/lm,1,", "\ngho/lm,2,", "\ngho/lm,3,"}) EXPECT_THAT(table, HasSubstr(row));
+  EXPECT_THAT(bench.text("out/wall_tube_3.vtu"), HasSubstr("circumferential_stress [kPa]"));
+  EXPECT_THAT(bench.text("out/report.html"), HasSubstr("Wall of the tube"));
+}
+
 TEST_F(Fields, SayWhatCannotBeShown) {
   EXPECT_THAT(refused("tub:1"), HasSubstr("--fields tub: the experiment has no test of that name"));
   EXPECT_THAT(refused("tube:4"), HasSubstr("--fields tube: there is no row 4; the test has 3"));

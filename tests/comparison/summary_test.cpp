@@ -114,3 +114,16 @@ TEST(FitTable, ShowsMeasuredPredictedAndWhatWasHeldOut) {
   EXPECT_THAT(text, HasSubstr("\nm/walk,1,6,6,1"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("m/compass")));
 }
+
+TEST(FitTable, HasTheIntervalOfTheCurveAndTheRangeOverRealisations) {
+  Summarised made;
+  const auto summary = made.summarise();
+  const auto text = comparison::fit_table(*made.plan, summary, "curve");
+  const auto header = text.substr(0, text.find('\n'));
+  EXPECT_TRUE(header.ends_with("held_out,twice_x,y.ci95 [kPa],y.lowest [kPa],y.highest [kPa]")) << header;
+  // At x = 0 the curve is a: 2 and 2.5 in the two realisations.
+  const auto row = text.substr(text.find("\nm/walk,0,2,2,0") + 1);
+  EXPECT_TRUE(row.substr(0, row.find('\n')).ends_with(",2,2.5")) << row;
+  made.results[0].realisations.pop_back();
+  EXPECT_THAT(comparison::fit_table(*made.plan, made.summarise(), "curve"), ::testing::Not(HasSubstr("lowest")));
+}

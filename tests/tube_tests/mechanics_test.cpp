@@ -203,5 +203,51 @@ TEST(Tube, RelaxesUnderPressureTowardsTheEquilibriumDiameter) {
   EXPECT_NEAR(clockless.values[3], elastic.values[0], 1e-10);
 }
 
+/// The integral of a column over the radius, by the trapezoidal rule, carried on to both faces.
+double across(const Snapshot& snapshot, std::size_t column, double ri, double ro, bool over_area) {
+  const auto& r = snapshot.section[1].values;
+  const auto& v = snapshot.section[column].values;
+  const auto weighted = [&](std::size_t k) { return v[k] * (over_area ? 2 * std::numbers::pi * r[k] : 1); };
+  double sum = weighted(0) * (r.front() - ri) + weighted(r.size() - 1) * (ro - r.back());
+  for (std::size_t k = 1; k < r.size(); ++k) sum += 0.5 * (weighted(k) + weighted(k - 1)) * (r[k] - r[k - 1]);
+  return sum;
+}
+
+TEST(Tube, ShowsTheStressThroughItsWall) {
+  const auto tube = make_tube({0, 12}, {.channels = {"outer_diameter", "inner_diameter", "axial_force"}});
+  const auto model = make_model("gho");
+  for (const std::vector<double>& own : {bare_tube, std::vector<double>{70, 0, 0, 0, 1.4}}) {
+    std::vector<Snapshot> found;
+    const std::vector<std::size_t> rows{1};
+    const Status status = tube->snapshots({*model, set_s, own}, rows, found);
+    ASSERT_TRUE(status.ok()) << status.reason();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].row, 1u);
+    EXPECT_TRUE(found[0].cells.empty());
+    ASSERT_EQ(found[0].section[5].name, "circumferential_stress");
+    const Inflated out = inflate(*tube, *model, set_s, own);
+    const double ro = out.values[1] / 2, ri = out.values[3] / 2;
+    const auto& radial = found[0].section[7].values;
+    EXPECT_NEAR(radial.front(), -12, 0.1);
+    EXPECT_NEAR(radial.back(), 0, 0.1);
+    // Equilibrium of half a ring, and of a closed end less the force that the pressure takes.
+    EXPECT_NEAR(across(found[0], 5, ri, ro, false), 12 * ri, 0.01 * 12 * ri);
+    const double force = across(found[0], 6, ri, ro, true) - 12 * std::numbers::pi * ri * ri;
+    EXPECT_NEAR(force, out.values[5], 0.01 * std::abs(out.values[5]) + 1);
+    EXPECT_NEAR(found[0].section[0].values.front(), inner, 0.01);
+    EXPECT_NEAR(found[0].section[1].values.back(), ro, 0.01);
+  }
+}
+
+TEST(Tube, ShowsNoWallThatRemembers) {
+  const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
+  std::vector<Snapshot> found;
+  const std::vector<double> p{60, 0.8, 5};
+  const std::vector<std::size_t> rows{0};
+  const Status status = make_tube({8})->snapshots({*viscous, p, bare_tube}, rows, found);
+  EXPECT_FALSE(status.ok());
+  EXPECT_NE(status.reason().find("shows the wall of a material without history only"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tunica::testing

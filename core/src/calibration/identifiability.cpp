@@ -19,8 +19,11 @@ namespace {
 
 constexpr double on_bound = 1e-6;  // of the range
 
-/// Residual rows by free parameters, whitened, in the unit box.
-Status whitened(const Assembly& assembly, std::span<const double> free, Matrix& rows, Whitening& noise) {
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Residual rows, whitened, and all predictions (`curves`) by free parameters, in the unit box.
+Status whitened(const Assembly& assembly, std::span<const double> free, Matrix& rows, Matrix& curves,
+                Whitening& noise) {
   const auto& parameters = assembly.parameters();
   const std::size_t n = parameters.size();
   std::vector<double> predictions(assembly.prediction_count()), by_prediction(predictions.size() * n);
@@ -30,10 +33,21 @@ Status whitened(const Assembly& assembly, std::span<const double> free, Matrix& 
   if (noise.rows.empty()) return Status::failed("no row is fitted");
   std::vector<double> jacobian(noise.count() * n);
   whitened_residuals(noise, free, predictions, by_prediction, {}, jacobian);
-  rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      jacobian.data(), static_cast<Eigen::Index>(noise.count()), static_cast<Eigen::Index>(n));
-  for (std::size_t j = 0; j < n; ++j) rows.col(static_cast<Eigen::Index>(j)) *= unit_slope(parameters[j], free[j]);
+  const auto columns = static_cast<Eigen::Index>(n);
+  rows = Eigen::Map<const Rows>(jacobian.data(), static_cast<Eigen::Index>(noise.count()), columns);
+  curves = Eigen::Map<const Rows>(by_prediction.data(), static_cast<Eigen::Index>(predictions.size()), columns);
+  for (std::size_t j = 0; j < n; ++j) {
+    rows.col(static_cast<Eigen::Index>(j)) *= unit_slope(parameters[j], free[j]);
+    curves.col(static_cast<Eigen::Index>(j)) *= unit_slope(parameters[j], free[j]);
+  }
   return {};
+}
+
+/// t √Σ_k min(1, var_k) (g·v_k)² of every row g: a direction that the data do not see is as wide as the box.
+std::vector<double> curve_intervals(const Matrix& curves, const Spectrum& spectrum) {
+  const Vector sd = spectrum.variance.cwiseMin(1).cwiseSqrt();
+  const Vector widths = spectrum.quantile * (curves * spectrum.V * sd.asDiagonal()).rowwise().norm();
+  return {widths.begin(), widths.end()};
 }
 
 /// Gradients in the unit box of the constraints that hold with equality at the point, to `active_margin`; none where
@@ -157,9 +171,9 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
     found.parameters.push_back({parameters[j].name, parameters[j].unit, free[j]});
     found.parameters.back().at_bound = at_bound[j];
   }
-  Matrix rows;
+  Matrix rows, curves;
   Whitening noise;
-  if (Status status = whitened(assembly, free, rows, noise); !status.ok()) return status;
+  if (Status status = whitened(assembly, free, rows, curves, noise); !status.ok()) return status;
   if (std::find(at_bound.begin(), at_bound.end(), false) == at_bound.end()) return {};
 
   const double weakest = assembly.jacobian_is_exact() ? weakest_exact : weakest_differenced;
@@ -174,6 +188,7 @@ Status identify(const Assembly& assembly, std::span<const double> free, Identifi
         !at_bound[j] && spectrum.V.row(static_cast<Eigen::Index>(j)).squaredNorm() < moved * moved;
   found.constrained = constrained_in_words(spectrum.V.cols() == 0, found.parameters, where);
   if (spectrum.V.cols() == 0) return {};
+  found.curve_ci95 = curve_intervals(curves, spectrum);
   found.singular_values.assign(likelihood.values.begin(), likelihood.values.end());
   const Matrix flat = spectrum.projector(Seen::not_at_all);
   Straightness straightness(assembly, noise, free);

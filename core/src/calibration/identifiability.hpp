@@ -46,6 +46,9 @@ struct Identifiability {
   std::vector<double> singular_values;        ///< descending
   std::vector<Valley> valleys;
   std::string constrained;  ///< sentence on active constraints; empty = none
+  /// Half widths of the 95 % intervals of the fitted curves, one a prediction, held-out rows included; empty where the
+  /// data leave nothing to say.
+  std::vector<double> curve_ci95;
 
   /// For `identifiability` of result.json: one a valley, one for all parameters at bounds.
   [[nodiscard]] std::vector<std::string> sentences() const;
@@ -67,6 +70,10 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 /// the box. Parameters at a bound leave the computation, directions across active constraints (c > −1e-4) and channels
 /// of weight 0 too. Weak directions that share parameters form a valley; of the model's combinations those are named as
 /// fixed whose gradient is orthogonal to all of them (to 1e-3) and that have an argument in it.
+///
+/// The fitted curve ŷ_i has the interval t √Σ_k min(1, 1/s_k²) (g_i·v_k)² about it, g_i = ∂ŷ_i/∂x (delta method,
+/// pointwise; G. A. F. Seber, C. J. Wild, Nonlinear Regression (1989), section 5.1): where the curve is, not where the
+/// next measurement will be.
 ///
 /// Where bounds and active constraints leave no direction there is nothing to compute: no interval, and a sentence. A
 /// point that breaks a constraint (c > 1e-4) lies on no border; it is linearised as if there were none.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/identifiability.hpp"
@@ -80,6 +81,7 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
     estimate.straight = interval.straight;
     if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }
+  summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();
   std::vector<std::string> bent;
   for (const auto& estimate : summary.parameters)
@@ -104,6 +106,23 @@ void add_quality(const calibration::Assembly& assembly, const execution::Realisa
   }
 }
 
+/// How far apart the curves of several realisations lie: one evaluation each, nothing beside the search.
+void add_spread(const calibration::Assembly& assembly, const execution::RunResult& all, RunSummary& summary) {
+  if (all.realisations.size() < 2) return;
+  std::vector<double> predictions(assembly.prediction_count());
+  auto workspace = assembly.make_workspace();
+  std::size_t seen = 0;
+  for (const auto& realisation : all.realisations) {
+    if (!realisation.best.feasible()) continue;
+    if (!assembly.predict(realisation.best.parameters, predictions, {}, *workspace).ok()) continue;
+    if (seen++ == 0) summary.curve_lowest = summary.curve_highest = predictions;
+    for (std::size_t i = 0; i < predictions.size(); ++i) {
+      summary.curve_lowest[i] = std::min(summary.curve_lowest[i], predictions[i]);
+      summary.curve_highest[i] = std::max(summary.curve_highest[i], predictions[i]);
+    }
+  }
+}
+
 }  // namespace
 
 void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
@@ -112,6 +131,7 @@ void estimate(const calibration::Assembly& assembly, const execution::Realisatio
   add_parameters(assembly, best, all, summary);
   add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
+  add_spread(assembly, all, summary);
   if (!summary.status.ok()) return;
   if (std::string text = transfer_warning(summary.label, summary.quality); !text.empty())
     warnings.push_back(std::move(text));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <vector>
@@ -23,7 +24,17 @@ struct Fit {
   std::vector<const calibration::ChannelView*> channels;
   std::vector<double> predictions;  ///< of all tests
   Diagnostics diagnostics;
+  const RunSummary* summary = nullptr;
 };
+
+/// Columns about a curve, where some run has them.
+struct Extra {
+  const char* name;
+  std::vector<double> RunSummary::*values;
+};
+constexpr std::array<Extra, 3> extras{{{"ci95", &RunSummary::curve_ci95},
+                                       {"lowest", &RunSummary::curve_lowest},
+                                       {"highest", &RunSummary::curve_highest}}};
 
 std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, const std::string& test) {
   std::vector<Fit> fits;
@@ -34,6 +45,7 @@ std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, co
     const auto& assembly = *plan.runs[run].assembly;
     Fit fit;
     fit.label = summary.runs[run].label;
+    fit.summary = &summary.runs[run];
     for (const auto& channel : assembly.channels())
       if (channel.test == test) fit.channels.push_back(&channel);
     std::vector<double> free;
@@ -50,13 +62,13 @@ std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, co
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
-std::string file_name(const std::string& test) {
+}  // namespace
+
+std::string file_stem(const std::string& test) {
   std::string name;
   for (const char c : test) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '-';
-  return "fit_" + name + ".csv";
+  return name;
 }
-
-}  // namespace
 
 std::string fit_table(const execution::Plan& plan, const Summary& summary, const std::string& test) {
   const auto fits = fits_of(plan, summary, test);
@@ -73,6 +85,12 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
     text += fmt::format(",{0} [{1}],{0}.predicted [{1}]", channel->observable, channel->unit);
   text += ",held_out";
   for (const auto& name : diagnostics) text += ',' + name;
+  std::vector<Extra> shown;
+  for (const Extra& extra : extras)
+    if (std::any_of(fits.begin(), fits.end(), [&](const Fit& fit) { return !(fit.summary->*extra.values).empty(); }))
+      shown.push_back(extra);
+  for (const auto* channel : fits.front().channels)
+    for (const Extra& extra : shown) text += fmt::format(",{}.{} [{}]", channel->observable, extra.name, channel->unit);
   text += '\n';
   for (const auto& fit : fits) {
     const auto& lead = *fit.channels.front();
@@ -88,6 +106,11 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
         text += ',';
         if (found != fit.diagnostics.end() && row < found->second.size()) text += number(found->second[row]);
       }
+      for (const auto* channel : fit.channels)
+        for (const Extra& extra : shown) {
+          const auto& values = fit.summary->*extra.values;
+          text += ',' + (values.empty() ? "" : number(values[channel->offset + row]));
+        }
       text += '\n';
     }
   }
@@ -97,7 +120,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
 void write_fit_tables(const std::filesystem::path& directory, const execution::Plan& plan, const Summary& summary) {
   for (const auto& test : plan.experiment->tests) {
     const std::string text = fit_table(plan, summary, test.name);
-    if (!text.empty()) execution::write_atomically(directory / file_name(test.name), text);
+    if (!text.empty()) execution::write_atomically(directory / ("fit_" + file_stem(test.name) + ".csv"), text);
   }
 }
 

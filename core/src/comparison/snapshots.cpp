@@ -40,29 +40,6 @@ void write_fields(fmt::ostream& out, const char* place, const Snapshot& snapshot
   out.print("      </{}>\n", place);
 }
 
-void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
-  constexpr int quadrilateral = 9;  // VTK_QUAD
-  const std::size_t cells = snapshot.cells.size() / 4;
-  fmt::ostream out = fmt::output_file(file.string());
-  out.print(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n");
-  out.print("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-            snapshot.points.size() / 3, cells);
-  out.print("      <Points>\n");
-  write_array(out, "points", "mm", 3, snapshot.points);
-  out.print("      </Points>\n      <Cells>\n");
-  out.print("        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
-  for (std::size_t i = 0; i < snapshot.cells.size(); ++i) out.print("{}{}", snapshot.cells[i], i % 4 == 3 ? '\n' : ' ');
-  out.print("        </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n");
-  for (std::size_t i = 1; i <= cells; ++i) out.print("{}\n", 4 * i);
-  out.print("        </DataArray>\n        <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
-  for (std::size_t i = 0; i < cells; ++i) out.print("{}\n", quadrilateral);
-  out.print("        </DataArray>\n      </Cells>\n");
-  write_fields(out, "PointData", snapshot, false);
-  write_fields(out, "CellData", snapshot, true);
-  out.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
-}
-
 /// Where a snapshot tells the stretches: how far the material is from losing ellipticity there, the shear near a clamp
 /// left aside; not positive = lost.
 void add_ellipticity(const TestInput& input, Snapshot& snapshot) {
@@ -88,6 +65,29 @@ void add_ellipticity(const TestInput& input, Snapshot& snapshot) {
 }
 
 }  // namespace
+
+void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
+  constexpr int quadrilateral = 9;  // VTK_QUAD
+  const std::size_t cells = snapshot.cells.size() / 4;
+  fmt::ostream out = fmt::output_file(file.string());
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n");
+  out.print("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+            snapshot.points.size() / 3, cells);
+  out.print("      <Points>\n");
+  write_array(out, "points", "mm", 3, snapshot.points);
+  out.print("      </Points>\n      <Cells>\n");
+  out.print("        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
+  for (std::size_t i = 0; i < snapshot.cells.size(); ++i) out.print("{}{}", snapshot.cells[i], i % 4 == 3 ? '\n' : ' ');
+  out.print("        </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n");
+  for (std::size_t i = 1; i <= cells; ++i) out.print("{}\n", 4 * i);
+  out.print("        </DataArray>\n        <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
+  for (std::size_t i = 0; i < cells; ++i) out.print("{}\n", quadrilateral);
+  out.print("        </DataArray>\n      </Cells>\n");
+  write_fields(out, "PointData", snapshot, false);
+  write_fields(out, "CellData", snapshot, true);
+  out.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
+}
 
 FieldRequest field_request(const std::string& text) {
   FieldRequest request;
@@ -119,13 +119,26 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
 
   std::vector<Snapshot> snapshots;
   const auto number = static_cast<std::size_t>(test - experiment.tests.begin());
-  const Status status = subject.assembly->ask(number, subject.free, [&](const Test& asked, const TestInput& input) {
-    const Status made = asked.snapshots(input, rows, snapshots);
-    for (Snapshot& snapshot : snapshots) add_ellipticity(input, snapshot);
-    return made;
-  });
+  if (channel == channels.end()) return snapshots;
+  const Status status = take_snapshots(*subject.assembly, number, *channel, subject.free, rows, snapshots);
   if (!status.ok()) throw InputError(fmt::format("--fields {}: {}", request.test, status.reason()));
   return snapshots;
+}
+
+Status take_snapshots(const calibration::Assembly& assembly, std::size_t test, const calibration::ChannelView& channel,
+                      std::span<const double> free, std::span<const std::size_t> rows,
+                      std::vector<Snapshot>& snapshots) {
+  return assembly.ask(test, free, [&](const Test& asked, const TestInput& input) {
+    Status made = asked.snapshots(input, rows, snapshots);
+    for (Snapshot& snapshot : snapshots) {
+      add_ellipticity(input, snapshot);
+      if (snapshot.section.empty()) continue;
+      const std::size_t points = snapshot.section.front().values.size();
+      snapshot.section.push_back({"prescribed_" + channel.abscissa_name, channel.abscissa_unit,
+                                  std::vector<double>(points, channel.abscissa[snapshot.row])});
+    }
+    return made;
+  });
 }
 
 std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& directory, const std::string& test,
@@ -134,9 +147,11 @@ std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& 
   std::string collection;
   for (const Snapshot& snapshot : snapshots) {
     const std::string stem = fmt::format("{}_{}", test, snapshot.row + 1);
-    files.push_back(directory / (stem + ".vtu"));
-    write_grid(files.back(), snapshot);
-    collection += fmt::format("    <DataSet timestep=\"{}\" file=\"{}.vtu\"/>\n", snapshot.row + 1, stem);
+    if (!snapshot.cells.empty()) {
+      files.push_back(directory / (stem + ".vtu"));
+      write_grid(files.back(), snapshot);
+      collection += fmt::format("    <DataSet timestep=\"{}\" file=\"{}.vtu\"/>\n", snapshot.row + 1, stem);
+    }
     if (snapshot.section.empty()) continue;
     SimulatedTable table{stem + "_section", {}, {}};
     for (const auto& column : snapshot.section) {
@@ -145,6 +160,7 @@ std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& 
     }
     files.push_back(write_table(directory, table));
   }
+  if (collection.empty()) return files;
   files.push_back(directory / (test + ".pvd"));
   fmt::ostream out = fmt::output_file(files.back().string());
   out.print(

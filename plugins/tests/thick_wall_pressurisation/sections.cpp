@@ -196,6 +196,19 @@ WallForces Sections::forces(std::size_t i) const {
           force * J, force * J_a * a_y};
 }
 
+std::vector<Sections::Across> Sections::across(std::size_t i) const {
+  const double b = wall_->K / sections_[i].axial_stretch;
+  std::vector<Across> all;
+  for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
+    const double factor = wall_->factor(pieces_[p].layer);
+    for (std::size_t k = pieces_[p].first; k < pieces_[p].first + rule_->node.size(); ++k) {
+      const double T = c_[k] * h_[k];
+      all.push_back({s_[k], c_[k], factor * T, factor * 0.5 * (q_[k] + T), b * w_[k] * h_[k]});
+    }
+  }
+  return all;
+}
+
 double Sections::pressure_error(std::size_t i) const {
   double sum = 0;
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p)

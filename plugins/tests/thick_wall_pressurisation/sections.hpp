@@ -60,6 +60,14 @@ class Sections {
   [[nodiscard]] Change by_parameter(std::size_t i, std::size_t j) const;
   [[nodiscard]] Change by_ratio(std::size_t i) const;
 
+  /// One point of section i: R², the squared circumferential stretch, T = σt − σr, Z = σz − σr, and its share of the
+  /// integral that is the pressure.
+  struct Across {
+    double R2, c, T, Z, share;
+  };
+  /// Its points from inside.
+  [[nodiscard]] std::vector<Across> across(std::size_t i) const;
+
  private:
   /// A run of Gauss points between two nodes in x; an edge that is no edge of a layer is a cut.
   struct Piece {

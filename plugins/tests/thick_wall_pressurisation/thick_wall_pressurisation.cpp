@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "history.hpp"
+#include "through_wall.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::thick_wall {
@@ -41,6 +42,18 @@ class ThickWallPressurisation final : public Test {
     }
     return history ? predict_with_history(tube_, rule_, input, output)
                    : predict_elastic(tube_, fixed_ ? &rule_ : nullptr, input, output);
+  }
+
+  Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
+                   std::vector<Snapshot>& found) const override {
+    for (const Model* layer : input.layers.empty()
+                                  ? std::vector<const Model*>{&input.model}
+                                  : std::vector<const Model*>(input.layers.begin(), input.layers.end()))
+      if (layer->describe().history_size > 0)
+        return Status::failed(
+            "thick_wall_pressurisation shows the wall of a material without history only; take the "
+            "model without its mechanisms of history");
+    return through_wall(tube_, input, rows, found);
   }
 
  private:
