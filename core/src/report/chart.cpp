@@ -67,6 +67,7 @@ void Chart::rule(double at, const std::string& label, char axis) {
 
 bool Chart::empty() const {
   if (kind == "heat") return values.empty();
+  if (kind == "mesh") return mesh.is_null();
   if (kind == "rows") return labels.empty() || rows.empty();
   for (const Series& one : series)
     if (!one.x.empty()) return false;
@@ -97,6 +98,7 @@ Json Chart::json() const {
     result["numeric"] = numeric;
   }
   if (!field.is_null()) result["field"] = field;
+  if (!mesh.is_null()) result["mesh"] = mesh;
   return result;
 }
 

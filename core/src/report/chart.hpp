@@ -44,7 +44,7 @@ struct RowSeries {
 };
 
 struct Chart {
-  std::string kind = "xy";  ///< xy, rows, heat
+  std::string kind = "xy";  ///< xy, rows, heat, mesh
   std::string id, title, about;
   std::string note;                ///< under the title: what was left out, how to read it
   std::vector<std::string> files;  ///< tables beside the report with all of it
@@ -61,6 +61,7 @@ struct Chart {
   std::pair<double, double> domain{0, 1};
   bool numeric = false;  ///< categories are numbers along an axis
   Json field;            ///< a grid whose isocontours lie under the series, see specs.js
+  Json mesh;             ///< kind mesh: points x, y; cells of four points in turn; a value of each; a title
 
   void band(double from, double to, char axis = 'x');
   void rule(double at, const std::string& label, char axis = 'y');

@@ -14,30 +14,45 @@ namespace {
 Chart ranking_chart(const Json& diagnosis) {
   struct Candidate {
     std::string label, id;
-    double score, p;
+    double score, p, gain = NAN;
+    [[nodiscard]] double most() const { return std::isfinite(gain) ? std::max(score, gain) : score; }
   };
   std::vector<Candidate> candidates;
   for (const Json& one : list(diagnosis, "scores"))
     candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), number(one, "score"),
                           number(one, "p_value")});
+  // A cause whose trace is no straight line shows only once it is fitted, perhaps in another place.
+  for (const Json& one : list(diagnosis, "ranking"))
+    for (Candidate& candidate : candidates)
+      if (candidate.id == word(one, "id") && std::isfinite(number(one, "gain"))) {
+        candidate.gain = std::max(number(one, "gain"), 0.0);
+        candidate.label = candidate.id + place_words(member(one, "target"));
+      }
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+                   [](const Candidate& a, const Candidate& b) { return a.most() > b.most(); });
   Chart chart;
   chart.kind = "rows";
   chart.bars = true;
   chart.id = "scores";
-  chart.title = "Scores of the candidates";
-  chart.about = "How much of the misfit each candidate explains, as its score statistic, the largest first";
-  chart.note = "The score is the drop of the sum of squares that adding the cause promises, to first order.";
-  chart.x = {"score", false, {0}, {}};
-  RowSeries scores{"score", 0, {}};
+  chart.title = "What each candidate explains";
+  chart.about = "Fall of the sum of squares that each candidate brings, the largest first";
+  chart.note =
+      "Gain: by fitting the cause. Score: what it promises to first order; only the promising ones are fitted.";
+  chart.x = {"fall of the sum of squares over the noise", false, {0}, {}};
+  chart.files = {"result.json"};
+  RowSeries gains{"gain", 0, {}}, scores{"score", 1, {}};
   for (const Candidate& one : candidates) {
     chart.labels.push_back(one.label);
-    scores.rows.push_back({one.score, 0, one.score, fmt::format("score {}, {}", figure(one.score), chance(one.p))});
+    gains.rows.push_back({one.gain, std::isfinite(one.gain) ? 0 : NAN, one.gain,
+                          std::isfinite(one.gain) ? "gain " + figure(one.gain) : "not fitted"});
+    scores.rows.push_back({one.score, NAN, NAN, fmt::format("score {}, {}", figure(one.score), chance(one.p))});
   }
-  if (!candidates.empty()) chart.rows.push_back(std::move(scores));
+  if (!candidates.empty()) chart.rows = {std::move(gains), std::move(scores)};
   return chart;
 }
+
+/// A fall of the sum of squares, which rounding may leave a hair below nothing.
+std::string fall(double value) { return std::abs(value) < 5e-3 ? "0" : figure(value); }
 
 void add_ranking_table(Page& page, const Json& diagnosis) {
   std::vector<std::vector<Cell>> rows;
@@ -47,11 +62,19 @@ void add_ranking_table(Page& page, const Json& diagnosis) {
   for (const Json& one : list(diagnosis, ranked ? "ranking" : "causes")) {
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
                     {share(number(one, "probability")), true},
-                    {figure(number(one, "score")), true},
-                    {figure(number(one, "gain")), true}});
+                    {fall(number(one, "score")), true},
+                    {fall(number(one, "gain")), true}});
     first.push_back(std::find(named.begin(), named.end(), word(one, "id")) != named.end());
   }
-  if (!rows.empty()) page.html(table_html({"cause", "probability", "score", "gain in squares"}, rows, first));
+  if (rows.empty()) return;
+  constexpr std::size_t shown = 8;
+  const std::vector<std::string> head{"cause", "probability", "score", "gain in squares"};
+  const auto cut = static_cast<std::ptrdiff_t>(std::min(shown, rows.size()));
+  page.html(table_html(head, {rows.begin(), rows.begin() + cut}, first));
+  if (rows.size() <= shown) return;
+  page.html(fmt::format("<details><summary>{} more candidates</summary>", rows.size() - shown));
+  page.html(table_html(head, {rows.begin() + cut, rows.end()}, {first.begin() + cut, first.end()}));
+  page.html("</details>\n");
 }
 
 void add_shifts(Page& page, const Json& diagnosis) {
@@ -79,6 +102,7 @@ Chart gain_chart(const Json& gain) {
   chart.note = "Each block is predicted by fits that have not seen it; 1 is what noise alone leaves.";
   chart.x = {"root mean square of residual / noise", false, {1}, {}};
   chart.rule(1, "noise", 'x');
+  chart.files = {"result.json"};
   RowSeries before{"model as given", 1, {}}, after{"with the cause", 0, {}};
   for (const Json& block : list(gain, "held_out")) {
     chart.labels.push_back(word(block, "block"));

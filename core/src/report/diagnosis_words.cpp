@@ -46,6 +46,22 @@ std::string cause_words(const Json& cause) {
   return text + fmt::format(", probability {}", share(number(cause, "probability")));
 }
 
+std::string fitted_words(const Json& result, const Json& diagnosis) {
+  const Json& base = member(diagnosis, "base");
+  std::vector<std::string> tests, values;
+  for (const Json& one : list(diagnosis, "noise"))
+    if (const std::string test = word(one, "test"); std::find(tests.begin(), tests.end(), test) == tests.end())
+      tests.push_back(test);
+  for (const auto& [name, estimate] : member(base, "parameters").items())
+    values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
+  if (values.empty()) return "";
+  const double rows = number(base, "rows"), squares = number(base, "squares");
+  return fmt::format("{} to {}, {} rows, seed {}: {}. Root mean square of residual over noise: {}.",
+                     word(base, "model"), tests.empty() ? "the data" : joined(tests), figure(rows),
+                     figure(number(member(result, "provenance"), "seed")), fmt::join(values, ", "),
+                     figure(std::sqrt(squares / rows)));
+}
+
 std::string gain_words(const Json& diagnosis) {
   const Json& gain = member(diagnosis, "gain");
   if (!gain.is_object()) return "";
@@ -115,7 +131,8 @@ void add_verdict(Page& page, const Folder& folder) {
   const auto one = [](std::string text) {
     return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
   };
-  page.word_lists({{"How sure", sure},
+  page.word_lists({{"What was fitted", one(fitted_words(folder.result(), diagnosis))},
+                   {"How sure", sure},
                    {"Where", where},
                    {causes.size() > 1 ? "Causes" : "Cause", causes},
                    {"Gain", one(gain_words(diagnosis))},

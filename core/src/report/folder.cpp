@@ -23,8 +23,15 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
                       "`simulate` has written, or finish the run with --resume",
                       path_.string()));
     kind_ = Kind::simulation;
+    read_result(path_ / "simulation.json");
     return;
   }
+  read_result(file);
+  if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
+}
+
+void Folder::read_result(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return;
   try {
     result_ = Json::parse(execution::read_text(file));
   } catch (const Json::exception& reason) {
@@ -32,7 +39,6 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
   }
   if (!result_.is_object())
     throw InputError(fmt::format("{}: expected an object at the top; run it again", file.string()));
-  if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
 }
 
 std::string Folder::name() const {
@@ -45,9 +51,20 @@ std::string Folder::name() const {
 std::optional<Table> Folder::table(const std::string& file) const {
   std::string problem;
   auto table = Table::read(path_ / file, problem);
+  remember(problem);
+  return table;
+}
+
+std::optional<Grid> Folder::grid(const std::string& file) const {
+  std::string problem;
+  auto grid = Grid::read(path_ / file, problem);
+  remember(problem);
+  return grid;
+}
+
+void Folder::remember(const std::string& problem) const {
   if (!problem.empty() && std::find(problems_.begin(), problems_.end(), problem) == problems_.end())
     problems_.push_back(problem);
-  return table;
 }
 
 std::vector<std::string> Folder::tables(const std::string& prefix) const {

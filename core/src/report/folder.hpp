@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/chart.hpp"
+#include "report/grid.hpp"
 #include "report/table.hpp"
 
 namespace tunica::report {
@@ -26,12 +27,16 @@ class Folder {
   [[nodiscard]] const Json& result() const { return result_; }
   /// Nothing where there is no such table; unreadable ones are remembered in problems().
   [[nodiscard]] std::optional<Table> table(const std::string& file) const;
+  /// The same of a mesh.
+  [[nodiscard]] std::optional<Grid> grid(const std::string& file) const;
   /// The names of the tables that begin so, in order.
   [[nodiscard]] std::vector<std::string> tables(const std::string& prefix) const;
   [[nodiscard]] bool has(const std::string& file) const;
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 
  private:
+  void read_result(const std::filesystem::path& file);
+  void remember(const std::string& problem) const;
   std::filesystem::path path_;
   std::string address_;
   Kind kind_ = Kind::run;

@@ -105,6 +105,25 @@ std::vector<std::string> Order::groups() const {
   return names;
 }
 
+std::string Order::title(const std::string& group) const {
+  const auto at = std::find_if(runs_.begin(), runs_.end(), [&](const Run& run) { return run.group == group; });
+  const auto on = group.find(" on ");
+  if (at == runs_.end() || on == group.npos) return group;
+  std::vector<std::string> fitted;
+  std::size_t held_out = 0;
+  for (const std::string& test : words(list(*at->run, "tests"))) {
+    const Json& channels = list(member(member(member(*at->run, "best"), "per_test"), test), "channels");
+    const bool held = !channels.empty() && std::all_of(channels.begin(), channels.end(), [](const Json& channel) {
+      return member(channel, "held_out") == true;
+    });
+    held_out += held ? 1 : 0;
+    if (!held) fitted.push_back(test);
+  }
+  if (held_out == 0 || fitted.empty()) return group;
+  return fmt::format("{} on {} ({} held out)", group.substr(0, on), joined(fitted),
+                     count_of(held_out, "test", "tests"));
+}
+
 bool Order::shown(std::size_t place) const {
   if (place >= runs_.size()) return true;
   const auto each = std::max<std::size_t>(1, shown_runs / groups().size());

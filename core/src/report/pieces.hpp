@@ -50,6 +50,8 @@ class Order {
   /// The place of a label, also of "label model" as tables of layered walls have it; the count where there is none.
   [[nodiscard]] std::size_t place(const std::string& label) const;
   [[nodiscard]] std::vector<std::string> groups() const;
+  /// "least_squares on in_vivo (6 tests held out)": a group without the tests that its runs only predict.
+  [[nodiscard]] std::string title(const std::string& group) const;
   /// Whether a chart of all runs shows this one from the start: the best of every group, about shown_runs in all.
   [[nodiscard]] bool shown(std::size_t place) const;
   /// What to say of those it does not show; "" where it shows all.

@@ -12,6 +12,7 @@ void add_run(Page& page, const Folder& folder) {
   add_fits(page, folder, order);
   add_parameters(page, folder, order);
   add_stability(page, folder, order);
+  add_walls(page, folder);
   add_searches(page, folder, order);
   add_provenance(page, folder);
 }

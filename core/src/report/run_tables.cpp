@@ -2,14 +2,50 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/sections.hpp"
 
 namespace tunica::report {
 
+namespace {
+
+/// Warnings that are said of several runs: once, with the runs.
+std::vector<std::string> merged(const Json& result) {
+  struct Said {
+    std::vector<std::string> runs;
+    std::string what;
+  };
+  std::vector<Said> all;
+  for (const std::string& warning : words(list(result, "warnings"))) {
+    std::string run;
+    for (const Json& one : list(result, "runs"))
+      if (const std::string label = word(one, "run"); !label.empty() && warning.starts_with(label + ": ")) run = label;
+    const std::string what = run.empty() ? warning : warning.substr(run.size() + 2);
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const Said& said) { return !said.runs.empty() && said.what == what; });
+    if (run.empty())
+      all.push_back({{}, what});
+    else if (same == all.end())
+      all.push_back({{run}, what});
+    else
+      same->runs.push_back(run);
+  }
+  std::vector<std::string> lines;
+  constexpr std::size_t named = 3;
+  for (Said& said : all) {
+    if (said.runs.size() > named + 1)
+      said.runs = {said.runs[0], said.runs[1], said.runs[2], fmt::format("{} more runs", said.runs.size() - named)};
+    lines.push_back(said.runs.empty() ? said.what : joined(said.runs) + ": " + said.what);
+  }
+  return lines;
+}
+
+}  // namespace
+
 void add_warnings(Page& page, const Folder& folder) {
-  const auto warnings = words(list(folder.result(), "warnings"));
+  const auto warnings = merged(folder.result());
   if (!warnings.empty())
     page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings, 3);
 }
@@ -19,7 +55,7 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
   page.section("Ranking");
   const auto groups = order.groups();
   for (const std::string& group : groups) {
-    if (groups.size() > 1) page.heading(group.empty() ? "Without rank" : group);
+    if (groups.size() > 1) page.heading(group.empty() ? "Without rank" : order.title(group));
     std::vector<std::vector<Cell>> rows;
     std::vector<bool> first;
     for (const Json& entry : list(folder.result(), "ranking")) {

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -12,16 +13,42 @@ namespace tunica::report {
 
 namespace {
 
-/// "R² 0.998 in circ (stress, RMSE 1.2 kPa)" of every channel that was fitted.
-std::string fit_words(const Json& best) {
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+struct Scored {
+  double r2;
+  std::string text;  ///< "R² 0.998 in circ (stress, RMSE 1.2 kPa)"
+};
+
+/// Of all of them where they are few, else of the worst and the best.
+std::string scored_words(std::vector<Scored> all) {
   std::vector<std::string> parts;
+  if (all.size() > 3) {
+    const auto worse = [](const Scored& a, const Scored& b) { return a.r2 < b.r2; };
+    const auto [low, high] = std::minmax_element(all.begin(), all.end(), worse);
+    return fmt::format("{} curves, the worst {}, the best {}", all.size(), low->text, high->text);
+  }
+  for (Scored& one : all) parts.push_back(std::move(one.text));
+  return joined(parts);
+}
+
+/// What was fitted, and apart from it what was held out.
+std::vector<std::string> fit_words(const Json& best) {
+  std::vector<Scored> fitted, held_out;
   const Json& tests = member(best, "per_test");
   for (const auto& [test, fit] : tests.items())
     for (const Json& channel : list(fit, "channels"))
-      parts.push_back(fmt::format("R² {} in {} ({}, RMSE {}{})", figure(number(channel, "r2")), test,
-                                  word(channel, "channel"), amount(number(channel, "rmse"), word(channel, "unit")),
-                                  member(channel, "held_out") == true ? ", held out" : ""));
-  return joined(parts);
+      (member(channel, "held_out") == true ? held_out : fitted)
+          .push_back({number(channel, "r2"),
+                      fmt::format("R² {} in {} ({}, RMSE {})", figure(number(channel, "r2")), test,
+                                  word(channel, "channel"), amount(number(channel, "rmse"), word(channel, "unit")))});
+  std::vector<std::string> lines;
+  if (!fitted.empty()) lines.push_back((held_out.empty() ? "" : "Fitted: ") + scored_words(std::move(fitted)) + '.');
+  if (!held_out.empty()) lines.push_back("Held out: " + scored_words(std::move(held_out)) + '.');
+  return lines;
 }
 
 std::string what_was_fitted(const Json& result, const Order& order) {
@@ -36,10 +63,11 @@ std::string what_was_fitted(const Json& result, const Order& order) {
     realisations += std::isfinite(searches) ? searches : 0;
   }
   const auto named = [](const std::set<std::string>& names, const char* one, const char* many) {
+    if (names.size() > 6) return fmt::format("{} {}", names.size(), many);
     return fmt::format("{} {}", names.size() == 1 ? one : many, joined({names.begin(), names.end()}));
   };
   return fmt::format("{} calibrated to {} with {}: {}, {}, {:.0f} evaluations, seed {}.",
-                     named(models, "Model", "Models"), named(tests, "test", "tests"),
+                     capitalised(named(models, "model", "models")), named(tests, "test", "tests"),
                      named(optimizers, "optimizer", "optimizers"), count_of(order.runs().size(), "run", "runs"),
                      count_of(static_cast<std::size_t>(realisations), "realisation", "realisations"), evaluations,
                      figure(number(member(result, "provenance"), "seed")));
@@ -75,8 +103,12 @@ void parameters_in_doubt(const Json& best, Doubts& doubts) {
                fmt::format("tunica run EXPERIMENT --profiles {}", fmt::format("{}", fmt::join(unreliable, ","))));
 }
 
-Doubts doubts_of(const Json& best) {
+Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
   Doubts doubts;
+  for (const std::string& warning : words(list(result, "warnings")))
+    if (warning.starts_with(run + ": FITS BETTER THAN IT PREDICTS"))
+      doubts.add("it fits better than it predicts what was held out",
+                 "fit more of the tests together, or take a model with fewer parameters");
   if (word(best, "status") == "infeasible")
     doubts.add("the best point breaks its constraints", "relax the constraints");
   if (member(best, "stable") == false)
@@ -96,29 +128,38 @@ Doubts doubts_of(const Json& best) {
   return doubts;
 }
 
+std::string next_steps(const std::vector<std::string>& steps) {
+  if (steps.empty()) return "Use it: tunica simulate EXPERIMENT --parameters result.json";
+  std::string text;
+  for (const std::string& step : steps) {
+    const bool command = step.starts_with("tunica ");
+    text += (text.empty() ? "" : " ") + (command ? "Run " + step : capitalised(step)) + '.';
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_summary(Page& page, const Folder& folder, const Order& order) {
   const Json& result = folder.result();
   page.paragraph(what_was_fitted(result, order));
-  std::vector<std::pair<std::string, std::string>> lines;
   const auto groups = order.groups();
   for (const std::string& group : groups) {
     const auto first = std::find_if(order.runs().begin(), order.runs().end(),
                                     [&](const auto& run) { return run.group == group && run.rank == 1; });
     const Json& best = first == order.runs().end() ? member(Json(), "") : member(*first->run, "best");
     if (best.is_null()) continue;
-    if (groups.size() > 1) page.heading(fmt::format("Best of {}", group));
+    if (groups.size() > 1) page.heading(fmt::format("Best of {}", order.title(group)));
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
-    const Doubts doubts = doubts_of(best);
-    page.words({{"Best run",
-                 fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
-                             figure(number(best, "objective")))},
-                {"How well", fit_words(best)},
-                {"What is wrong", doubts.wrong.empty() ? "Nothing was found." : joined(doubts.wrong) + '.'},
-                {"What to do next", doubts.next.empty() ? "Use it: tunica simulate EXPERIMENT --parameters result.json"
-                                                        : fmt::format("{}.", fmt::join(doubts.next, "; "))}});
+    const Doubts doubts = doubts_of(result, first->label, best);
+    page.word_lists(
+        {{"Best run",
+          {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
+                       figure(number(best, "objective")))}},
+         {"How well", fit_words(best)},
+         {"What is wrong", {doubts.wrong.empty() ? "Nothing was found." : capitalised(joined(doubts.wrong)) + '.'}},
+         {"What to do next", {next_steps(doubts.next)}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))
     page.box("bad", "No run has a result.",

@@ -21,7 +21,7 @@ bool all_positive(const Chart& chart) {
 }
 
 std::string of_group(const Order& order, const std::string& group) {
-  return order.groups().size() > 1 ? ": " + group : "";
+  return order.groups().size() > 1 ? ": " + order.title(group) : "";
 }
 
 /// The search of every realisation, or of an even choice of them from the best to the worst.
@@ -130,12 +130,20 @@ void add_profile(Page& page, const Folder& folder, const char* file, const char*
   chart.y = {"share of realisations", false, {}, {{0, 1.02}}};
   chart.files = {file};
   int style = 0;
+  double least = INFINITY, most = 0;
+  for (std::size_t row = 0; row < table->rows(); ++row)
+    if (const double x = table->number(row, column); x > 0) least = std::min(least, x), most = std::max(most, x);
   for (const auto& [optimizer, rows] : table->groups("optimizer")) {
-    Series series{optimizer, "step", style++, {}, {}, {}, {}};
+    Series series{optimizer, "step", style++};
     for (const std::size_t row : rows) {
       series.x.push_back(table->number(row, column));
       series.y.push_back(table->number(row, "fraction"));
     }
+    // A step has a beginning and goes on: from nothing, and to the end of the axis.
+    series.x.insert(series.x.begin(), std::min(least, series.x.front()));
+    series.y.insert(series.y.begin(), series.x[1] > least ? 0 : series.y.front());
+    series.x.push_back(1.3 * most);
+    series.y.push_back(series.y.back());
     chart.series.push_back(std::move(series));
   }
   if (chart.series.size() > 1) page.chart(std::move(chart), folder.address());

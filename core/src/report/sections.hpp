@@ -15,6 +15,8 @@ void add_run(Page& page, const Folder& folder);
 void add_summary(Page& page, const Folder& folder, const Order& order);
 void add_ranking(Page& page, const Folder& folder, const Order& order);
 void add_fits(Page& page, const Folder& folder, const Order& order);
+/// Of runs and of simulations.
+void add_walls(Page& page, const Folder& folder);
 void add_searches(Page& page, const Folder& folder, const Order& order);
 void add_parameters(Page& page, const Folder& folder, const Order& order);
 void add_stability(Page& page, const Folder& folder, const Order& order);

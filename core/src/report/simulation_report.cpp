@@ -8,18 +8,38 @@
 
 namespace tunica::report {
 
+namespace {
+
+/// Of which model at which parameters the curves are; older folders do not say.
+void add_words(Page& page, const Folder& folder) {
+  const Json& said = folder.result();
+  if (word(said, "model").empty()) return;
+  page.section("Summary");
+  if (const auto warnings = words(list(said, "warnings")); !warnings.empty())
+    page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings);
+  const double noise = number(said, "noise");
+  page.words(
+      {{"What was simulated", fmt::format("{} in {}", word(said, "model"), joined(words(list(said, "tests"))))},
+       {"Parameters", word(said, "origin")},
+       {"Noise", noise > 0 ? fmt::format("{:.3g} % of every value, seed {}", 100 * noise, figure(number(said, "seed")))
+                           : "none"},
+       {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});
+}
+
+}  // namespace
+
 /// Every column of every table over the first.
 void add_simulation(Page& page, const Folder& folder) {
+  add_words(page, folder);
   page.section("Predicted curves");
+  page.begin_pair();
   for (const std::string& file : folder.tables("")) {
     const auto table = folder.table(file);
-    if (!table) continue;
-    page.heading(file.substr(0, file.size() - 4));
-    page.begin_pair();
+    if (!table || file.ends_with("_section.csv")) continue;  // those are drawn with the wall
     for (std::size_t k = 1; k < table->columns().size(); ++k) {
       Chart chart;
       chart.id = file.substr(0, file.size() - 4) + '_' + table->columns()[k].name;
-      chart.title = table->columns()[k].name;
+      chart.title = file.substr(0, file.size() - 4) + ": " + table->columns()[k].name;
       chart.x.title = table->title(0);
       chart.y.title = table->title(k);
       chart.about = fmt::format("{} over {}", chart.y.title, chart.x.title);
@@ -37,8 +57,9 @@ void add_simulation(Page& page, const Folder& folder) {
       if (!series.x.empty()) chart.series.push_back(std::move(series));
       page.chart(std::move(chart), folder.address());
     }
-    page.end_pair();
   }
+  page.end_pair();
+  add_walls(page, folder);
 }
 
 }  // namespace tunica::report

@@ -71,6 +71,7 @@ tunicaReport.Figure = class {
       const wide = chart.numeric ? Math.min(most, 620) : Math.max(most, 190 + 20 * chart.columns.length);
       return {width: Math.min(wide, 980), height: chart.numeric ? 420 : Math.min(760, 190 + 20 * chart.labels.length)};
     }
+    if (chart.kind === "mesh") return tunicaReport.mesh.size(chart, most);
     if (chart.field) { const side = Math.min(most < 520 ? most - 80 : most - 190, 420); return {width: Math.max(side, 180), height: Math.max(side, 180), fixed: true}; }
     return {width: most, height: most < 520 ? 270 : chart.low ? 200 : 320};
   }

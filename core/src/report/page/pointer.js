@@ -8,10 +8,10 @@ tunicaReport.pointer = (() => {
     const {chart} = figure;
     const name = series.name + (series.label ? ", " + series.label : "") + "\n";
     return name + chart.x.title + ": " + text(series.x[row]) + "\n" + chart.y.title + ": " + text(series.y[row]) +
-        (series.low ? "\n" + text(series.low[row]) + " … " + text(series.high[row]) : "");
+        (series.low && usable(series.low[row]) ? "\n" + text(series.low[row]) + " … " + text(series.high[row]) : "");
   };
 
-  const visible = (figure) => figure.chart.series.filter((series) => !figure.hidden.has(series.name) && series.mark !== "band");
+  const visible = (figure) => figure.chart.series.filter((series) => !figure.hidden.has(series.name) && !["band", "range"].includes(series.mark));
 
   const point = (figure, series, row) => {
     const view = figure.shown, [left, top] = figure.corner();
@@ -41,6 +41,7 @@ tunicaReport.pointer = (() => {
   };
 
   const nearest = (figure, at) => {
+    if (figure.chart.kind === "mesh") return tunicaReport.mesh.nearest(figure, at);
     if (figure.chart.kind !== "xy") return category(figure, at);
     let best = null, least = 40 * 40;
     for (const series of visible(figure))

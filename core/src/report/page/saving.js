@@ -29,6 +29,9 @@ tunicaReport.table = (chart) => {
   if (chart.kind === "heat") {
     put(chart.legend, ...chart.columns);
     chart.values.forEach((row, i) => put(chart.labels[i], ...row));
+  } else if (chart.kind === "mesh") {
+    put(chart.x.title, chart.y.title, chart.mesh.title);
+    for (const cell of tunicaReport.mesh.cells(chart.mesh)) put(cell.x, cell.y, cell.value);
   } else if (chart.kind === "rows") {
     put("row", "series", chart.x.title, "low", "high");
     for (const series of chart.series)

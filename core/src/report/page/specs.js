@@ -42,9 +42,9 @@ tunicaReport.specs = (() => {
   });
 
   const axes = (chart, size, more = {}) => [
-    {orient: "bottom", scale: "x", title: chart.x.title, titleLimit: size.width - 60, grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
+    {orient: "bottom", scale: "x", title: chart.x.title, titleLimit: Math.max(120, size.width - 60), grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
      ...(chart.x.log ? {format: "~g"} : {}), ...more.x},
-    {orient: "left", scale: "y", title: chart.y.title, titleLimit: size.height - 60, grid: true, tickCount: 6,
+    {orient: "left", scale: "y", title: chart.y.title, titleLimit: Math.max(120, size.height - 20), grid: true, tickCount: 6,
      ...(chart.y.log ? {format: "~g"} : {}), ...more.y},
   ];
 
@@ -52,10 +52,16 @@ tunicaReport.specs = (() => {
     const scaled = {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, defined: {signal: "isValid(datum.y)"}};
     const ink = {value: colour(look, series.style)}, faint = series.faint ? 0.35 : 1;
     const made = [];
-    if (series.mark === "band")
+    // A band, alone or about a line; of a range only the edges, so that both can be seen at once.
+    if (series.low && series.mark !== "range")
       made.push({type: "area", clip: true, from: {data: "s" + k}, encode: {update: {
         x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, fill: ink,
-        fillOpacity: {value: 0.22}}}});
+        defined: {signal: "isValid(datum.low)"}, fillOpacity: {value: 0.2}}}});
+    if (series.mark === "range")
+      for (const edge of ["low", "high"])
+        made.push({type: "line", clip: true, from: {data: "s" + k}, encode: {update: {
+          x: scaled.x, y: {scale: "y", field: edge}, stroke: ink, strokeWidth: {value: 0.8},
+          defined: {signal: "isValid(datum." + edge + ")"}}}});
     if (["line", "step", "both"].includes(series.mark))
       made.push({type: "line", clip: true, from: {data: "s" + k}, encode: {update: {
         ...scaled, stroke: ink, strokeOpacity: {value: faint}, strokeWidth: {value: series.faint ? 1.2 : 2},
@@ -71,9 +77,20 @@ tunicaReport.specs = (() => {
   /// Rows without a place on the axes leave a gap.
   const rows = (series, chart) => series.x.map((x, i) => {
     const row = {x, y: usable(series.y[i], chart.y) ? series.y[i] : null};
-    if (series.low) Object.assign(row, {low: series.low[i], high: series.high[i]});
+    if (series.low && usable(series.low[i], chart.y) && usable(series.high[i], chart.y))
+      Object.assign(row, {low: series.low[i], high: series.high[i]});
     return row;
-  }).filter((row) => usable(row.x, chart.x) && (series.mark !== "band" || (usable(row.low, chart.y) && usable(row.high, chart.y))));
+  }).filter((row) => usable(row.x, chart.x) && (series.mark !== "band" || finite(row.low)));
+
+  /// Of bands about curves no more than half as much again as the curves take: a wide one is cut, not the curves squeezed.
+  const seenAlong = (shown, axis) => {
+    const points = shown.filter(({series}) => !["band", "range"].includes(series.mark)).flatMap(({series}) => series.y)
+        .filter((value) => usable(value, axis));
+    const edges = shown.flatMap(({series}) => [...(series.low || []), ...(series.high || [])]).filter((value) => usable(value, axis));
+    if (!points.length || axis.log) return [...points, ...edges];
+    const low = points.reduce((a, b) => Math.min(a, b)), high = points.reduce((a, b) => Math.max(a, b)), room = (high - low) / 2;
+    return [...points, ...edges.map((value) => Math.min(Math.max(value, low - room), high + room))];
+  };
 
   const reference = (chart, look) => {
     const made = [];
@@ -96,8 +113,8 @@ tunicaReport.specs = (() => {
 
   const xy = (chart, look, size, hidden) => {
     const shown = chart.series.map((series, k) => ({series, k})).filter(({series}) => !hidden.has(series.name));
-    const values = (key) => shown.flatMap(({series}) => key === "x" ? series.x : [...(series.y || []), ...(series.low || []), ...(series.high || [])]);
-    const signals = [{name: "xdom", value: span(values("x"), chart.x)}, {name: "ydom", value: span(values("y"), chart.y)}];
+    const signals = [{name: "xdom", value: span(shown.flatMap(({series}) => series.x), chart.x)},
+                     {name: "ydom", value: span(seenAlong(shown, chart.y), chart.y)}];
     const scale = (name, axis) => ({name, type: axis.log ? "log" : "linear", range: name === "x" ? "width" : "height",
                                     domain: {signal: name + "dom"}, zero: false, nice: false});
     const sources = shown.map(({series, k}) => ({name: "s" + k, values: rows(series, chart)}));
@@ -122,7 +139,7 @@ tunicaReport.specs = (() => {
     marks: [{type: "path", clip: true, from: {data: "contours"}, transform: [{type: "geopath", field: "datum.contour"}],
              encode: {update: {fill: {scale: "level", field: "contour.value"}, fillOpacity: {value: 0.55},
                                stroke: {value: look.background}, strokeWidth: {value: 0.7}}}}],
-    legends: [{fill: "level", title: chart.field.title, format: ".2~g", gradientLength: 160,
+    legends: [{fill: "level", title: chart.field.title, format: ".2~r", gradientLength: 160,
                ...(size.width < 400 ? {orient: "bottom", direction: "horizontal"} : {})}],
   });
 
@@ -182,8 +199,10 @@ tunicaReport.specs = (() => {
     };
   };
 
-  const make = (chart, look, size, hidden) =>
-      chart.kind === "heat" ? heat(chart, look, size) : chart.kind === "rows" ? rowsSpec(chart, look, size, hidden)
-                                                                              : xy(chart, look, size, hidden);
-  return {make, usable, text, finite};
+  const make = (chart, look, size, hidden) => {
+    if (chart.kind === "heat") return heat(chart, look, size);
+    if (chart.kind === "mesh") return tunicaReport.mesh.spec(chart, look, size, hidden);
+    return (chart.kind === "rows" ? rowsSpec : xy)(chart, look, size, hidden);
+  };
+  return {make, usable, text, finite, frame, config, axes, lines, rows};
 })();

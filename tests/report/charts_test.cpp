@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the report draws of a folder's tables.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/grid.hpp"
+#include "report/report.hpp"
+#include "scratch.hpp"
+
+using namespace tunica;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace {
+
+/// The charts of the page, by their id.
+nlohmann::json charts(const trial::Scratch& scratch) {
+  const std::string page = report::report({scratch.path()}, scratch.path());
+  const std::string open = "id=\"charts\">";
+  const auto begin = page.find(open) + open.size();
+  nlohmann::json found;
+  for (auto& chart : nlohmann::json::parse(page.substr(begin, page.find("</script>", begin) - begin)))
+    found[chart["id"].get<std::string>()] = chart;
+  return found;
+}
+
+const char* const one_run = R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1}}],
+                                "ranking": [{"run": "m/o", "rank": 1, "group": "g"}]})";
+
+const char* const grid = R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">
+<Points><DataArray Name="points [mm]" NumberOfComponents="3">1 0 0 3 0 0 3 2 0 1 2 0</DataArray></Points>
+<Cells><DataArray Name="connectivity">0 1 2 3</DataArray><DataArray Name="offsets">4</DataArray></Cells>
+<PointData><DataArray Name="displacement [mm]" NumberOfComponents="3">0 0 0 1 0 0 1 0 0 0 0 0</DataArray></PointData>
+<CellData><DataArray Name="circumferential_stress [kPa]" NumberOfComponents="1">7.5</DataArray></CellData>
+</Piece></UnstructuredGrid></VTKFile>)";
+
+}  // namespace
+
+TEST(FitChart, ShadesTheIntervalAndDrawsTheRangeOfTheRealisations) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  scratch.write("fit_t.csv",
+                "run,stretch [1],stress [kPa],stress.predicted [kPa],held_out,stress.ci95 [kPa],stress.lowest "
+                "[kPa],stress.highest [kPa]\nm/o,1,0,0,0,0.5,-1,0\nm/o,2,4,5,0,1,4,7\n");
+  const auto chart = charts(scratch)["fit_t_stress"];
+  const auto& range = chart["series"][1];
+  const auto& curve = chart["series"][2];
+  EXPECT_EQ(range["mark"], "range");
+  EXPECT_EQ(range["low"], nlohmann::json({-1, 4}));
+  EXPECT_EQ(range["high"], nlohmann::json({0, 7}));
+  EXPECT_EQ(curve["low"], nlohmann::json({-0.5, 4}));
+  EXPECT_EQ(curve["high"], nlohmann::json({0.5, 6}));
+  const std::string page = report::report({scratch.path()}, scratch.path());
+  EXPECT_THAT(page, HasSubstr("Shaded: where the noise of the data leaves the fitted curve, 95 %."));
+  EXPECT_THAT(page, HasSubstr("Thin lines: lowest and highest over the realisations."));
+}
+
+TEST(FitChart, OfAnOlderTableHasNeither) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  scratch.write("fit_t.csv",
+                "run,stretch [1],stress [kPa],stress.predicted [kPa],held_out\nm/o,1,0,0,0\nm/o,2,4,5,0\n");
+  EXPECT_FALSE(charts(scratch)["fit_t_stress"]["series"][1].contains("low"));
+  EXPECT_THAT(report::report({scratch.path()}, scratch.path()), Not(HasSubstr("Shaded: where the noise")));
+}
+
+TEST(FitChart, LiesOverWhatTheTestSweepsAndNotOverWhatItHolds) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  scratch.write("fit_t.csv",
+                "run,pressure [kPa],axial_stretch [1],time [s],force [mN],force.predicted [mN],held_out\n"
+                "m/o,3.31,1.0,0,0,0,0\nm/o,3.29,1.1,1,1,1,0\nm/o,3.32,1.2,2,2,2,0\nm/o,3.30,1.3,3,3,3,0\n");
+  EXPECT_EQ(charts(scratch)["fit_t_force"]["x"]["title"], "axial_stretch");
+}
+
+TEST(WallCharts, DrawTheDeformedWallAndTheStressThroughIt) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  std::string table =
+      "run,row,unloaded_radius [mm],radius [mm],circumferential_stretch [1],axial_stretch [1],radial_stretch "
+      "[1],circumferential_stress [kPa],axial_stress [kPa],radial_stress [kPa],prescribed_pressure [kPa]\n";
+  for (const char* row :
+       {"1,1,1,1,1,1,0,0,0,0", "1,2,2,1,1,1,0,0,0,0", "9,1,1.5,1.5,1,0.7,90,40,-12,12", "9,2,2.4,1.2,1,0.8,50,30,0,12"})
+    table += std::string("m/o,") + row + "\n";
+  scratch.write("wall_tube.csv", table);
+  scratch.write("wall_tube_9.vtu", grid);
+  const auto found = charts(scratch);
+  EXPECT_EQ(found["deformed_wall_tube"]["kind"], "mesh");
+  EXPECT_EQ(found["deformed_wall_tube"]["title"], "Deformed wall at pressure = 12 kPa");
+  EXPECT_EQ(found["deformed_wall_tube"]["mesh"]["values"][0], 70);
+  const auto& hoop = found["wall_tube_circumferential_stress"]["series"];
+  ASSERT_EQ(hoop.size(), 2u);
+  EXPECT_EQ(hoop[1]["name"], "pressure = 12 kPa");
+  EXPECT_EQ(hoop[1]["y"], nlohmann::json({90, 50}));
+  const auto& field = found["field_tube_9_circumferential_stress"];
+  EXPECT_EQ(field["mesh"]["values"], nlohmann::json({7.5}));
+  EXPECT_EQ(field["series"][0]["x"], nlohmann::json({1, 2, 2, 1, 1})) << "the outline is that of the unloaded wall";
+  EXPECT_FALSE(found.contains("field_tube_1_circumferential_stress"));
+}
+
+TEST(WallCharts, ComeWithASimulationTooAndItsSectionsAreNoCurves) {
+  const trial::Scratch scratch;
+  scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n12,1.4\n");
+  scratch.write("tube_2_section.csv",
+                "unloaded_radius [mm],radius [mm],circumferential_stress [kPa],prescribed_pressure "
+                "[kPa]\n1,1.5,90,12\n2,2.4,50,12\n");
+  const auto found = charts(scratch);
+  EXPECT_TRUE(found.contains("deformed_wall_tube"));
+  EXPECT_TRUE(found.contains("tube_diameter"));
+  EXPECT_FALSE(found.contains("tube_2_section_radius"));
+}
+
+TEST(Grid, ThatCannotBeReadIsToldOf) {
+  const trial::Scratch scratch;
+  std::string problem;
+  EXPECT_FALSE(report::Grid::read(scratch.path() / "none.vtu", problem));
+  EXPECT_EQ(problem, "");
+  const auto refused = [&](std::string text, const std::string& from, const std::string& to) {
+    if (const auto at = text.find(from); at != text.npos) text.replace(at, from.size(), to);
+    scratch.write("a.vtu", text);
+    problem.clear();
+    EXPECT_FALSE(report::Grid::read(scratch.path() / "a.vtu", problem));
+    return problem;
+  };
+  EXPECT_THAT(refused(grid, "<Cells>", "<Celld>"), HasSubstr("a.vtu: cannot be read as a VTK grid"));
+  EXPECT_EQ(refused(grid, "0 1 2 3<", "0 1 2<"), "a.vtu: has cells that are no quadrilaterals");
+  EXPECT_EQ(refused(grid, "0 1 2 3<", "0 1 2 4<"), "a.vtu: has cells of points that it does not have");
+  EXPECT_EQ(refused(grid, "0 1 2 3<", "<"), "a.vtu: has no cells");
+  EXPECT_EQ(refused(grid, "7.5", "7.5 8"), "a.vtu: has another number of 'circumferential_stress [kPa]' than of cells");
+  EXPECT_EQ(refused(grid, "0 0 0 1 0 0 1 0 0", "0 0"),
+            "a.vtu: has another number of 'displacement [mm]' than of points");
+}

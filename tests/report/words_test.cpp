@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the first screen says.
+#include <gmock/gmock.h>
+
+#include "report/pieces.hpp"
+#include "report/report.hpp"
+#include "scratch.hpp"
+
+using namespace tunica;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace {
+
+std::string page_of(const trial::Scratch& scratch, const char* result) {
+  scratch.write("result.json", result);
+  return report::report({scratch.path()}, scratch.path());
+}
+
+const char* const held_out = R"({
+  "warnings": ["m/a: FITS BETTER THAN IT PREDICTS: far off", "m/a: k = 1 IS AT A BOUND", "m/b: k = 1 IS AT A BOUND",
+               "m/b: k = 1 IS AT A BOUND and more", "data: are noisy"],
+  "runs": [{"run": "m/a", "model": "m", "optimizer": "a", "tests": ["in_vivo", "unseen"], "realisations": 1,
+            "best": {"objective": 1, "status": "ok", "parameters": {"k": {"value": 1, "at_bound": "lower"}},
+                     "per_test": {"in_vivo": {"channels": [{"channel": "d", "unit": "mm", "r2": 0.9, "rmse": 0.1},
+                                                           {"channel": "f", "unit": "mN", "r2": 0.8, "rmse": 2},
+                                                           {"channel": "p", "unit": "kPa", "r2": 0.7, "rmse": 3},
+                                                           {"channel": "q", "unit": "kPa", "r2": 0.6, "rmse": 4}]},
+                                  "unseen": {"channels": [{"channel": "d", "unit": "mm", "r2": -3, "rmse": 0.5,
+                                                           "held_out": true}]}}}},
+           {"run": "m/b", "model": "m", "optimizer": "b", "best": {"objective": 2}}],
+  "ranking": [{"run": "m/a", "rank": 1, "group": "least_squares on in_vivo, unseen"},
+              {"run": "m/b", "rank": 1, "group": "other on in_vivo"}]})";
+
+const char* const named = R"({"provenance": {"seed": 3}, "diagnosis": {"verdict": "named",
+  "causes": [{"id": "crimp", "amplitude": {"name": "stretch", "value": 1.2}}],
+  "noise": [{"test": "strip", "channel": "stress"}, {"test": "strip", "channel": "force"}],
+  "base": {"model": "hgo", "rows": 100, "squares": 400, "parameters": {"mu": {"value": 10, "unit": "kPa"}}},
+  "scores": [{"id": "other", "score": 5, "p_value": 0.02, "target": null}, {"id": "crimp", "score": 0, "p_value": 1}],
+  "ranking": [{"id": "crimp", "probability": 1, "score": 0, "gain": 70, "target": null},
+              {"id": "other", "probability": 0, "score": 5, "gain": -4e-9, "target": {"test": "strip"}}]}})";
+
+}  // namespace
+
+TEST(Words, SayAWarningOfSeveralRunsOnce) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, held_out);
+  EXPECT_THAT(page, HasSubstr("<li>m/a and m/b: k = 1 IS AT A BOUND</li>"));
+  EXPECT_THAT(page, HasSubstr("<li>m/b: k = 1 IS AT A BOUND and more</li>"));
+  EXPECT_THAT(page, HasSubstr("4 warnings"));
+}
+
+TEST(Words, KeepApartWhatWasFittedAndWhatWasHeldOut) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, held_out);
+  EXPECT_THAT(page, HasSubstr("Best of least_squares on in_vivo (one test held out)"));
+  EXPECT_THAT(page, HasSubstr("Fitted: 4 curves, the worst R² 0.6 in in_vivo (q, RMSE 4 kPa), the best R² 0.9 in "
+                              "in_vivo (d, RMSE 0.1 mm)."));
+  EXPECT_THAT(page, HasSubstr("Held out: R² -3 in unseen (d, RMSE 0.5 mm)."));
+  EXPECT_THAT(page, HasSubstr("It fits better than it predicts what was held out and k at a bound."));
+  EXPECT_THAT(page,
+              HasSubstr("Fit more of the tests together, or take a model with fewer parameters. Widen the bounds"));
+}
+
+TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, named);
+  EXPECT_THAT(page,
+              HasSubstr("hgo to strip, 100 rows, seed 3: mu = 10 kPa. Root mean square of residual over noise: 2."));
+}
+
+TEST(Words, PutTheCauseThatTakesMostFirst) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, named);
+  EXPECT_THAT(page, HasSubstr(R"("labels":["crimp","other in strip"])"));
+  EXPECT_THAT(page, HasSubstr(R"("note":"gain 70")"));
+  EXPECT_THAT(page, Not(HasSubstr("-4e-09")));
+}
