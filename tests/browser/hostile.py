@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Copies of result folders: one whose names would act if they could, one with very many realisations."""
+"""A copy of a result folder whose names would act if they could."""
 import csv
 import json
 import shutil
@@ -48,24 +48,4 @@ def with_hostile_names(source, target, run):
     tables(target, change)
     for file in list(target.glob("fit_*.csv")):
         file.rename(target / f"fit_<img src=x onerror=window.hacked=1>{file.name[4:]}")
-    return target
-
-
-def with_many_realisations(source, target, count):
-    """Every run gets `count` realisations, each with a convergence of its own; the numbers need not make sense."""
-    copy(source, target)
-
-    def change(name, rows):
-        head, body = rows[0], rows[1:]
-        runs = list(dict.fromkeys(row[0] for row in body)) if head[0] == "run" else []
-        if name == "convergence.csv":
-            body = [[run, k, n, 60 + k / 10 + 1000 / n] for run in runs for k in range(1, count + 1)
-                    for n in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 20000)]
-        elif name == "realisations.csv":
-            place = head.index("objective")
-            first = {row[0]: row for row in reversed(body)}
-            body = [[*first[run][:1], k, *first[run][2:place], 60 + k / 10, *first[run][place + 1:]]
-                    for run in runs for k in range(1, count + 1)]
-        return [head] + body
-    tables(target, change)
     return target
