@@ -102,7 +102,9 @@ void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugi
   for (auto& test : d.experiment.tests) test.weights.clear();
   d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
   d.curves = curves_of(*d.base, d.noise);
-  if (d.curves.empty()) throw InputError("diagnosis: every test is held out, so that there is nothing to diagnose");
+  if (d.curves.empty())
+    throw InputError(
+        "diagnosis: every test is held out, so that there is nothing to diagnose; set hold_out to false in one");
   if (d.base->parameters().size() >= d.base->residual_count())
     throw InputError(
         fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to judge by; fix "

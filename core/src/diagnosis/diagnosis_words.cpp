@@ -101,7 +101,7 @@ std::string predicted(const Gain& gain) {
 std::string summary(const Diagnosis& d) {
   std::vector<std::string> lines;
   const auto line = [&lines](const char* lead, const std::string& text) {
-    if (!text.empty()) lines.push_back(comparison::hanging(lead, text, 100));
+    if (!text.empty()) lines.push_back(comparison::hanging(lead, text));
   };
   line("Verdict:  ", verdict_line(d));
   line("Alarm:    ",

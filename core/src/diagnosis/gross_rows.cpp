@@ -15,7 +15,8 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr double gross_score = 16, gross_contrast = 4;
-constexpr Eigen::Index most = 30;  ///< one row in so many
+constexpr Eigen::Index most = 30;          ///< one row in so many
+constexpr std::size_t most_of_curve = 10;  ///< one of a curve in so many, or one: more are a shape
 
 std::string words(const std::vector<GrossRow>& rows) {
   std::vector<std::string> all;
@@ -44,14 +45,18 @@ double contrast(const Diagnosis& d, const Curve& curve, Eigen::Index k) {
 std::vector<GrossRow> gross_rows(const Diagnosis& d) {
   const Eigen::MatrixXd J = interior(d.fit), Q = basis(J, 1e-8);
   std::vector<GrossRow> found;
-  for (const Curve& curve : d.curves)
+  for (const Curve& curve : d.curves) {
+    std::vector<GrossRow> of_curve;
     for (Eigen::Index k = 0; k < curve.count; ++k) {
       const Eigen::Index i = curve.first + k;
       const double r = -d.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
       if (!(free > 0.05) || r * r / free < gross_score) continue;
       if (std::abs(contrast(d, curve, k)) > gross_contrast)
-        found.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r});
+        of_curve.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r});
     }
+    if (of_curve.size() <= std::max<std::size_t>(1, static_cast<std::size_t>(curve.count) / most_of_curve))
+      found.insert(found.end(), of_curve.begin(), of_curve.end());
+  }
   if (static_cast<Eigen::Index>(found.size()) > std::max<Eigen::Index>(1, d.fit.residuals.size() / most)) found.clear();
   std::stable_sort(found.begin(), found.end(),
                    [](const GrossRow& a, const GrossRow& b) { return std::abs(a.residual) > std::abs(b.residual); });

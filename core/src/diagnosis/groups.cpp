@@ -20,6 +20,7 @@ using Side = MechanismFactory::Side;
 
 constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitude
 constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
+constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
 constexpr std::size_t triples_tried = 6;
 constexpr double alike = 0.02;  ///< 1 − c² below which two are one
 
@@ -39,29 +40,29 @@ class Search {
                      [](const Group& a, const Group& b) { return a.linear_gain > b.linear_gain; });
     // Of two mechanisms the two best places.
     std::map<std::set<std::size_t>, int> seen;
-    std::erase_if(groups, [&](const Group& group) {
-      std::set<std::size_t> candidates;
-      for (const std::size_t k : group.directions) candidates.insert(d_.directions[k].candidate);
-      return ++seen[candidates] > 2;
-    });
+    std::erase_if(groups, [&](const Group& group) { return ++seen[candidates_of(group)] > 2; });
     groups.resize(std::min(groups.size(), d_.settings.quick ? quick_pairs : full_pairs));
+    add_beside_singles(groups);
     return refitted(std::move(groups));
   }
 
-  std::vector<Group> triples(const Group& pair) {
+  /// Begun from several pairs; then each member of the best triple has to stand against what would take its place.
+  std::vector<Group> triples(std::span<const Group> pairs) {
     std::vector<Group> groups;
-    std::set<std::size_t> seen;
-    for (const std::size_t k : pair.directions) seen.insert(d_.directions[k].candidate);
-    for (const auto& [T, k, amplitude] : what_is_left(*pair.refitted)) {
-      if (groups.size() >= triples_tried) break;
-      if (!seen.insert(d_.directions[k].candidate).second) continue;
-      Group triple = pair;
-      triple.refitted.reset();
-      triple.directions.push_back(k), triple.additions.push_back(hypothesis(k).addition);
-      triple.amplitudes.push_back(amplitude);
-      groups.push_back(std::move(triple));
+    std::set<std::set<std::size_t>> seen;
+    for (std::size_t g = 0; g < std::min(pairs.size(), beside); ++g)
+      extend(pairs[g], *pairs[g].refitted, g == 0 ? triples_tried : beside, groups, seen);
+    groups = refitted(std::move(groups));
+    if (groups.empty()) return groups;
+    std::vector<Group> others;
+    for (std::size_t out = 0; out < groups.front().additions.size(); ++out) {
+      const Group rest = without(groups.front(), out);
+      if (const auto refit = fit_with(d_, rest.additions, rest.amplitudes, catalogue_))
+        extend(rest, *refit, beside, others, seen);
     }
-    return refitted(std::move(groups));
+    for (Group& group : refitted(std::move(others))) groups.push_back(std::move(group));
+    sort_by_weight(groups);
+    return groups;
   }
 
  private:
@@ -104,6 +105,64 @@ class Search {
     return {pool.begin(), pool.end()};
   }
 
+  /// Pairs of a good single mechanism, as it is at finite amplitude, with what explains most of what it leaves: the
+  /// linearisation at the base fit does not see them where the effects are large.
+  void add_beside_singles(std::vector<Group>& groups) const {
+    std::set<std::set<std::size_t>> seen;
+    for (const Group& group : groups) seen.insert(candidates_of(group));
+    std::size_t used = 0;
+    for (const Single& single : singles_) {
+      if (!single.best || used++ >= beside) break;
+      const std::size_t k = single.direction;
+      Group alone{{k}, {hypothesis(k).addition}, {amplitude_of(*single.best)}, 0, 0, std::nullopt, nullptr};
+      extend(alone, *single.best, beside, groups, seen);
+    }
+  }
+
+  /// The group with each of the `count` candidates that explain most of what its refit leaves, unless seen already.
+  void extend(const Group& group, const Refitted& refit, std::size_t count, std::vector<Group>& onto,
+              std::set<std::set<std::size_t>>& seen) const {
+    std::set<std::size_t> tried = candidates_of(group);
+    const std::size_t own = tried.size();
+    const auto from = std::make_shared<const Refitted>(refit);
+    for (const auto& [T, k, amplitude] : what_is_left(refit)) {
+      if (tried.size() >= own + count) return;
+      if (!tried.insert(d_.directions[k].candidate).second) continue;
+      Group more = group;
+      more.refitted.reset();
+      more.begun_from = from;
+      more.directions.push_back(k), more.additions.push_back(hypothesis(k).addition);
+      more.amplitudes.push_back(amplitude);
+      if (seen.insert(candidates_of(more)).second) onto.push_back(std::move(more));
+    }
+  }
+
+  [[nodiscard]] std::set<std::size_t> candidates_of(const Group& group) const {
+    std::set<std::size_t> candidates;
+    for (const std::size_t k : group.directions) candidates.insert(d_.directions[k].candidate);
+    return candidates;
+  }
+  /// Of the first addition, as fit_with() takes it: from its null, squared where the mechanism is even.
+  [[nodiscard]] double amplitude_of(const Refitted& refit) const {
+    const Extended::Part& part = refit.extended->parts().front();
+    const double amplitude = refit.fit.free[part.amplitude.front()] - part.null;
+    const Side side = catalogue_.mechanisms().at(refit.additions.front().id).factory.side;
+    return side == Side::even ? amplitude * amplitude : amplitude;
+  }
+  [[nodiscard]] static Group without(const Group& group, std::size_t out) {
+    Group rest;
+    for (std::size_t k = 0; k < group.additions.size(); ++k) {
+      if (k == out) continue;
+      rest.directions.push_back(group.directions[k]), rest.additions.push_back(group.additions[k]);
+      rest.amplitudes.push_back(group.amplitudes[k]);
+    }
+    return rest;
+  }
+  static void sort_by_weight(std::vector<Group>& groups) {
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
+  }
+
   /// The largest gain of two amplitudes on their admissible sides; none where one of them is better left out.
   [[nodiscard]] std::optional<Group> linear_pair(std::size_t i, std::size_t j) const {
     const Direction &a = d_.directions[i], &b = d_.directions[j];
@@ -117,13 +176,15 @@ class Search {
                  {a.sign * xa / a.length, b.sign * xb / b.length},
                  ta * xa + tb * xb + 2 * (log_prior(d_, i) + log_prior(d_, j)),
                  0,
-                 std::nullopt};
+                 std::nullopt,
+                 nullptr};
   }
 
   std::vector<Group> refitted(std::vector<Group> groups) const {
     std::vector<char> needed(groups.size(), 0);
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-      groups[g].refitted = fit_with(d_, groups[g].additions, groups[g].amplitudes, catalogue_);
+      groups[g].refitted =
+          fit_with(d_, groups[g].additions, groups[g].amplitudes, catalogue_, groups[g].begun_from.get());
       if (groups[g].refitted) groups[g].log_weight = (d_.fit.chi2 - groups[g].refitted->fit.chi2) / 2;
       for (const std::size_t k : groups[g].directions) groups[g].log_weight += log_prior(d_, k);
       needed[g] = groups[g].refitted && all_needed(groups[g]);
@@ -131,8 +192,7 @@ class Search {
     std::vector<Group> kept;
     for (std::size_t g = 0; g < groups.size(); ++g)
       if (needed[g]) kept.push_back(std::move(groups[g]));
-    std::stable_sort(kept.begin(), kept.end(),
-                     [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
+    sort_by_weight(kept);
     return kept;
   }
 
@@ -149,11 +209,8 @@ class Search {
   /// Each member loses significantly when it is taken out: the rest is fitted again without it.
   [[nodiscard]] bool all_needed(const Group& group) const {
     for (std::size_t out = 0; out < group.additions.size(); ++out) {
-      std::vector<Addition> rest;
-      std::vector<double> amplitudes;
-      for (std::size_t k = 0; k < group.additions.size(); ++k)
-        if (k != out) rest.push_back(group.additions[k]), amplitudes.push_back(group.amplitudes[k]);
-      const double before = squares_with(rest, amplitudes);
+      const Group rest = without(group, out);
+      const double before = squares_with(rest.additions, rest.amplitudes);
       const std::size_t candidate = d_.directions[group.directions[out]].candidate;
       if (before - group.refitted->fit.chi2 < detection_.threshold(candidate, second_alpha)) return false;
     }
@@ -177,9 +234,9 @@ std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detect
   return Search(diagnosis, detection, singles, catalogue).pairs();
 }
 
-std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, const Group& pair,
+std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, std::span<const Group> pairs,
                                const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, {}, catalogue).triples(pair);
+  return Search(diagnosis, detection, {}, catalogue).triples(pairs);
 }
 
 }  // namespace tunica::diagnosis

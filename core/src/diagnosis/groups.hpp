@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <span>
+
 #include "diagnosis/singles.hpp"
 
 namespace tunica::diagnosis {
@@ -13,6 +16,7 @@ struct Group {
   double linear_gain = 0;
   double log_weight = 0;  ///< gain of |r|²/2, and the prior shares of its hypotheses
   std::optional<Refitted> refitted;
+  std::shared_ptr<const Refitted> begun_from;  ///< with all members but the last; or none
 };
 
 /// All pairs in the linearisation, the best of them at finite amplitude; best first. A forward search would stay with
@@ -20,8 +24,9 @@ struct Group {
 std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
                              const plugins::Catalogue& catalogue);
 
-/// The pair with a third that explains most of what it leaves; empty where no third is needed.
-std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, const Group& pair,
+/// The best pairs with a third that explains most of what they leave, and what could stand for each of the three; best
+/// first, empty where no third is needed.
+std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, std::span<const Group> pairs,
                                const plugins::Catalogue& catalogue);
 
 /// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md.

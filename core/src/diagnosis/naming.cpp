@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include "diagnosis/causes.hpp"
 #include "diagnosis/groups.hpp"
+#include "diagnosis/squares.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -29,12 +30,8 @@ class Naming {
     if (!singles_.front().best) return unexplained("no mechanism could be fitted at finite amplitude");
     rank();
     const double p_one = p_of_rest(*singles_.front().best);
-    if (p_one > look_again) {
-      one(p_one);
-      return judge();
-    }
     groups_ = fit_pairs(d_, detection_, singles_, catalogue_);
-    // Where the rest after one is doubtful only, two must be worth their price.
+    // Where one may be enough, two must be worth their price.
     if (p_one > second_alpha && !groups_.empty() &&
         groups_.front().log_weight + log_odds_of_pair(singles_.size()) < singles_.front().log_weight)
       groups_.clear();
@@ -44,7 +41,7 @@ class Naming {
     }
     double p = p_of_rest(*groups_.front().refitted);
     if (p <= second_alpha) {
-      if (auto triples = fit_triples(d_, detection_, groups_.front(), catalogue_); !triples.empty()) {
+      if (auto triples = fit_triples(d_, detection_, groups_, catalogue_); !triples.empty()) {
         groups_ = std::move(triples);
         p = p_of_rest(*groups_.front().refitted);
       }
@@ -87,16 +84,7 @@ class Naming {
   [[nodiscard]] double p_of_rest(const Refitted& refitted) const {
     const Rest rest = rest_of(refitted);
     const double p = rest.detection->judge(-refitted.fit.residuals).p;
-    // Shapes that are neither smooth nor of the catalogue: |r|² itself, where the noise is known. It takes noise that
-    // is a little larger than stated for a misfit, and therefore counts only where it is beyond doubt.
-    const bool known = std::all_of(d_.noise.begin(), d_.noise.end(),
-                                   [](const NoiseSource& source) { return source.kind == NoiseSource::Kind::stated; });
-    const double freedom = static_cast<double>(refitted.fit.residuals.size() - interior(refitted.fit).cols());
-    constexpr double beyond_doubt = 1e-6;
-    if (!known || freedom < 1) return p;
-    const double rough = boost::math::cdf(
-        boost::math::complement(boost::math::chi_squared(freedom), refitted.fit.residuals.squaredNorm()));
-    return rough < beyond_doubt ? std::min(p, rough) : p;
+    return std::min(p, p_of_squares(d_, refitted.fit));
   }
 
   void rank() {
@@ -154,18 +142,28 @@ class Naming {
       d_.causes.push_back(std::move(cause));
     }
     for (const Group& group : groups_) {
-      if (group.additions.size() != 2) continue;
-      const std::string &a = group.additions[0].id, &b = group.additions[1].id;
+      if (group.additions.size() != best.additions.size() || same_members(group, best)) continue;
       if (2 * (best.log_weight - group.log_weight) > set_width) {
-        if (!d_.gain) set_best_wrong(a + " + " + b, group.refitted->fit.chi2);
+        if (!d_.gain) set_best_wrong(words(group), group.refitted->fit.chi2);
         continue;
       }
-      const auto [new_a, new_b] = std::pair(add_to_set(a), add_to_set(b));
-      if (new_a || new_b) d_.alternatives.emplace_back(a, b), d_.rivals.push_back(*group.refitted);
+      bool grows = false;
+      for (const Addition& addition : group.additions) grows = add_to_set(addition.id) || grows;
+      if (!grows) continue;
+      if (group.additions.size() == 2) d_.alternatives.emplace_back(group.additions[0].id, group.additions[1].id);
+      d_.rivals.push_back(*group.refitted);
     }
     d_.extension = best.refitted;
     d_.rivals.insert(d_.rivals.begin(), *best.refitted);
   }
+
+  static std::multiset<std::string> members(const Group& group) {
+    std::multiset<std::string> ids;
+    for (const Addition& addition : group.additions) ids.insert(addition.id);
+    return ids;
+  }
+  static bool same_members(const Group& a, const Group& b) { return members(a) == members(b); }
+  static std::string words(const Group& group) { return fmt::format("{}", fmt::join(members(group), " + ")); }
 
   bool add_to_set(const std::string& id) {
     if (std::find(d_.ambiguity_set.begin(), d_.ambiguity_set.end(), id) != d_.ambiguity_set.end()) return false;
@@ -186,18 +184,22 @@ class Naming {
                                           : Verdict::unknown;
     if (d_.verdict == Verdict::unknown)
       d_.reasons.push_back(fmt::format("{} mechanisms explain the misfit equally well", rivals));
-    if (d_.named > 1 || d_.verdict != Verdict::named) return;
-    const Cause& first = d_.causes.front();
+    if (d_.verdict != Verdict::named) return;
     const auto suspect = [this](std::string why) {
       d_.verdict = Verdict::suspect_data;
       d_.reasons.push_back(std::move(why));
     };
-    if (catalogue_.mechanisms().at(first.id).factory.stage == Stage::data)
+    const Cause& first = d_.causes.front();
+    if (d_.named == 1 && catalogue_.mechanisms().at(first.id).factory.stage == Stage::data)
       return suspect(fmt::format("the misfit sits {}, and nowhere else", first.target.words()));
-    if (!first.amplitude.plausible || first.amplitude.at_bound)
-      return suspect(fmt::format("{} would have to be {:.3g} {}, which is {}", first.id, first.amplitude.value,
-                                 first.amplitude.unit,
-                                 first.amplitude.at_bound ? "at its bound" : "beyond what is plausible"));
+    for (std::size_t k = 0; k < d_.named; ++k) {
+      const Cause& cause = d_.causes[k];
+      if (cause.amplitude.plausible && !cause.amplitude.at_bound) continue;
+      const std::string unit = cause.amplitude.unit == "1" ? "" : " " + cause.amplitude.unit;
+      return suspect(fmt::format("{} would have to be {:.3g}{}, which is {}", cause.id, cause.amplitude.value, unit,
+                                 cause.amplitude.at_bound ? "at its bound" : "beyond what is plausible"));
+    }
+    if (d_.named > 1) return;
     if (const std::string curve = carrier(d_, d_.directions[singles_.front().direction], -d_.fit.residuals);
         !curve.empty())
       suspect("the effect should show in several curves and is carried by one: " + curve);

@@ -2,6 +2,7 @@
 #include "diagnosis/refit_draws.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include <tbb/parallel_for.h>
 
@@ -21,12 +22,15 @@ double p_from_refits(const Diagnosis& d, const Detection& detection, std::size_t
   std::vector<Variable> variables;
   for (std::size_t j = 0; j < d.base->parameters().size(); ++j) variables.push_back({j});
   std::vector<char> worse(draws, 0);
+  std::atomic<std::size_t> finished = 0;
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t b) {
     const auto workspace = d.base->make_workspace();
     // Residuals of data simulated at the fit: those of the measured data drop out, the noise takes their place.
     const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - d.fit.residuals;
     const Fit fit = least_squares(*d.base, variables, d.fit.free, *workspace, 60, {&added, nullptr});
     worse[b] = !fit.status.ok() || detection.judge(-fit.residuals).p <= d.detection.p;
+    const double share = static_cast<double>(++finished) / static_cast<double>(draws);
+    if (d.settings.progress) d.settings.progress("refits of simulated data", 0.2 + 0.2 * share);
   });
   return (1 + static_cast<double>(std::count(worse.begin(), worse.end(), 1))) / (static_cast<double>(draws) + 1);
 }

@@ -21,10 +21,21 @@ const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addi
   return nullptr;
 }
 
+/// The values of a smaller refit in the place of parameters of the same name.
+void take_over(const Refitted& from, const calibration::Assembly& onto, std::vector<double>& start) {
+  const auto& names = from.extended->assembly().parameters();
+  const auto& parameters = onto.parameters();
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (names[k].name == parameters[j].name)
+        start[j] = std::clamp(from.fit.free[k], parameters[j].min, parameters[j].max);
+}
+
 }  // namespace
 
 std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Addition> additions,
-                                 std::span<const double> amplitudes, const plugins::Catalogue& catalogue) {
+                                 std::span<const double> amplitudes, const plugins::Catalogue& catalogue,
+                                 const Refitted* from) {
   Refitted refitted;
   refitted.additions = std::move(additions);
   try {
@@ -56,7 +67,22 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
   }
 
   bool found = false;
+  const auto set_amplitude = [&](std::vector<double>& start, std::size_t a, double share) {
+    const Extended::Part& part = extended.parts()[a];
+    const bool even = catalogue.mechanisms().at(refitted.additions[a].id).factory.side == MechanismFactory::Side::even;
+    const double amplitude = share * (even ? std::sqrt(std::max(amplitudes[a], 0.0)) : amplitudes[a]);
+    for (const std::size_t member : part.amplitude)
+      start[member] = std::clamp(part.null + amplitude, parameters[member].min, parameters[member].max);
+  };
+  if (from != nullptr) {
+    std::vector<double> start = extended.at_null(diagnosis.fit.free);
+    take_over(*from, extended.assembly(), start);
+    set_amplitude(start, extended.parts().size() - 1, 1);
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    if (fit.status.ok()) refitted.fit = std::move(fit), found = true;
+  }
   for (const double share : {1.0, 0.3}) {
+    if (found && diagnosis.settings.quick && refitted.fit.chi2 < diagnosis.fit.chi2) break;
     std::vector<double> base = diagnosis.fit.free;
     for (std::size_t j = 0; j < base.size(); ++j) {
       const auto& parameter = diagnosis.base->parameters()[j];
@@ -68,14 +94,7 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
       base[j] = std::clamp(base[j], parameter.min, parameter.max);
     }
     std::vector<double> start = extended.at_null(base);
-    for (std::size_t a = 0; a < extended.parts().size(); ++a) {
-      const Extended::Part& part = extended.parts()[a];
-      const bool even =
-          catalogue.mechanisms().at(refitted.additions[a].id).factory.side == MechanismFactory::Side::even;
-      const double amplitude = share * (even ? std::sqrt(std::max(amplitudes[a], 0.0)) : amplitudes[a]);
-      for (const std::size_t member : part.amplitude)
-        start[member] = std::clamp(part.null + amplitude, parameters[member].min, parameters[member].max);
-    }
+    for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, share);
     Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
     if (!fit.status.ok()) continue;
     if (!found || fit.chi2 < refitted.fit.chi2) refitted.fit = std::move(fit), found = true;

@@ -19,7 +19,7 @@ struct Settings {
   bool admissibility = false;           ///< lost stability changes the verdict
   bool quick = false;                   ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
-  /// How far it is, for a person: what is being done, and the share that is done.
+  /// How far it is, for a person: what is being done, and the share that is done. Called from any thread.
   std::function<void(const std::string& what, double share)> progress = {};
 };
 

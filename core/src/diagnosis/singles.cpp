@@ -115,6 +115,7 @@ class Search {
         (one.addition.target.tests.size() == 1 ? single : common).push_back(k);
     }
     std::vector<std::size_t>& chosen = common.empty() ? single : common;
+    std::stable_sort(chosen.begin(), chosen.end(), [&](auto a, auto b) { return scores_[a].T > scores_[b].T; });
     chosen.resize(std::min<std::size_t>(chosen.size(), 2));
     return chosen;
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/squares.hpp"
+
+#include <algorithm>
+
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include "diagnosis/causes.hpp"
+
+namespace tunica::diagnosis {
+
+double p_of_squares(const Diagnosis& diagnosis, const Fit& fit) {
+  constexpr double beyond_doubt = 1e-6;
+  const bool known = std::all_of(diagnosis.noise.begin(), diagnosis.noise.end(),
+                                 [](const NoiseSource& source) { return source.kind == NoiseSource::Kind::stated; });
+  const double freedom = static_cast<double>(fit.residuals.size() - interior(fit).cols());
+  if (!known || freedom < 1) return 1;
+  const double p =
+      boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), fit.residuals.squaredNorm()));
+  return p < beyond_doubt ? p : 1;
+}
+
+}  // namespace tunica::diagnosis
