@@ -76,7 +76,7 @@ struct Joint {
   static T energy(std::span<const T> x, std::span<const T> p) {
     T sum = 0.5 * p[mu] * x[0];
     for (const T& strain : {x[1], x[2]})
-      if (strain > T(0)) sum += Exponential::energy(strain, p.subspan(k1, 2));
+      if (strain > 0.0) sum += Exponential::energy(strain, p.subspan(k1, 2));
     return sum;
   }
 };

@@ -14,19 +14,23 @@ namespace ceres {
 template <int N, int M>
 using NestedJet = Jet<Jet<double, N>, M>;
 
-#define TUNICA_NESTED_(op)                                          \
-  template <int N, int M>                                           \
-  NestedJet<N, M> operator op(double s, const NestedJet<N, M>& f) { \
-    return NestedJet<N, M>(Jet<double, N>(s)) op f;                 \
-  }                                                                 \
-  template <int N, int M>                                           \
-  NestedJet<N, M> operator op(const NestedJet<N, M>& f, double s) { \
-    return f op NestedJet<N, M>(Jet<double, N>(s));                 \
+#define TUNICA_NESTED_(op, Result)                         \
+  template <int N, int M>                                  \
+  Result operator op(double s, const NestedJet<N, M>& f) { \
+    return NestedJet<N, M>(Jet<double, N>(s)) op f;        \
+  }                                                        \
+  template <int N, int M>                                  \
+  Result operator op(const NestedJet<N, M>& f, double s) { \
+    return f op NestedJet<N, M>(Jet<double, N>(s));        \
   }
-TUNICA_NESTED_(+)
-TUNICA_NESTED_(-)
-TUNICA_NESTED_(*)
-TUNICA_NESTED_(/)
+#define TUNICA_NESTED_JET_ NestedJet<N, M>
+TUNICA_NESTED_(+, TUNICA_NESTED_JET_)
+TUNICA_NESTED_(-, TUNICA_NESTED_JET_)
+TUNICA_NESTED_(*, TUNICA_NESTED_JET_)
+TUNICA_NESTED_(/, TUNICA_NESTED_JET_)
+TUNICA_NESTED_(<, bool)
+TUNICA_NESTED_(>, bool)
+#undef TUNICA_NESTED_JET_
 #undef TUNICA_NESTED_
 }  // namespace ceres
 

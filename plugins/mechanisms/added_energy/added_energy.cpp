@@ -3,6 +3,7 @@
 // invariant in the matrix, the tone of the smooth muscle.
 #include <functional>
 
+#include "beside.hpp"
 #include "tunica/arterial_fibres.hpp"
 #include "tunica/decorated_model.hpp"
 #include "tunica/rubber_laws.hpp"
@@ -31,13 +32,10 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
   // What a refit of gho to two strips leaves of the fibres' effect: any other k2 has a shape that correlates with one
   // of these by 0.75 or more.
   if (mechanism.parameters.size() > 1) mechanism.scan = {{{"k2", 0.01}}, {{"k2", 0.3}}, {{"k2", 1}}, {{"k2", 10}}};
-  mechanism.wrap_model = [id = mechanism.id, parameters = mechanism.parameters, make = std::move(make)](
+  mechanism.wrap_model = [parameters = mechanism.parameters, make = std::move(make)](
                              std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
-    if (base->parts().empty())
-      throw InputError(id + ": model '" + base->describe().type +
-                       "' is no sum of energy parts, to which one could be added; expected a hyperelastic model; take "
-                       "the mechanism out or choose another model");
     const std::shared_ptr<const Model> shared(std::move(base));
+    if (shared->parts().empty()) return std::make_unique<added_energy::Beside>(shared, parameters, make());
     std::vector<std::unique_ptr<EnergyPart>> parts;
     for (const auto& part : shared->parts()) parts.push_back(std::make_unique<ForwardedPart>(shared, *part));
     parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(), make()));
