@@ -158,16 +158,17 @@ def refusals():
     api = int(re.search(r"define TUNICA_PLUGIN_API (\d+)", (prefix / "include/tunica/plugin.hpp").read_text())[1])
     good = told.source / "tests/bad_plugins/good.cpp"
 
-    def compiled(name, flags=(), change=None):
+    def compiled(name, flags=(), change=()):
         """The good plugin, with other flags or another edition of the headers."""
         include = prefix / "include"
         if change:
             include = folder / f"{name}_include"
             shutil.copytree(prefix / "include", include)
             header = include / "tunica/plugin.hpp"
-            before = header.read_text()
-            header.write_text(before.replace(*change))
-            expect(header.read_text() != before, f"{change[0]!r} is not in plugin.hpp")
+            for old, new in change:
+                before = header.read_text()
+                header.write_text(before.replace(old, new))
+                expect(header.read_text() != before, f"{old!r} is not in plugin.hpp")
         run("g++", "-std=c++20", "-shared", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", f"-I{include}",
             "-I/usr/include/eigen3", *flags, good, "-o", folder / f"{name}.so")
         return folder / f"{name}.so"
@@ -175,9 +176,10 @@ def refusals():
     define = f"define TUNICA_PLUGIN_API {api}"
     cases = [(compiled("avx", ["-mavx"]), "alignment: expected 16, found 32"),
              (compiled("debug", ["-D_GLIBCXX_DEBUG"]), "debug"),
-             (compiled("older", change=(define, f"define TUNICA_PLUGIN_API {api - 1}")), f"plugin API {api - 1}; expected {api}"),
-             (compiled("newer", change=(define, f"define TUNICA_PLUGIN_API {api + 1}")), f"plugin API {api + 1}; expected {api}"),
-             (compiled("longer", change=("const char* version;", "const char* version;\n  const char* licence = \"\";")),
+             (compiled("older", change=[(define, f"define TUNICA_PLUGIN_API {api - 1}")]), f"plugin API {api - 1}; expected {api}"),
+             (compiled("newer", change=[(define, f"define TUNICA_PLUGIN_API {api + 1}")]), f"plugin API {api + 1}; expected {api}"),
+             (compiled("longer", change=[("const char* version;", "const char* version;\n  const char* licence;"),
+                                         ("plugin_version, ", 'plugin_version, "", ')]),
               "bytes; expected")]
     texts = {"missing_symbol": "no exported symbol", "no_name": "has no name", "null_header": "null pointer",
              "no_register_function": "no register function", "non_standard_throw": "threw something",
