@@ -14,6 +14,7 @@
 #include "comparison/ranking.hpp"
 #include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
+#include "data/nearest.hpp"
 #include "describe.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
@@ -140,9 +141,9 @@ Checked examine(const experiment::Experiment& experiment, const execution::Plan&
 
 void print(const Checked& checked, const std::string& file) {
   const auto& [experiment, plan, warnings, problems] = checked;
-  fmt::print("{}: {}, {}, {}, seed {}\n", experiment.name, counted(experiment.models.size(), "model", "models"),
-             counted(experiment.tests.size(), "test", "tests"), counted(experiment.runs.size(), "run", "runs"),
-             experiment.seed);
+  fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
+             counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
+             counted(experiment.runs.size(), "run", "runs"), experiment.seed);
   for (const auto& warning : warnings) fmt::print("{}\n", hanging("  ! ", warning));
   fmt::print("\n");
   for (const auto& run : plan.runs)

@@ -19,8 +19,8 @@ namespace tunica::app {
 namespace {
 
 constexpr const char* examples = R"(Examples:
-  tunica check experiment.json             is everything in order? nothing is written
-  tunica run experiment.json -o results/a  calibrate and compare every entry of "runs"
+  tunica check experiment.json             is everything in order?
+  tunica run experiment.json -o results/a  calibrate and compare all "runs"
   tunica run experiment.json -o results/a --resume
                                            go on after Ctrl-C or a power cut
   tunica list models                       what the plugins provide
@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
       "tunica");
   GlobalOptions global;
   Action action;
+  app.formatter(help_format());
   app.set_version_flag("--version", "tunica " + comparison::version());
   app.add_option("--plugin-path", global.plugin_paths,
                  "Folder to search for plugins first, or a plugin file; may be given several times")

@@ -50,6 +50,9 @@ std::string roff(const std::string& text) {
   return result;
 }
 
+// Examples stand near the margin: what fits 80 columns in the help does so in the page too.
+constexpr const char *begin_example = ".EX\n.in 2n\n", *end_example = ".in\n.EE\n";
+
 /// What follows the options in the help: headings end with a colon, examples are indented, the rest is text.
 std::string footer(const std::string& text) {
   std::string result;
@@ -57,7 +60,7 @@ std::string footer(const std::string& text) {
   bool example = false, after_gap = true;
   for (std::string line; std::getline(stream, line);) {
     const bool indented = line.starts_with("  ");
-    if (indented != example && !line.empty()) result += indented ? ".EX\n" : ".EE\n";
+    if (indented != example && !line.empty()) result += indented ? begin_example : end_example;
     if (!line.empty()) example = indented;
     if (line.empty()) {
       after_gap = true;
@@ -65,11 +68,11 @@ std::string footer(const std::string& text) {
       result += fmt::format(".PP\n{}\n", roff(line));
     } else {
       if (!indented && after_gap) result += ".PP\n";
-      result += roff(line) + '\n';
+      result += roff(indented ? line.substr(2) : line) + '\n';
       after_gap = false;
     }
   }
-  return example ? result + ".EE\n" : result;
+  return example ? result + end_example : result;
 }
 
 std::string synopsis(const Verb& verb, const std::string& words) {
@@ -102,12 +105,9 @@ std::string options(const std::vector<Argument>& arguments, bool help) {
 }
 
 std::string verb_section(const Verb& verb, const std::string& words) {
-  std::string text;
-  if (verb.verbs.empty()) {
-    text = fmt::format(".SS {}\n{}.PP\n{}{}\n{}{}", roff(words), synopsis(verb, words), roff(verb.doc),
-                       verb.doc.ends_with('?') || verb.doc.ends_with('.') ? "" : ".", options(verb.arguments, false),
-                       footer(verb.footer));
-  }
+  const bool a_sentence = verb.doc.ends_with('?') || verb.doc.ends_with('.');
+  std::string text = fmt::format(".SS {}\n{}.PP\n{}{}\n{}{}", roff(words), synopsis(verb, words), roff(verb.doc),
+                                 a_sentence ? "" : ".", options(verb.arguments, false), footer(verb.footer));
   for (const auto& child : verb.verbs) text += verb_section(child, words + ' ' + child.name);
   return text;
 }

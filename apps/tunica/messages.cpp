@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <vector>
@@ -22,7 +23,11 @@ constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *bold = "\033[1m
 void say(const char* word, const char* colour, const std::string& text) {
   const bool colours = execution::Terminal::of(STDERR_FILENO).colours;
   const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
-  fmt::print(stderr, "{}: {}\n", shown, text);
+  // What stands in files is quoted, and must not reach the terminal as commands to it.
+  std::string quoted = text;
+  for (char& c : quoted)
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
+  fmt::print(stderr, "{}: {}\n", shown, quoted);
 }
 
 /// "tunica plugin new" for what was being parsed when it went wrong.
@@ -41,6 +46,53 @@ std::vector<std::string> option_names(const CLI::App& app) {
   for (const auto* option : app.get_options())
     for (const auto& name : option->get_lnames()) names.push_back("--" + name);
   return names;
+}
+
+/// The help of CLI11, its texts wrapped in their columns.
+class Wrapped final : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* app) const override {
+    return comparison::hanging("", app->get_description()) + '\n';
+  }
+  std::string make_option_desc(const CLI::Option* option) const override { return wrapped(option->get_description()); }
+  /// Examples are indented and stay as they are; of the other lines those that belong together are filled.
+  std::string make_footer(const CLI::App* app) const override {
+    std::string result, paragraph;
+    const auto end_paragraph = [&] {
+      if (!paragraph.empty()) result += comparison::hanging("", paragraph) + '\n';
+      paragraph.clear();
+    };
+    std::istringstream stream(app->get_footer());
+    for (std::string line; std::getline(stream, line);) {
+      const bool alone = line.empty() || line.front() == ' ' || line.back() == ':';
+      if (alone) end_paragraph();
+      if (alone)
+        result += line + '\n';
+      else
+        paragraph += line + ' ';
+    }
+    end_paragraph();
+    return result;
+  }
+  std::string make_subcommand(const CLI::App* verb) const override {
+    std::ostringstream out;
+    CLI::detail::format_help(out, verb->get_display_name(true), wrapped(verb->get_description()), column_width_);
+    return out.str();
+  }
+
+ private:
+  [[nodiscard]] std::string wrapped(const std::string& text) const {
+    return comparison::hanging("", text, 80 - column_width_);
+  }
+};
+
+/// The option, else the argument, that the parser had no place for.
+std::string surplus(const CLI::App& program, const CLI::App& innermost) {
+  auto words = innermost.remaining();
+  if (&innermost != &program)
+    for (auto& word : program.remaining()) words.push_back(std::move(word));
+  const auto option = std::find_if(words.begin(), words.end(), [](const auto& word) { return word.starts_with('-'); });
+  return words.empty() ? "" : option == words.end() ? words.front() : *option;
 }
 
 }  // namespace
@@ -70,12 +122,14 @@ std::string highlighted(const std::string& text) {
   return result;
 }
 
+std::shared_ptr<CLI::FormatterBase> help_format() { return std::make_shared<Wrapped>(); }
+
 std::string command_line_error(const CLI::App& program, const CLI::Error& problem) {
   std::string words;
   const CLI::App* app = innermost(program, words);
   std::string text = problem.what();
-  if (const auto extra = program.remaining(true); problem.get_name() == "ExtrasError" && !extra.empty()) {
-    const std::string& word = extra.front();
+  const auto code = static_cast<CLI::ExitCodes>(problem.get_exit_code());
+  if (const std::string word = code == CLI::ExitCodes::ExtrasError ? surplus(program, *app) : ""; !word.empty()) {
     if (word.starts_with('-')) {
       auto known = option_names(*app);
       if (app != &program)
@@ -86,7 +140,7 @@ std::string command_line_error(const CLI::App& program, const CLI::Error& proble
     } else {
       text = fmt::format("'{}' is one argument too many.", data::excerpt(word));
     }
-  } else if (problem.get_name() == "RequiredError" && app == &program) {
+  } else if (code == CLI::ExitCodes::RequiredError && app == &program) {
     std::vector<std::string> verbs;
     for (const auto* verb : program.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
       verbs.push_back(verb->get_name());
@@ -94,7 +148,9 @@ std::string command_line_error(const CLI::App& program, const CLI::Error& proble
   } else if (!text.empty() && text.back() != '.') {
     text += '.';
   }
-  return comparison::hanging("", fmt::format("{} `{} --help` shows what it takes, with examples.", text, words));
+  const std::string lead(std::string_view("error: ").size(), ' ');
+  return comparison::hanging(lead, fmt::format("{} `{} --help` shows what it takes, with examples.", text, words))
+      .substr(lead.size());
 }
 
 }  // namespace tunica::app

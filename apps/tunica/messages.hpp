@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace CLI {
 class App;
 class Error;
+class FormatterBase;
 }  // namespace CLI
 
 namespace tunica::app {
@@ -21,5 +23,8 @@ std::string highlighted(const std::string& text);
 
 /// What the parser found amiss, with the option that was probably meant and where to read on.
 std::string command_line_error(const CLI::App& program, const CLI::Error& problem);
+
+/// --help in lines of 80 columns.
+std::shared_ptr<CLI::FormatterBase> help_format();
 
 }  // namespace tunica::app

@@ -22,6 +22,7 @@
 #include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
 #include "comparison/wall_tables.hpp"
+#include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
@@ -196,7 +197,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   }
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   const auto page = report::write_report(directory.path());
-  fmt::print("{}, seed {}, tunica {}\n\n{}", summary.name, experiment.seed, provenance.version,
+  fmt::print("{}, seed {}, tunica {}\n\n{}", data::excerpt(summary.name), experiment.seed, provenance.version,
              highlighted(comparison::ranking_table(summary)));
   const auto code = judge(summary);
   if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))

@@ -147,7 +147,7 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag("--json", options->as_json, "One JSON object, in the form of `best.stability` of result.json");
   verb->footer(
       "Examples:\n"
-      "  tunica stability experiment.json --model gho --parameters results/a/result.json\n"
+      "  tunica stability experiment.json --model gho --parameters a/result.json\n"
       "  tunica stability experiment.json --model gho --to 2 --map kappa k2 -o map");
   verb->callback([&global, &action, options] { action = [&global, options] { return stability(global, *options); }; });
 }

@@ -90,7 +90,7 @@ TEST(Json, OfCheckHasTheSetUpAndItsVerdict) {
   EXPECT_EQ(checked.at("runs").at(1).at("realisations"), 3);
   ASSERT_EQ(checked.at("problems").size(), 2u);
   const json& problem = checked.at("problems").at(0);
-  EXPECT_EQ(problem.at("tests"), json::parse(R"(["circ", "axial"])"));
+  EXPECT_EQ(problem.at("tests"), json::parse(R"(["axial", "circ"])"));
   EXPECT_EQ(problem.at("channels").at(0).at("rows"), 20);
   EXPECT_EQ(problem.at("parameters").at("mu").at("unit"), "kPa");
   EXPECT_EQ(problem.at("initial").at("status"), "ok");

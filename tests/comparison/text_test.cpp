@@ -25,7 +25,10 @@ TEST(Text, WrapsBehindItsLead) {
 }
 
 TEST(Text, PutsALongLeadOnALineOfItsOwn) {
-  EXPECT_EQ(hanging("  a_long_name: ", "one two three", 16), "  a_long_name:\n    one two\n    three");
-  EXPECT_EQ(hanging("  a_long_name: ", "", 16), "  a_long_name: ");
-  EXPECT_EQ(hanging("            ", "one two", 16), "            one\n            two") << "blanks are a column";
+  const std::string name(22, 'x');
+  EXPECT_EQ(hanging("  " + name + ": ", "one two three", 16), "  " + name + ":\n    one two\n    three");
+  EXPECT_EQ(hanging("  " + name + ", rows 3 to 18: ", "one", 30), "  " + name + ",\n  rows 3 to 18:\n    one");
+  EXPECT_EQ(hanging("  " + name + ": ", "", 16), "  " + name + ": ");
+  const std::string blank(22, ' ');
+  EXPECT_EQ(hanging(blank, "one two", 16), blank + "one\n" + blank + "two") << "blanks are a column";
 }

@@ -170,9 +170,11 @@ std::string run_lines(const RunSummary& run) {
   for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
   width = std::min(width, widest_name);
   for (const auto& parameter : run.parameters) {
-    const bool fits = columns(parameter.name) <= width;
-    if (!fits) text += fmt::format("  {}\n", parameter.name);
-    text += fmt::format("  {}  {}\n", pad(fits ? parameter.name : "", width), value_text(parameter));
+    const std::string value = value_text(parameter);
+    if (columns(parameter.name) <= width && 2 + width + 2 + columns(value) <= 80)
+      text += fmt::format("  {}  {}\n", pad(parameter.name, width), value);
+    else
+      text += fmt::format("  {}\n    {}\n", parameter.name, value);
     if (const auto other = other_intervals(parameter); !other.empty())
       text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }

@@ -25,9 +25,11 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 }
 
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
-  const std::size_t end_of_lead = lead.find_last_not_of(' ');
-  if (columns(lead) > width / 2 && end_of_lead != lead.npos && text.find_first_not_of(" \n") != text.npos)
-    return std::string(lead.substr(0, end_of_lead + 1)) + '\n' + hanging("    ", text, width);
+  constexpr std::size_t short_enough = 20;
+  const std::size_t margin = std::min(lead.find_first_not_of(' '), lead.size());
+  if (columns(lead) > std::max(width / 2, short_enough) && margin < lead.size() &&
+      text.find_first_not_of(" \n") != text.npos)
+    return hanging(lead.substr(0, margin), lead.substr(margin), width) + '\n' + hanging("    ", text, width);
   const std::size_t indent = columns(lead);
   std::string result(lead);
   std::size_t used = indent;
