@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <regex>
+#include <sstream>
 
+#include "comparison/text.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/outputs.hpp"
 
@@ -50,6 +52,25 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
   const std::string words = in_one_line(diagnosis::summary(found));
   EXPECT_THAT(
       words, AllOf(HasSubstr("NOTHING DETECTED"), HasSubstr("no trace in these data: "), HasSubstr("viscoelasticity")));
+}
+
+TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
+  const Measured measured;
+  measured.measure(31);
+  Diagnosis found = measured.diagnose();
+  const std::string name(50, 'x');
+  found.verdict = Verdict::indistinguishable;
+  found.ambiguity_set = {name, name, name};
+  found.misfit.resize(2);
+  for (auto& misfit : found.misfit)
+    misfit.test = name, misfit.channel = "stress", misfit.where = "rows 3 to 18 " + name;
+  found.alternatives = {{name, name}, {name, name}};
+  found.causes.resize(2);
+  for (auto& cause : found.causes) cause.id = name;
+  std::istringstream stream(diagnosis::summary(found));
+  int lines = 0;
+  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(comparison::columns(line), 80u) << line;
+  EXPECT_GT(lines, 8);
 }
 
 // A gain of the load cell and stiffer matrix and fibres are one and the same for one strip. Seed 32: 5 %.
