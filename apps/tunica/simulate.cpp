@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "comparison/simulation.hpp"
+#include "comparison/simulation_record.hpp"
 #include "comparison/snapshots.hpp"
 #include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
@@ -50,6 +51,7 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   for (const auto& [test, snapshots] : fields)
     for (const auto& path : comparison::write_snapshots(directory.path(), test, snapshots))
       fmt::print("{}\n", path.string());
+  fmt::print("{}\n", comparison::write_record(directory.path(), experiment, request, subject).string());
   fmt::print("{}\n", report::write_report(directory.path()).string());
   return done;
 }
@@ -80,7 +82,7 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->footer(
       "Examples:\n"
       "  tunica simulate experiment.json --model gho -o predicted\n"
-      "  tunica simulate experiment.json --model gho --parameters results/a/result.json -o predicted\n"
+      "  tunica simulate experiment.json --parameters a/result.json --model gho -o sim\n"
       "  tunica simulate experiment.json --model gho --fields tube:1,35 -o fields\n"
       "  tunica simulate experiment.json --model gho --noise 0.02 --seed 3 -o synthetic");
   verb->callback([&global, &action, options] { action = [&global, options] { return simulate(global, *options); }; });

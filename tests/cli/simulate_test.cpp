@@ -30,7 +30,11 @@ TEST(Simulate, WritesWhatTheDataLookLike) {
   const auto ended =
       bench.tunica({"simulate", "experiment.json", "--model", "neo", "--parameters", "mu.json", "-o", "out"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  EXPECT_EQ(ended.out, "out/axial.csv\nout/circ.csv\nout/report.html\n");
+  EXPECT_EQ(ended.out, "out/axial.csv\nout/circ.csv\nout/simulation.json\nout/report.html\n");
+  const auto record = nlohmann::json::parse(bench.text("out/simulation.json"));
+  EXPECT_EQ(record["model"], "neo");
+  EXPECT_EQ(record["parameters"]["mu"], nlohmann::json({{"value", 30.0}, {"unit", "kPa"}}));
+  EXPECT_EQ(record["tests"], nlohmann::json({"axial", "circ"}));
   const auto text = bench.text("out/axial.csv");
   EXPECT_EQ(text.substr(0, text.find('\n')), "lambda [percent],sigma [Pa]");
   // Neo-Hooke: sigma = mu (l^2 - 1/l), here in Pa.

@@ -57,9 +57,26 @@ TEST(Words, KeepApartWhatWasFittedAndWhatWasHeldOut) {
   EXPECT_THAT(page, HasSubstr("Fitted: 4 curves, the worst R² 0.6 in in_vivo (q, RMSE 4 kPa), the best R² 0.9 in "
                               "in_vivo (d, RMSE 0.1 mm)."));
   EXPECT_THAT(page, HasSubstr("Held out: R² -3 in unseen (d, RMSE 0.5 mm)."));
-  EXPECT_THAT(page, HasSubstr("It fits better than it predicts what was held out and k at a bound."));
+  EXPECT_THAT(page, HasSubstr("It fits better than it predicts what was held out; k at a bound."));
   EXPECT_THAT(page,
               HasSubstr("Fit more of the tests together, or take a model with fewer parameters. Widen the bounds"));
+}
+
+TEST(Words, TakeTheProfileForTheIntervalWhereThereIsOne) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, R"({
+    "runs": [{"run": "m/a", "model": "m", "optimizer": "a", "best": {"objective": 1, "parameters": {
+      "closed": {"value": 1, "unit": "kPa", "min": 0, "max": 9, "ci95": [0, 4], "ci95_reliable": false, "profile_ci95": [0.5, 2]},
+      "half": {"value": 1, "unit": "1", "min": 0, "max": 9, "ci95": null, "profile_ci95": [null, 2]},
+      "rough": {"value": 1, "unit": "1", "min": 0, "max": 9, "ci95": [0, 4], "ci95_reliable": false}},
+      "uncertainty": ["profiles are of normal noise"]}}],
+    "ranking": [{"run": "m/a", "rank": 1, "group": "g"}]})");
+  EXPECT_THAT(page, HasSubstr("Half limited on one side only; rough intervals of rough."));
+  EXPECT_THAT(page, HasSubstr("Run tunica run EXPERIMENT --profiles rough."));
+  EXPECT_THAT(page, HasSubstr(">95 %, linearised</th><th scope=\"col\">95 %, profile</th>"));
+  EXPECT_THAT(page, HasSubstr(">0 … 4 (rough)</td><td class=\"\">0.5 … 2</td>"));
+  EXPECT_THAT(page, HasSubstr(">open … 2</td>"));
+  EXPECT_THAT(page, HasSubstr("<li>Profiles are of normal noise.</li>"));
 }
 
 TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
@@ -67,6 +84,17 @@ TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
   const std::string page = page_of(scratch, named);
   EXPECT_THAT(page,
               HasSubstr("hgo to strip, 100 rows, seed 3: mu = 10 kPa. Root mean square of residual over noise: 2."));
+}
+
+TEST(Words, OfASimulationSayWhatWasSimulated) {
+  const trial::Scratch scratch;
+  scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n1,2\n");
+  scratch.write("simulation.json", R"({"name": "aorta", "model": "gho", "tests": ["tube"], "seed": 3, "noise": 0.02,
+      "parameters": {"mu": {"value": 18.7, "unit": "kPa"}}, "origin": "run 'gho/lm' of a/result.json: mu = 18.7 kPa"})");
+  const std::string page = report::report({scratch.path()}, scratch.path());
+  for (const char* text : {"<h1>aorta: simulation</h1>", "gho in tube", "mu = 18.7 kPa", "2 % of every value, seed 3",
+                           "run &#39;gho/lm&#39; of a/result.json<"})
+    EXPECT_THAT(page, HasSubstr(text));
 }
 
 TEST(Words, PutTheCauseThatTakesMostFirst) {

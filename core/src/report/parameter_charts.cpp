@@ -27,37 +27,48 @@ std::pair<double, double> interval(const Json& estimate, const char* key) {
   return {end(0), end(1)};
 }
 
-std::string interval_words(const Json& estimate) {
-  std::vector<std::string> parts;
-  for (const Kind& kind : kinds) {
-    const auto [low, high] = interval(estimate, kind.key);
-    if (std::isfinite(low) || std::isfinite(high))
-      parts.push_back(
-          fmt::format("{} … {} ({}{})", std::isfinite(low) ? figure(low) : "below the bound",
-                      std::isfinite(high) ? figure(high) : "beyond the bound", kind.name,
-                      kind.key == std::string("ci95") && member(estimate, "ci95_reliable") == false ? ", rough" : ""));
-  }
-  return parts.empty() ? "not fixed by the data" : joined(parts);
+/// An end at which the data set no limit is open.
+std::string interval_words(const Json& estimate, const Kind& kind) {
+  const auto [low, high] = interval(estimate, kind.key);
+  if (!std::isfinite(low) && !std::isfinite(high)) return "not fixed by the data";
+  return fmt::format("{} … {}{}", std::isfinite(low) ? figure(low) : "open",
+                     std::isfinite(high) ? figure(high) : "open",
+                     kind.key == std::string("ci95") && member(estimate, "ci95_reliable") == false ? " (rough)" : "");
 }
 
 void add_table(Page& page, const Order::Run& run) {
   std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> head{"parameter", "value"};
   const Json& best = member(*run.run, "best");
-  for (const auto& [name, estimate] : member(best, "parameters").items()) {
-    const std::string bound = word(estimate, "at_bound");
-    rows.push_back({{titled(name, word(estimate, "unit"))},
-                    {figure(number(estimate, "value")), true},
-                    {interval_words(estimate)},
-                    {fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))},
-                    {bound.empty() ? "" : "at its " + bound + " bound", false, true}});
+  const Json& parameters = member(best, "parameters");
+  std::vector<Kind> made;
+  for (const Kind& kind : kinds) {
+    bool any = kind.key == std::string("ci95");
+    for (const auto& [name, estimate] : parameters.items()) any = any || member(estimate, kind.key).is_array();
+    if (!any) continue;
+    made.push_back(kind);
+    head.push_back(fmt::format("95 %, {}", kind.name));
   }
-  for (const auto& [name, estimate] : member(*run.run, "fixed").items())
-    rows.push_back(
-        {{titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}, {""}, {""}});
+  head.insert(head.end(), {"bounds", ""});
+  for (const auto& [name, estimate] : parameters.items()) {
+    const std::string bound = word(estimate, "at_bound");
+    auto& row = rows.emplace_back(
+        std::vector<Cell>{{titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}});
+    for (const Kind& kind : made) row.push_back({interval_words(estimate, kind)});
+    row.push_back({fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))});
+    row.push_back({bound.empty() ? "" : "at its " + bound + " bound", false, true});
+  }
+  for (const auto& [name, estimate] : member(*run.run, "fixed").items()) {
+    auto& row = rows.emplace_back(std::vector<Cell>{
+        {titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}});
+    row.resize(head.size());
+  }
   if (rows.empty()) return;
   page.heading(run.label);
-  page.html(table_html({"parameter", "value", "95 % interval", "bounds", ""}, rows));
-  for (const std::string& sentence : words(list(best, "uncertainty"))) page.paragraph(sentence, "muted");
+  page.html(table_html(head, rows));
+  std::vector<std::string> sentences;
+  for (const std::string& sentence : words(list(best, "uncertainty"))) sentences.push_back(capitalised(sentence) + '.');
+  if (!sentences.empty()) page.box("", "What to make of the intervals", sentences, 3);
 }
 
 /// One parameter of a model: value and intervals of its runs, above each other.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace tunica::report {
@@ -61,6 +62,11 @@ std::string joined(const std::vector<std::string>& items) {
   std::string text;
   for (std::size_t k = 0; k < items.size(); ++k)
     text += (k == 0 ? "" : k + 1 < items.size() ? ", " : " and ") + items[k];
+  return text;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
 

@@ -33,6 +33,8 @@ std::string titled(const std::string& name, const std::string& unit);
 std::string chance(double p);
 /// "a, b and c".
 std::string joined(const std::vector<std::string>& items);
+/// With a large first letter, where it is a Latin one.
+std::string capitalised(std::string text);
 /// "one run", "3 runs".
 std::string count_of(std::size_t count, const std::string& one, const std::string& many);
 

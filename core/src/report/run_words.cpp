@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -12,11 +11,6 @@
 namespace tunica::report {
 
 namespace {
-
-std::string capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 struct Scored {
   double r2;
@@ -83,13 +77,18 @@ struct Doubts {
 };
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {
-  std::vector<std::string> bound, loose, unreliable;
+  std::vector<std::string> bound, loose, one_sided, unreliable, fixed;
   for (const auto& [name, estimate] : member(best, "parameters").items()) {
     if (member(estimate, "at_bound").is_string())
       bound.push_back(name);
+    else if (const Json& profile = member(estimate, "profile_ci95"); profile.is_array() && profile.size() == 2)
+      (profile[0].is_null() && profile[1].is_null()   ? loose
+       : profile[0].is_null() || profile[1].is_null() ? one_sided
+                                                      : fixed)
+          .push_back(name);
     else if (member(estimate, "ci95").is_null())
       loose.push_back(name);
-    else if (member(estimate, "ci95_reliable") == false)
+    else if (member(estimate, "ci95_reliable") == false && !member(estimate, "bootstrap_ci95").is_array())
       unreliable.push_back(name);
   }
   if (!bound.empty())
@@ -97,6 +96,9 @@ void parameters_in_doubt(const Json& best, Doubts& doubts) {
                "widen the bounds where physics allows, else doubt the model");
   if (!loose.empty())
     doubts.add(fmt::format("no interval for {}", joined(loose)),
+               "read what the data fix under Parameters, and add the test it names");
+  if (!one_sided.empty())
+    doubts.add(fmt::format("{} limited on one side only", joined(one_sided)),
                "read what the data fix under Parameters, and add the test it names");
   if (!unreliable.empty())
     doubts.add(fmt::format("rough intervals of {}", joined(unreliable)),
@@ -158,7 +160,9 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
           {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
                        figure(number(best, "objective")))}},
          {"How well", fit_words(best)},
-         {"What is wrong", {doubts.wrong.empty() ? "Nothing was found." : capitalised(joined(doubts.wrong)) + '.'}},
+         {"What is wrong",
+          {doubts.wrong.empty() ? "Nothing was found."
+                                : capitalised(fmt::format("{}", fmt::join(doubts.wrong, "; "))) + '.'}},
          {"What to do next", {next_steps(doubts.next)}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))

@@ -17,10 +17,15 @@ void add_words(Page& page, const Folder& folder) {
   page.section("Summary");
   if (const auto warnings = words(list(said, "warnings")); !warnings.empty())
     page.box("bad", warnings.size() == 1 ? "Warning" : fmt::format("{} warnings", warnings.size()), warnings);
+  std::vector<std::string> values;
+  for (const auto& [name, estimate] : member(said, "parameters").items())
+    values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
+  const std::string origin = word(said, "origin");
   const double noise = number(said, "noise");
   page.words(
       {{"What was simulated", fmt::format("{} in {}", word(said, "model"), joined(words(list(said, "tests"))))},
-       {"Parameters", word(said, "origin")},
+       {"Parameters", joined(values)},
+       {"Where from", origin.substr(0, origin.find(": "))},
        {"Noise", noise > 0 ? fmt::format("{:.3g} % of every value, seed {}", 100 * noise, figure(number(said, "seed")))
                            : "none"},
        {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});

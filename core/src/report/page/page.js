@@ -28,6 +28,7 @@
     }
   };
 
+  const spent = () => Math.round(performance.now() - began);
   const start = async () => {
     for (const element of document.querySelectorAll("figure[data-chart]")) {
       try {
@@ -38,11 +39,12 @@
       } catch (problem) {
         fail(element, problem);
       }
+      if (!root.dataset.first && element.getBoundingClientRect().top > innerHeight) root.dataset.first = spent();
       await pause();
     }
     root.dataset.drawn = figures.length;
     root.dataset.failed = failed;
-    root.dataset.milliseconds = Math.round(performance.now() - began);
+    root.dataset.milliseconds = spent();
   };
 
   document.getElementById("theme").addEventListener("click", () => {
