@@ -93,7 +93,9 @@ class Table {
     std::string figures;
     if (verdict.skipped.empty() && (verdict.worst > 0 || verdict.tolerance > 0))
       figures = fmt::format("{:.1e} of {:.0e}", verdict.worst, verdict.tolerance);
-    fmt::print("  {:<11} {:<50} {}\n", outcome(finding), finding.property, figures);
+    std::string line = fmt::format("  {:<11} {}", outcome(finding), finding.property);
+    if (!figures.empty()) line = comparison::pad(line, 64) + " " + figures;
+    fmt::print("{}\n", line);
     constexpr const char* indent = "              ";
     if (!verdict.skipped.empty()) fmt::print("{}\n", hanging(indent, verdict.skipped));
     if (verdict.counter_example.empty()) {
