@@ -46,6 +46,7 @@ void Stages::draw() const {
 void Stages::tell(const std::string& what, double share) {
   if (quiet_ || share >= 1) return;
   const std::lock_guard lock(mutex_);
+  if (share < share_) return;  // what is done a second time, or was told late by another thread
   const bool new_stage = what != what_;
   what_ = what;
   share_ = share;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -47,10 +48,13 @@ class Search {
     }
     for (std::size_t place = 0; place < singles.size(); ++place)
       for (const std::size_t k : far_ones(of_[singles[place].candidate])) jobs.push_back({place, k, far_amplitude(k)});
+    std::atomic<std::size_t> finished = 0;
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
       jobs[j].refitted =
           fit_with(d_, {hypothesis(jobs[j].direction).addition},
                    std::array{jobs[j].amplitude.value_or(start_amplitude(jobs[j].direction))}, catalogue_);
+      const double share = static_cast<double>(++finished) / static_cast<double>(jobs.size());
+      if (d_.settings.progress) d_.settings.progress("fitting the mechanisms", 0.4 + 0.3 * share);
     });
     std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain
     for (Job& job : jobs) {
