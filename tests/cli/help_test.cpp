@@ -56,7 +56,7 @@ TEST(Help, NamesTheVerbsThatExistAndTheExitCodes) {
   const auto ended = trial::tunica({"--help"}, folder.path());
   EXPECT_EQ(ended.code, 0);
   for (const auto& verb : verbs()) EXPECT_THAT(ended.out, HasSubstr("\n  " + verb + " "));
-  EXPECT_THAT(ended.out, HasSubstr("130 interrupted"));
+  EXPECT_THAT(ended.out, HasSubstr("interrupted and resumable"));
   EXPECT_THAT(ended.out, HasSubstr("--plugin-path"));
 }
 
