@@ -87,6 +87,9 @@ class Browser:
         for kind in ("keyDown", "keyUp"):
             self.devtools("Input.dispatchKeyEvent", type=kind, key=name, code=name)
 
+    def pdf(self):
+        return base64.b64decode(self.devtools("Page.printToPDF", printBackground=False, paperWidth=8.27, paperHeight=11.69)["data"])
+
     def screenshot(self, file):
         size = self.devtools("Page.getLayoutMetrics")["cssContentSize"]
         clip = {"x": 0, "y": 0, "width": size["width"], "height": min(size["height"], 12000), "scale": 1}

@@ -112,7 +112,7 @@ def check_use(browser, file, downloads):
     check_quiet(browser, file)
 
 
-def check_theme_and_paper(browser, file):
+def check_theme_and_paper(browser, file, pictures):
     browser.look(1280, "dark")
     browser.open(file)
     paper = "return getComputedStyle(document.body).backgroundColor"
@@ -125,4 +125,8 @@ def check_theme_and_paper(browser, file):
     browser.run("document.getElementById('theme').click()")
     browser.devtools("Emulation.setEmulatedMedia", media="print")
     assert browser.run(paper) == "rgb(255, 255, 255)", "dark on paper"
+    browser.devtools("Emulation.setEmulatedVisionDeficiency", type="achromatopsia")
+    browser.screenshot(pictures / "paper_grey.png")
+    browser.devtools("Emulation.setEmulatedVisionDeficiency", type="none")
+    (pictures / "paper.pdf").write_bytes(browser.pdf())
     browser.devtools("Emulation.setEmulatedMedia", media="screen")

@@ -21,7 +21,8 @@ def look_at(browser, file, name, pictures):
         assert wide <= width, f"{file}: {wide} px wide on a screen of {width}"
         browser.screenshot(pictures / f"{name}_{width}_{scheme}.png")
         if width == 1280:
-            said = f"{name}: {figures} charts of {check_each_kind(browser, file)} kinds in {milliseconds} ms"
+            first = browser.run("return document.documentElement.dataset.first") or milliseconds
+            said = f"{name}: {figures} charts of {check_each_kind(browser, file)} kinds in {milliseconds} ms, the first screen in {first}"
         check_quiet(browser, file)
     print(f"{said}, {file.stat().st_size // 1024} KiB")
 
@@ -45,7 +46,7 @@ def main():
         browser.look(1280, "light")
         lamb = options.output.resolve() / "lamb_aorta/report.html"
         check_use(browser, lamb, downloads)
-        check_theme_and_paper(browser, lamb)
+        check_theme_and_paper(browser, lamb, pictures)
     many = (options.output / "many/report.html").read_text()
     assert "100 of 400 realisations are drawn" in many, "the report of 400 realisations does not say what it leaves out"
     return 0

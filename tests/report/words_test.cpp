@@ -33,7 +33,11 @@ const char* const held_out = R"({
               {"run": "m/b", "rank": 1, "group": "other on in_vivo"}]})";
 
 const char* const named = R"({"provenance": {"seed": 3}, "diagnosis": {"verdict": "named",
-  "causes": [{"id": "crimp", "amplitude": {"name": "stretch", "value": 1.2}}],
+  "causes": [{"id": "crimp", "amplitude": {"name": "stretch", "value": 1.2},
+              "parameter_shifts": [{"parameter": "mu", "unit": "kPa", "without": 10, "with": 11}]},
+             {"id": "second", "amplitude": {"name": "k", "value": 1},
+              "parameter_shifts": [{"parameter": "mu", "unit": "kPa", "without": 10, "with": 11},
+                                   {"parameter": "k1", "unit": "kPa", "without": 0.05, "with": 0.7}]}],
   "noise": [{"test": "strip", "channel": "stress"}, {"test": "strip", "channel": "force"}],
   "base": {"model": "hgo", "rows": 100, "squares": 400, "parameters": {"mu": {"value": 10, "unit": "kPa"}}},
   "scores": [{"id": "other", "score": 5, "p_value": 0.02, "target": null}, {"id": "crimp", "score": 0, "p_value": 1}],
@@ -95,6 +99,14 @@ TEST(Words, OfASimulationSayWhatWasSimulated) {
   for (const char* text : {"<h1>aorta: simulation</h1>", "gho in tube", "mu = 18.7 kPa", "2 % of every value, seed 3",
                            "run &#39;gho/lm&#39; of a/result.json<"})
     EXPECT_THAT(page, HasSubstr(text));
+}
+
+TEST(Words, OfParametersThatTwoCausesShiftTogetherStandOnce) {
+  const trial::Scratch scratch;
+  const std::string page = page_of(scratch, named);
+  EXPECT_THAT(page, HasSubstr(">crimp and second</td><td class=\"\">mu [kPa]</td>"));
+  EXPECT_THAT(page, HasSubstr(">+10 %</td>"));
+  EXPECT_THAT(page, HasSubstr(">× 14</td>"));
 }
 
 TEST(Words, PutTheCauseThatTakesMostFirst) {

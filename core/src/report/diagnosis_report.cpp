@@ -77,18 +77,43 @@ void add_ranking_table(Page& page, const Json& diagnosis) {
   page.html("</details>\n");
 }
 
+/// "+4.5 %", and "× 13.6" where a per cent no longer says much.
+std::string change_words(double before, double after) {
+  if (!std::isfinite(before) || !std::isfinite(after) || before == 0) return "–";
+  const double ratio = after / before;
+  return ratio > 3 ? fmt::format("× {:.3g}", ratio)
+                   : fmt::format("{:+.3g} %", 100 * (after - before) / std::abs(before));
+}
+
+/// Causes that were fitted together shift the parameters together: one row for all of them.
 void add_shifts(Page& page, const Json& diagnosis) {
-  std::vector<std::vector<Cell>> rows;
+  struct Shift {
+    std::vector<std::string> causes;
+    std::vector<Cell> cells;
+  };
+  std::vector<Shift> shifts;
   for (const Json& cause : list(diagnosis, "causes"))
     for (const Json& shift : list(cause, "parameter_shifts")) {
       const double before = number(shift, "without"), after = number(shift, "with");
-      rows.push_back({{word(cause, "id")},
-                      {titled(word(shift, "parameter"), word(shift, "unit"))},
-                      {figure(before), true},
-                      {figure(after), true},
-                      {before != 0 ? fmt::format("{:+.3g} %", 100 * (after - before) / std::abs(before)) : "–", true}});
+      std::vector<Cell> cells{{titled(word(shift, "parameter"), word(shift, "unit"))},
+                              {figure(before), true},
+                              {figure(after), true},
+                              {change_words(before, after), true}};
+      const auto same = std::find_if(shifts.begin(), shifts.end(), [&](const Shift& one) {
+        return std::equal(one.cells.begin(), one.cells.end(), cells.begin(),
+                          [](const Cell& a, const Cell& b) { return a.text == b.text; });
+      });
+      if (same == shifts.end())
+        shifts.push_back({{word(cause, "id")}, std::move(cells)});
+      else
+        same->causes.push_back(word(cause, "id"));
     }
-  if (rows.empty()) return;
+  if (shifts.empty()) return;
+  std::vector<std::vector<Cell>> rows;
+  for (const Shift& one : shifts) {
+    auto& row = rows.emplace_back(std::vector<Cell>{{joined(one.causes)}});
+    row.insert(row.end(), one.cells.begin(), one.cells.end());
+  }
   page.heading("How the parameters shift");
   page.html(table_html({"cause", "parameter", "without", "with", "change"}, rows));
 }

@@ -60,7 +60,7 @@ tunicaReport.specs = (() => {
     if (series.mark === "range")
       for (const edge of ["low", "high"])
         made.push({type: "line", clip: true, from: {data: "s" + k}, encode: {update: {
-          x: scaled.x, y: {scale: "y", field: edge}, stroke: ink, strokeWidth: {value: 0.8},
+          x: scaled.x, y: {scale: "y", field: edge}, stroke: ink, strokeWidth: {value: 0.8}, strokeDash: {value: dash(series.style)},
           defined: {signal: "isValid(datum." + edge + ")"}}}});
     if (["line", "step", "both"].includes(series.mark))
       made.push({type: "line", clip: true, from: {data: "s" + k}, encode: {update: {
