@@ -27,7 +27,7 @@ TEST(Text, WrapsBehindItsLead) {
 TEST(Text, PutsALongLeadOnALineOfItsOwn) {
   const std::string name(22, 'x');
   EXPECT_EQ(hanging("  " + name + ": ", "one two three", 16), "  " + name + ":\n    one two\n    three");
-  EXPECT_EQ(hanging("  " + name + ", rows 3 to 18: ", "one", 30), "  " + name + ",\n  rows 3 to 18:\n    one");
+  EXPECT_EQ(hanging("  " + name + ", rows 3 to 18: ", "one", 30), "  " + name + ", rows\n  3 to 18:\n    one");
   EXPECT_EQ(hanging("  " + name + ": ", "", 16), "  " + name + ": ");
   const std::string blank(22, ' ');
   EXPECT_EQ(hanging(blank, "one two", 16), blank + "one\n" + blank + "two") << "blanks are a column";
