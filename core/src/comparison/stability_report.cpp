@@ -160,8 +160,8 @@ std::string stability_table(const Summary& summary) {
   constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
   width = std::min(width, widest_label);
   std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
-  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", pad("run", width), "imposed",
-                      "objective", "x free", "stable");
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", pad("run", width), "imposed", "objective",
+                      "x free", "stable");
   for (const auto& run : summary.runs) {
     if (!run.stability) continue;
     const auto& found = *run.stability;

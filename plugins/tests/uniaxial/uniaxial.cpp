@@ -58,7 +58,8 @@ class Uniaxial final : public Test {
     for (const auto& column : setup.rows.abscissae)
       if (column.observable == "stretch") strip_.stretch.assign(column.values.begin(), column.values.end());
     strip_.time.assign(setup.rows.time.begin(), setup.rows.time.end());
-    if (strip_.stretch.empty()) throw InputError("uniaxial: no rows, or no column mapped to 'stretch'; map one in \"columns\"");
+    if (strip_.stretch.empty())
+      throw InputError("uniaxial: no rows, or no column mapped to 'stretch'; map one in \"columns\"");
     for (std::size_t i = 0; i < strip_.stretch.size(); ++i)
       if (!(strip_.stretch[i] > 0 && std::isfinite(strip_.stretch[i])))
         throw InputError("uniaxial: row " + std::to_string(i + 1) + " has stretch " +
