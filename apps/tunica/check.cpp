@@ -51,13 +51,18 @@ void print_parameters(const calibration::Assembly& assembly) {
   std::size_t width = 9;
   for (const auto& parameter : assembly.parameters()) width = std::max(width, columns(parameter.name));
   for (const auto& parameter : assembly.fixed_parameters()) width = std::max(width, columns(parameter.name));
+  constexpr std::size_t widest = 28;  // so that a line has 80 columns; longer names stand above it
+  width = std::min(width, widest);
+  const auto cell = [width](const std::string& name) {
+    return columns(name) <= width ? pad(name, width) : fmt::format("{}\n  {}", name, std::string(width, ' '));
+  };
   fmt::print("  {}  {:<6} {:>10} {:>10} {:>10}  scale\n", pad("parameter", width), "unit", "initial", "min", "max");
   for (const auto& parameter : assembly.parameters())
-    fmt::print("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", pad(parameter.name, width), parameter.unit,
+    fmt::print("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", cell(parameter.name), parameter.unit,
                parameter.initial, parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear",
                parameter.prior ? fmt::format(", prior {:g} ± {:g}", parameter.prior->mean, parameter.prior->sd) : "");
   for (const auto& parameter : assembly.fixed_parameters())
-    fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", pad(parameter.name, width), parameter.unit, parameter.value);
+    fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", cell(parameter.name), parameter.unit, parameter.value);
 }
 
 /// Median time of one evaluation, over a fifth of a second at most, s.
