@@ -57,6 +57,7 @@ for verb in $verbs; do
   [[ $verb == plugin ]] && continue  # has verbs of its own
   expect_all "$("$tunica" "$verb" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+' | paste -sd ' ')" "$verb" --
 done
+expect 'check new' plugin ''
 expect '--profiles' run experiment.json --pro
 expect '' run experiment.json --profi=
 
