@@ -43,7 +43,8 @@ std::vector<std::string> words(const Json& list) {
 std::string figure(double value) {
   if (!std::isfinite(value)) return "–";
   const bool whole = value == std::round(value) && std::abs(value) < 1e9;  // counts are not rounded
-  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+  const bool long_enough = std::abs(value) >= 1e4 && std::abs(value) < 1e7;  // 11004 reads better than 1.1e+04
+  return whole || long_enough ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
 std::string share(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "< 0.0001" : fmt::format("{:.3g}", p); }
