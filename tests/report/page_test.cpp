@@ -108,7 +108,7 @@ TEST(Figures, AreShortAndCountsAreWhole) {
   EXPECT_EQ(report::figure(30000), "30000");
   EXPECT_EQ(report::figure(0.123456), "0.1235");
   EXPECT_EQ(report::figure(11003.7), "11004");
-  EXPECT_EQ(report::figure(1.23456e8), "1.235e+08");
+  EXPECT_EQ(report::figure(1.234567e10), "1.235e+10");
   EXPECT_EQ(report::figure(NAN), "–");
   EXPECT_EQ(report::amount(2.5, "kPa"), "2.5 kPa");
   EXPECT_EQ(report::amount(2.5, "1"), "2.5");
