@@ -67,10 +67,9 @@ TEST(WrongModel, WithDeviatoricStressAtRestIsNamed) {
   EXPECT_EQ(failed("stress_at_rest"), Names{"deviatoric_stress_vanishes_at_rest"});
 }
 
-/// Of 200 checks of each on two busy processors none missed, nor of 100 on one: see docs/plugin-check.md.
+/// None of 100 checks missed it on one processor, nor on two: a chance below 3 %, see docs/plugin-check.md.
 TEST(WrongModel, ThatIsNotThreadSafeIsNamed) {
   EXPECT_EQ(failed("unsafe_scratch"), Names{"concurrent_calls_agree"});
-  EXPECT_EQ(failed("unsafe_number"), Names{"concurrent_calls_agree"});
 }
 
 TEST(WrongModel, ThatCrashesIsAFindingAndTheOtherPropertiesAreChecked) {

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/concurrency.hpp"
 
+#include <pthread.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <time.h>
+
 #include <algorithm>
 #include <atomic>
 #include <barrier>
@@ -13,6 +18,47 @@
 #include <vector>
 
 namespace tunica::conformance {
+namespace {
+
+void doze(int) {
+  // The shortest sleep there is: another thread goes on meanwhile.
+  const timespec moment{0, 1};
+  ::nanosleep(&moment, nullptr);
+}
+
+/// As long as it lives, threads that admit the alarm are put to sleep every 70 µs, wherever they are in what they do.
+class Interruptions {
+ public:
+  Interruptions() {
+    ::sigemptyset(&alarm_), ::sigaddset(&alarm_, SIGALRM);
+    ::pthread_sigmask(SIG_BLOCK, &alarm_, &mask_);
+    struct sigaction action {};
+    action.sa_handler = doze, action.sa_flags = SA_RESTART;
+    ::sigaction(SIGALRM, &action, &before_);
+    set(70);
+  }
+  Interruptions(const Interruptions&) = delete;
+  Interruptions& operator=(const Interruptions&) = delete;
+  ~Interruptions() {
+    set(0);
+    // One that is pending still would be for whoever has the signal afterwards.
+    const timespec at_once{0, 0};
+    while (::sigtimedwait(&alarm_, nullptr, &at_once) > 0) continue;
+    ::sigaction(SIGALRM, &before_, nullptr);
+    ::pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  }
+  void admit() const { ::pthread_sigmask(SIG_UNBLOCK, &alarm_, nullptr); }
+
+ private:
+  static void set(int microseconds) {
+    const itimerval every{{0, microseconds}, {0, microseconds}};
+    ::setitimer(ITIMER_REAL, &every, nullptr);
+  }
+  sigset_t alarm_{}, mask_{};
+  struct sigaction before_ {};
+};
+
+}  // namespace
 
 Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds) {
   const std::size_t threads = std::max<std::size_t>(8, 2 * std::thread::hardware_concurrency());
@@ -22,6 +68,7 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
   Race race;
   race.threads = threads;
   std::exception_ptr thrown;
+  const Interruptions interruptions;
   std::barrier begin(static_cast<std::ptrdiff_t>(threads));
   const auto run = [&](std::size_t thread) {
     std::vector<std::size_t> order(count);
@@ -29,6 +76,7 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
     std::mt19937 engine(static_cast<std::uint32_t>(thread));
     std::shuffle(order.begin(), order.end(), engine);
     begin.arrive_and_wait();
+    interruptions.admit();
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     try {
       do {

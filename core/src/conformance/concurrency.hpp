@@ -16,8 +16,9 @@ struct Race {
 };
 
 /// Threads that go through the inputs 0 … count − 1 over and over, each in an order of its own, until one of
-/// `agrees(input)` is false, but for at least `seconds` and a round each. More threads than processors, so that
-/// they are put to sleep amid a call as well as running side by side. What a call throws is thrown here.
+/// `agrees(input)` is false, but for at least `seconds` and a round each. More threads than processors, and an
+/// alarm that puts one of them to sleep every 70 µs wherever it is: so calls are interleaved on one processor too. What
+/// a call throws is thrown here.
 Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agrees, double seconds = 0.4);
 
 }  // namespace tunica::conformance
