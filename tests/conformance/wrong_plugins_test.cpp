@@ -68,9 +68,7 @@ TEST(WrongModel, WithDeviatoricStressAtRestIsNamed) {
 }
 
 /// None of 100 checks missed it on one processor, nor on two: a chance below 3 %, see docs/plugin-check.md.
-TEST(WrongModel, ThatIsNotThreadSafeIsNamed) {
-  EXPECT_EQ(failed("unsafe_scratch"), Names{"concurrent_calls_agree"});
-}
+TEST(WrongModel, ThatIsNotThreadSafeIsNamed) { EXPECT_EQ(failed("unsafe_scratch"), Names{"concurrent_calls_agree"}); }
 
 TEST(WrongModel, ThatCrashesIsAFindingAndTheOtherPropertiesAreChecked) {
   const auto ended = check(wrong("crashing"));
