@@ -22,6 +22,7 @@ constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitud
 constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
 constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
 constexpr std::size_t triples_tried = 6;
+constexpr double short_of = 3;  ///< of ln w: what a score may underrate a refit by
 constexpr double alike = 0.02;  ///< 1 − c² below which two are one
 
 class Search {
@@ -30,7 +31,7 @@ class Search {
          const plugins::Catalogue& catalogue)
       : d_(d), detection_(detection), singles_(singles), catalogue_(catalogue) {}
 
-  std::vector<Group> pairs() {
+  std::vector<Group> pairs(double floor) {
     const std::vector<std::size_t> pool = pool_of(singles_.front());
     std::vector<Group> groups;
     for (std::size_t i = 0; i < pool.size(); ++i)
@@ -43,6 +44,7 @@ class Search {
     std::erase_if(groups, [&](const Group& group) { return ++seen[candidates_of(group)] > 2; });
     groups.resize(std::min(groups.size(), d_.settings.quick ? quick_pairs : full_pairs));
     add_beside_singles(groups);
+    std::erase_if(groups, [&](const Group& group) { return group.linear_gain / 2 < floor - short_of; });
     return refitted(std::move(groups));
   }
 
@@ -114,7 +116,8 @@ class Search {
     for (const Single& single : singles_) {
       if (!single.best || used++ >= beside) break;
       const std::size_t k = single.direction;
-      Group alone{{k}, {hypothesis(k).addition}, {amplitude_of(*single.best)}, 0, 0, std::nullopt, nullptr};
+      const double gain = d_.fit.chi2 - single.best->fit.chi2 + 2 * log_prior(d_, k);
+      Group alone{{k}, {hypothesis(k).addition}, {amplitude_of(*single.best)}, gain, 0, std::nullopt, nullptr};
       extend(alone, *single.best, beside, groups, seen);
     }
   }
@@ -131,6 +134,7 @@ class Search {
       Group more = group;
       more.refitted.reset();
       more.begun_from = from;
+      more.linear_gain += T + 2 * log_prior(d_, k);
       more.directions.push_back(k), more.additions.push_back(hypothesis(k).addition);
       more.amplitudes.push_back(amplitude);
       if (seen.insert(candidates_of(more)).second) onto.push_back(std::move(more));
@@ -230,8 +234,8 @@ double log_odds_of_pair(std::size_t candidates) {
 }
 
 std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
-                             const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, singles, catalogue).pairs();
+                             double floor, const plugins::Catalogue& catalogue) {
+  return Search(diagnosis, detection, singles, catalogue).pairs(floor);
 }
 
 std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, std::span<const Group> pairs,

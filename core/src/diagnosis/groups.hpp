@@ -20,9 +20,10 @@ struct Group {
 };
 
 /// All pairs in the linearisation, the best of them at finite amplitude; best first. A forward search would stay with
-/// the best single mechanism, which often belongs to no pair.
+/// the best single mechanism, which often belongs to no pair. Pairs that by their scores stay well below the weight
+/// `floor` are not fitted.
 std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
-                             const plugins::Catalogue& catalogue);
+                             double floor, const plugins::Catalogue& catalogue);
 
 /// The best pairs with a third that explains most of what they leave, and what could stand for each of the three; best
 /// first, empty where no third is needed.

@@ -30,11 +30,11 @@ class Naming {
     if (!singles_.front().best) return unexplained("no mechanism could be fitted at finite amplitude");
     rank();
     const double p_one = p_of_rest(*singles_.front().best);
-    groups_ = fit_pairs(d_, detection_, singles_, catalogue_);
     // Where one may be enough, two must be worth their price.
-    if (p_one > second_alpha && !groups_.empty() &&
-        groups_.front().log_weight + log_odds_of_pair(singles_.size()) < singles_.front().log_weight)
-      groups_.clear();
+    const double floor =
+        p_one > second_alpha ? singles_.front().log_weight - log_odds_of_pair(singles_.size()) : -INFINITY;
+    groups_ = fit_pairs(d_, detection_, singles_, floor, catalogue_);
+    if (!groups_.empty() && groups_.front().log_weight < floor) groups_.clear();
     if (groups_.empty()) {
       one(p_one);
       return p_one > second_alpha ? judge() : not_clean();

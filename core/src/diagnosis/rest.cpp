@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/rest.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "diagnosis/causes.hpp"
+#include "diagnosis/squares.hpp"
 
 namespace tunica::diagnosis {
 
@@ -18,7 +20,7 @@ double p_of_rest(const Diagnosis& d, const Refitted& refitted, const Shapes& sha
         });
   const std::vector<Direction> directions_left = directions(others, projection);
   const Detection detection(projection, directions_left, others.size(), shapes, draws);
-  return detection.judge(-refitted.fit.residuals).p;
+  return std::min(detection.judge(-refitted.fit.residuals).p, p_of_squares(d, refitted.fit));
 }
 
 }  // namespace tunica::diagnosis
