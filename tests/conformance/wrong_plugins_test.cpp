@@ -67,7 +67,7 @@ TEST(WrongModel, WithDeviatoricStressAtRestIsNamed) {
   EXPECT_EQ(failed("stress_at_rest"), Names{"deviatoric_stress_vanishes_at_rest"});
 }
 
-/// None of 100 checks missed it on one processor, nor on two: a chance below 3 %, see docs/plugin-check.md.
+/// None of 500 checks missed it on one processor, nor on two: a chance below 0.6 %, see docs/plugin-check.md.
 TEST(WrongModel, ThatIsNotThreadSafeIsNamed) { EXPECT_EQ(failed("unsafe_scratch"), Names{"concurrent_calls_agree"}); }
 
 TEST(WrongModel, ThatCrashesIsAFindingAndTheOtherPropertiesAreChecked) {
