@@ -93,6 +93,7 @@ TEST_F(Fields, OfWhichCheckComparesTheSimulationWithOthers) {
 TEST_F(Fields, OfTheBestPointComeWithEveryRun) {
   bench.experiment["models"]["gho"]["parameters"]["mu"] = {{"initial", 18.668}};
   bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "lm"}, {"tests", {"tube"}}}};
+  bench.experiment["tests"]["tube"]["data"]["noise"] = {{"absolute", 0.001}};
   bench.experiment["stop"] = {{"max_evaluations", 3}};
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   ASSERT_LE(ended.code, 1) << ended.err;

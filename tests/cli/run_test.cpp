@@ -33,7 +33,8 @@ TEST(Run, WritesEverythingItPromises) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + neo["evaluations"].get<long>() + 1800);
   const auto fit = bench.text("out/fit_circ.csv");
   EXPECT_EQ(fit.substr(0, fit.find('\n')),
-            "run,stretch [1],stress [kPa],stress.predicted [kPa],held_out,transverse_stretch,normal_stretch");
+            "run,stretch [1],stress [kPa],stress.predicted [kPa],held_out,transverse_stretch,normal_stretch,"
+            "stress.ci95 [kPa],stress.lowest [kPa],stress.highest [kPa]");
   EXPECT_EQ(std::count(fit.begin(), fit.end(), '\n'), 1 + 2 * 20);
 }
 
