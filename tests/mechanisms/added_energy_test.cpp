@@ -67,10 +67,10 @@ TEST(AddedEnergy, AddsTheSameToAModelThatExposesNoParts) {
     const auto added = [&](const std::string& type, std::vector<double> parameters) {
       const auto bare = model(type), with = wrapped(mechanism, model(type));
       EXPECT_EQ(with->describe().principal_axes, bare->describe().principal_axes);
-      const Response without = evaluate(*bare, C, parameters, {.stress_dp = true});
+      const testing::Response without = evaluate(*bare, C, parameters, {.stress_dp = true});
       parameters.push_back(7);
       if (with->describe().parameters.size() > parameters.size()) parameters.push_back(0.7);
-      Response sum = evaluate(*with, C, parameters, {.stress_dp = true});
+      testing::Response sum = evaluate(*with, C, parameters, {.stress_dp = true});
       for (std::size_t k = 0; k < without.stress_dp.size(); ++k) EXPECT_EQ(sum.stress_dp[k], without.stress_dp[k]);
       sum.stress_dp.erase(sum.stress_dp.begin(),
                           sum.stress_dp.begin() + static_cast<std::ptrdiff_t>(without.stress_dp.size()));
@@ -79,7 +79,7 @@ TEST(AddedEnergy, AddsTheSameToAModelThatExposesNoParts) {
       for (std::size_t k = 0; k < sum.tangent.size(); ++k) sum.tangent[k] -= without.tangent[k];
       return sum;
     };
-    const Response a = added("ogden", of_ogden), b = added("hgo", of_hgo);
+    const testing::Response a = added("ogden", of_ogden), b = added("hgo", of_hgo);
     const auto close = [&](const std::vector<double>& x, const std::vector<double>& y) {
       ASSERT_EQ(x.size(), y.size());
       for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], y[k], 1e-9 * (1 + std::abs(y[k]))) << mechanism;
@@ -91,9 +91,9 @@ TEST(AddedEnergy, AddsTheSameToAModelThatExposesNoParts) {
 TEST(AddedEnergy, LeavesAModelThatExposesNoPartsAsItIsAtTheNullBitForBit) {
   const std::vector<double> C = random_deformations(40, 12);
   std::vector<double> parameters{630, 1.3, 1.2, 5, -10, -2};
-  const Response bare = evaluate(*model("ogden"), C, parameters);
+  const testing::Response bare = evaluate(*model("ogden"), C, parameters);
   parameters.push_back(0);
-  const Response with = evaluate(*wrapped("second_invariant", model("ogden")), C, parameters);
+  const testing::Response with = evaluate(*wrapped("second_invariant", model("ogden")), C, parameters);
   EXPECT_EQ(with.energy, bare.energy);
   EXPECT_EQ(with.stress, bare.stress);
   EXPECT_EQ(with.tangent, bare.tangent);
