@@ -94,11 +94,12 @@ TEST(Words, OfASimulationSayWhatWasSimulated) {
   const trial::Scratch scratch;
   scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n1,2\n");
   scratch.write("simulation.json", R"({"name": "aorta", "model": "gho", "tests": ["tube"], "seed": 3, "noise": 0.02,
-      "parameters": {"mu": {"value": 18.7, "unit": "kPa"}}, "origin": "run 'gho/lm' of a/result.json: mu = 18.7 kPa"})");
+      "parameters": {"mu": {"value": 18.7, "unit": "kPa"}, "tube.error": {"value": 0, "unit": "1"}}, "origin": "run 'gho/lm' of a/result.json: mu = 18.7 kPa"})");
   const std::string page = report::report({scratch.path()}, scratch.path());
   for (const char* text : {"<h1>aorta: simulation</h1>", "gho in tube", "mu = 18.7 kPa", "2 % of every value, seed 3",
                            "run &#39;gho/lm&#39; of a/result.json<"})
     EXPECT_THAT(page, HasSubstr(text));
+  EXPECT_THAT(page, Not(HasSubstr("tube.error")));
 }
 
 TEST(Words, OfParametersThatTwoCausesShiftTogetherStandOnce) {
