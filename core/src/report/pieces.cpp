@@ -42,7 +42,7 @@ std::vector<std::string> words(const Json& list) {
 
 std::string figure(double value) {
   if (!std::isfinite(value)) return "–";
-  const bool whole = value == std::round(value) && std::abs(value) < 1e9;  // counts are not rounded
+  const bool whole = value == std::round(value) && std::abs(value) < 1e9;    // counts are not rounded
   const bool long_enough = std::abs(value) >= 1e4 && std::abs(value) < 1e7;  // 11004 reads better than 1.1e+04
   return whole || long_enough ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
