@@ -46,7 +46,7 @@ TEST_F(Messages, NameMissingKeys) {
       "the key 'type' is missing in test 'circumferential_strip' (/tests/circumferential_strip, line 15, column 5)");
   expect_within(refusal(R"("direction": "circumferential",)", ""),
                 "the option 'direction' is missing in test 'circumferential_strip' (/tests/circumferential_strip, line "
-                "15, column 5). The loading axis");
+                "15, column 5). Add it. The loading axis");
   expect_within(refusal(R"("file": "circ.csv",)", ""),
                 "the key 'file' is missing in the data of test 'circumferential_strip'");
   expect_within(refusal(R"("columns": {"stretch": "stretch", "stress": "stress"},)", ""),
