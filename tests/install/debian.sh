@@ -27,6 +27,8 @@ debootstrap --variant=minbase bookworm "$root" "$mirror" >"$work/debootstrap.log
 cp -r /etc/apt/. "$root/etc/apt/"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$work"/*.deb "$root/tmp/"
+mount -t proc proc "$root/proc"  # where a program finds its own place, and so its plugins
+trap 'umount "$root/proc"' EXIT
 
 say "the program alone, without a compiler"
 chroot "$root" bash -euc 'export DEBIAN_FRONTEND=noninteractive
