@@ -2,6 +2,7 @@
 #include "diagnosis/squares.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <boost/math/distributions/chi_squared.hpp>
 
@@ -14,9 +15,9 @@ double p_of_squares(const Diagnosis& diagnosis, const Fit& fit) {
   const bool known = std::all_of(diagnosis.noise.begin(), diagnosis.noise.end(),
                                  [](const NoiseSource& source) { return source.kind == NoiseSource::Kind::stated; });
   const double freedom = static_cast<double>(fit.residuals.size() - interior(fit).cols());
-  if (!known || freedom < 1) return 1;
-  const double p =
-      boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), fit.residuals.squaredNorm()));
+  const double squares = fit.residuals.squaredNorm();
+  if (!known || freedom < 1 || !std::isfinite(squares)) return 1;
+  const double p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), squares));
   return p < beyond_doubt ? p : 1;
 }
 
