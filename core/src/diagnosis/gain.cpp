@@ -94,6 +94,7 @@ double predictive_p(const Prediction& prediction, const std::vector<Eigen::Index
   const Eigen::VectorXd r = prediction.residuals(out);
   const Eigen::MatrixXd total = Eigen::MatrixXd::Identity(r.size(), r.size()) + J_out * covariance * J_out.transpose();
   const double chi2 = r.dot(total.ldlt().solve(r));
+  if (!std::isfinite(chi2)) return 0;  // the extension, fitted without the block, has no prediction for it
   return boost::math::cdf(
       boost::math::complement(boost::math::chi_squared(static_cast<double>(r.size())), std::max(chi2, 0.0)));
 }
