@@ -105,6 +105,13 @@ TEST(Scorer, TakesNamingOfGrossErrorsThatAreThereForNoAlarm) {
   contaminated.verdict.causes.back().id = "active_tone";
   EXPECT_TRUE(judged(contaminated).detected());
   EXPECT_EQ(judged(contaminated).causes.size(), 1U);
+  // Two that are named together, the second of them the gross errors, and a rival: one is named.
+  Cause rival = contaminated.verdict.causes.back();
+  rival.id = "tethering";
+  std::swap(contaminated.verdict.causes[0], contaminated.verdict.causes[1]);
+  contaminated.verdict.causes.push_back(rival);
+  contaminated.verdict.together = 2;
+  EXPECT_EQ(judged(contaminated).together, 1U);
 }
 
 TEST(Scorer, CountsANameByItselfOrWithADeclaredLookAlikeThatTheDataCannotTellApart) {

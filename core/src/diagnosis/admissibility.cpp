@@ -10,11 +10,13 @@
 
 #include "comparison/stability_report.hpp"
 #include "diagnosis/causes.hpp"
-#include "diagnosis/groups.hpp"
 #include "diagnosis/refits.hpp"
+#include "diagnosis/singles.hpp"
 
 namespace tunica::diagnosis {
 namespace {
+
+constexpr double as_good = 6;  ///< of |r|², and of 2 ln w
 
 struct Found {
   std::optional<bool> stable;
@@ -92,7 +94,7 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
     }
   });
   std::erase_if(trials, [&](const Trial& trial) {
-    return !trial.refitted || !trial.stable || trial.chi2 > d.fit.chi2 + set_width;
+    return !trial.refitted || !trial.stable || trial.chi2 > d.fit.chi2 + as_good;
   });
   // The least extension: of those that mend it the ones with the fewest parameters, for the misfit is the lost
   // stability, and what a further parameter does for the fit says nothing about that.
@@ -118,7 +120,7 @@ void name_admissible_extension(Diagnosis& d, const plugins::Catalogue& catalogue
   for (const Trial& trial : trials) logs.push_back(trial.log_weight);
   const double all = log_sum(logs);
   for (const Trial& trial : trials) {
-    if (2 * (trials.front().log_weight - trial.log_weight) > set_width) continue;
+    if (2 * (trials.front().log_weight - trial.log_weight) > as_good) continue;
     Cause cause = cause_of(d, *trial.refitted, 0, d.directions[trial.direction], catalogue);
     cause.p_value = d.detection.by_candidate[trial.candidate];
     cause.probability = std::exp(trial.log_weight - all);

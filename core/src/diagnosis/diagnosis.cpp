@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -96,32 +98,27 @@ Judgement judge(Diagnosis& d, const plugins::Catalogue& catalogue) {
   return judgement;
 }
 
-}  // namespace
-
-Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& settings,
-                   const plugins::Catalogue& catalogue) {
+/// The diagnosis without these rows, as far as whether the base fit raises the alarm.
+std::pair<Diagnosis, Judgement> without(const std::vector<GrossRow>& rows, const experiment::Experiment& experiment,
+                                        const Settings& settings, const plugins::Catalogue& catalogue) {
   Diagnosis d;
   d.settings = settings;
   prepare(d, experiment, catalogue);
+  if (!rows.empty()) leave_out(d, rows, catalogue);
   Judgement judgement = judge(d, catalogue);
-  std::vector<GrossRow> gross;
-  if (judgement.alarm) gross = gross_rows(d);
-  if (!gross.empty()) {
-    Diagnosis without;
-    without.settings = settings;
-    prepare(without, experiment, catalogue);
-    leave_out(without, gross, catalogue);
-    Judgement rest = judge(without, catalogue);
-    // Where something is wrong with the other rows too, the gross ones would only be in its way.
-    if (rest.alarm) d = std::move(without), judgement = std::move(rest), gross.clear();
-  }
+  return {std::move(d), std::move(judgement)};
+}
+
+/// What the alarm is about, and what explains it. `gross`: rows that are the only thing wrong.
+void explain(Diagnosis& d, const Judgement& judgement, const std::vector<GrossRow>& gross,
+             const plugins::Catalogue& catalogue) {
   if (judgement.alarm) d.alarm_factor = alarm_factor(d, *judgement.detection);
   d.misfit = misfits(d);
   d.detectable = detectable(d, *judgement.detection);
   judge_admissibility(d);
 
   // What is no material is wrong however well it fits, where the user asks for it.
-  const bool inadmissible = settings.admissibility && d.admissibility.stable == false;
+  const bool inadmissible = d.settings.admissibility && d.admissibility.stable == false;
   const bool alarm = judgement.alarm;
   if (alarm || inadmissible) report(d, "fitting the mechanisms", 0.4);
   if (inadmissible) name_admissible_extension(d, catalogue);
@@ -131,6 +128,27 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   if (!alarm && !inadmissible)
     d.reasons.push_back(
         fmt::format("what is left over could be noise (p = {:.2g})", d.p_refits.value_or(d.detection.p)));
+  d.left_out = causes_of_rows(d, catalogue);
+}
+
+}  // namespace
+
+Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& settings,
+                   const plugins::Catalogue& catalogue) {
+  auto [d, judgement] = without({}, experiment, settings, catalogue);
+  std::vector<GrossRow> gross;
+  if (judgement.alarm) gross = gross_rows(d);
+  if (!gross.empty()) {
+    auto [clean, rest] = without(gross, experiment, settings, catalogue);
+    // Where something is wrong with the other rows too, the gross ones would only be in its way.
+    if (rest.alarm) d = std::move(clean), judgement = std::move(rest), gross.clear();
+  }
+  explain(d, judgement, gross, catalogue);
+  // Rows that the causes explain were no gross errors.
+  if (const auto rows = still_gross(d); rows.size() < d.gross.size()) {
+    std::tie(d, judgement) = without(rows, experiment, settings, catalogue);
+    explain(d, judgement, {}, catalogue);
+  }
   if (d.extension) {
     report(d, "gain on rows that were not fitted", 0.7);
     measure_gain(d);
@@ -142,7 +160,7 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
   report(d, "the next experiment", 0.9);
   d.next = next_experiment(d, catalogue);
   report(d, "done", 1);
-  return d;
+  return std::move(d);
 }
 
 }  // namespace tunica::diagnosis

@@ -135,6 +135,7 @@ struct Diagnosis {
   std::vector<Misfit> misfit;
   std::vector<GrossRow> gross;  ///< rows that were left out of everything
   std::vector<Cause> causes;    ///< of the best explanation first, then rivals
+  std::vector<Cause> left_out;  ///< gross rows that the extension takes out beside its causes
   std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm
   std::size_t named = 0;        ///< how many of the causes make up the best explanation
   std::vector<std::string> ambiguity_set;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -80,6 +81,14 @@ const char* word(NoiseSource::Kind kind) {
                                                  : "differences";
 }
 
+/// Those that make up the best explanation, the gross rows beside them, then rivals.
+std::vector<Cause> all_causes(const Diagnosis& d) {
+  std::vector<Cause> all = d.causes;
+  const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(d.named, all.size()));
+  all.insert(end, d.left_out.begin(), d.left_out.end());
+  return all;
+}
+
 }  // namespace
 
 json diagnosis_json(const Diagnosis& d) {
@@ -92,7 +101,7 @@ json diagnosis_json(const Diagnosis& d) {
                       {"from", one.from},
                       {"to", one.to},
                       {"p_value", one.p_value}});
-  for (const Cause& cause : d.causes) causes.push_back(cause_json(cause));
+  for (const Cause& cause : all_causes(d)) causes.push_back(cause_json(cause));
   for (const auto& [one, other] : d.alternatives) alternatives.push_back({one, other});
   for (const Detectable& one : d.detectable)
     detectable.push_back({{"id", one.id},
@@ -141,6 +150,7 @@ json diagnosis_json(const Diagnosis& d) {
     json mechanisms = json::array();
     for (const Addition& addition : d.extension->additions)
       mechanisms.push_back({{"type", addition.id}, {"target", target_json(addition.target)}});
+    for (const Cause& row : d.left_out) mechanisms.push_back({{"type", row.id}, {"target", target_json(row.target)}});
     extension = {{"mechanisms", std::move(mechanisms)}, {"experiment", "extended.json"}};
   }
   json result = {{"verdict", name_of(d.verdict)},

@@ -27,6 +27,7 @@ std::string verdict_line(const Diagnosis& d) {
     case Verdict::named: {
       std::vector<std::string> ids;
       for (std::size_t k = 0; k < d.named; ++k) ids.push_back(d.causes[k].id);
+      for (const Cause& row : d.left_out) ids.push_back(fmt::format("{} {}", row.id, row.target.words()));
       return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
     }
     case Verdict::indistinguishable:
@@ -115,8 +116,10 @@ std::string summary(const Diagnosis& d) {
       where.push_back(fmt::format("{}, {}: {}", d.misfit[k].test, d.misfit[k].channel, d.misfit[k].where));
     line("Wrong:    ", fmt::format("{}", fmt::join(where, "; ")));
   }
-  for (std::size_t k = 0; k < std::min(d.named, d.causes.size()); ++k) {
-    const Cause& cause = d.causes[k];
+  std::vector<Cause> together(d.causes.begin(),
+                              d.causes.begin() + static_cast<std::ptrdiff_t>(std::min(d.named, d.causes.size())));
+  together.insert(together.end(), d.left_out.begin(), d.left_out.end());
+  for (const Cause& cause : together) {
     const std::string interval = std::isfinite(cause.amplitude.low)
                                      ? fmt::format(" ({:.3g} … {:.3g})", cause.amplitude.low, cause.amplitude.high)
                                      : std::string();

@@ -72,21 +72,16 @@ std::string optimizer_of(Experiment& experiment, const std::string& asked, const
   return "lm";
 }
 
-/// A gross row that was left out gets a shift of its own, which leaves it out of a run as well. A test takes one such
-/// mechanism; where it has more gross rows, the run sees the others.
+/// A gross row that was left out gets a shift of its own, which leaves it out of a run as well.
 void add_gross_rows(Experiment& experiment, const Diagnosis& d, const plugins::Catalogue& catalogue) {
-  const auto outliers = catalogue.mechanisms().find("outliers");
-  if (outliers == catalogue.mechanisms().end()) return;
-  for (const GrossRow& row : d.gross)
+  for (const Cause& row : d.left_out)
     for (auto& test : experiment.tests) {
-      const bool there = std::any_of(test.mechanisms.begin(), test.mechanisms.end(),
-                                     [](const MechanismEntry& entry) { return entry.type == "outliers"; });
-      if (test.name != row.test || there) continue;
-      MechanismEntry entry{"outliers", {}, {}};
-      for (const Option& option : outliers->second.factory.options)
+      if (test.name != row.target.tests.front()) continue;
+      MechanismEntry entry{row.id, {}, {}};
+      for (const Option& option : catalogue.mechanisms().at(row.id).factory.options)
         if (option.fallback) entry.options.set(option.name, *option.fallback);
-      entry.options.set("channel", row.channel);
-      entry.options.set("rows", fmt::format("{}:{}:1", row.row, row.row + 1));
+      entry.options.set("channel", row.target.channel);
+      entry.options.set("rows", fmt::format("{}:{}:1", *row.target.row, *row.target.row + 1));
       test.mechanisms.push_back(std::move(entry));
     }
 }
@@ -137,19 +132,13 @@ void warn_of_run(Diagnosis& d, std::vector<GrossRow> gross, const plugins::Catal
           fmt::format("a run of extended.json takes relative noise as a share of the measured values, and not of the "
                       "smoothed fit as the diagnosis does: |r|² of the same fit is {:.5g} there, {:.5g} here",
                       run, fit.chi2));
-  // One gross row of a test is taken out by a mechanism: one that is named, or else the first.
+  // One gross row of a test is taken out by a mechanism.
   if (gross.empty()) gross = d.gross;
-  std::vector<std::string> taken, left;
-  for (const Addition& addition : d.extension->additions)
-    if (addition.target.row) taken.push_back(addition.target.tests.front());
+  std::vector<std::string> left;
   for (const GrossRow& row : gross) {
-    const bool named = std::any_of(d.extension->additions.begin(), d.extension->additions.end(), [&](const auto& one) {
-      return one.target.row == row.row && one.target.tests.front() == row.test && one.target.channel == row.channel;
-    });
-    if (named) continue;
-    if (std::find(taken.begin(), taken.end(), row.test) == taken.end() && !d.gross.empty())
-      taken.push_back(row.test);
-    else
+    const auto is_it = [&](const auto& one) { return one.target == Target{{row.test}, row.channel, row.row}; };
+    const auto& added = d.extension->additions;
+    if (std::none_of(added.begin(), added.end(), is_it) && std::none_of(d.left_out.begin(), d.left_out.end(), is_it))
       left.push_back(fmt::format("row {} of {}, {}", row.row, row.test, row.channel));
   }
   if (!left.empty())

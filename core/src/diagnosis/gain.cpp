@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <boost/math/distributions/chi_squared.hpp>
 
 namespace tunica::diagnosis {
@@ -61,6 +59,7 @@ struct Prediction {
   bool ok = false;
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
+  double chi2 = 0;  ///< |r|² of the rows that were fitted
 };
 
 Prediction predict(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
@@ -70,6 +69,7 @@ Prediction predict(const calibration::Assembly& assembly, const std::vector<Vari
   Prediction prediction;
   Eigen::MatrixXd all;
   if (!fit.status.ok() || !whitened(assembly, fit.free, *workspace, prediction.residuals, &all).ok()) return prediction;
+  prediction.chi2 = fit.chi2;
   prediction.jacobian.setZero(all.rows(), static_cast<Eigen::Index>(variables.size()));
   for (std::size_t k = 0; k < variables.size(); ++k) {
     if (fit.at_bound[k]) continue;  // it says nothing, and leaves a column of zeros
@@ -84,19 +84,16 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
   return r(rows).norm() / std::sqrt(static_cast<double>(rows.size()));
 }
 
-double predictive_p(const Prediction& prediction, const std::vector<Eigen::Index>& out,
-                    const std::vector<Eigen::Index>& in) {
-  Eigen::MatrixXd J = prediction.jacobian;
-  for (Eigen::Index k = 0; k < J.cols(); ++k)
-    if (const double length = J(in, k).norm(); length > 0) J.col(k) /= length;
-  const Eigen::MatrixXd J_in = J(in, Eigen::all), J_out = J(out, Eigen::all);
-  const Eigen::MatrixXd covariance = (J_in.transpose() * J_in).completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::VectorXd r = prediction.residuals(out);
-  const Eigen::MatrixXd total = Eigen::MatrixXd::Identity(r.size(), r.size()) + J_out * covariance * J_out.transpose();
-  const double chi2 = r.dot(total.ldlt().solve(r));
-  if (!std::isfinite(chi2)) return 0;  // the extension, fitted without the block, has no prediction for it
+/// P-value of a block of n rows under the extension, uncertainty of the parameters included (Chow, Econometrica 28:591,
+/// 1960): by as much as |r|² of the other rows falls when the block is left out the block disagrees with them,
+///
+///   |r|² of all − |r|² of the others, each at its own fit  ~  χ²(n)
+///
+/// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands where
+/// a prediction by exponentials has no linear error.
+double predictive_p(double all, double others, std::size_t n) {
   return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(static_cast<double>(r.size())), std::max(chi2, 0.0)));
+      boost::math::complement(boost::math::chi_squared(static_cast<double>(n)), std::max(all - others, 0.0)));
 }
 
 /// Whether the rows that are fitted show the amplitudes of the extension.
@@ -130,7 +127,7 @@ void measure_gain(Diagnosis& d) {
         predict(extension.extended->assembly(), extension.extended->variables(), extension.fit.free, blocks[b].counted);
     if (!before.ok || !after.ok || !shows(after, extension, in)) return;
     found[b] = HeldOut{blocks[b].name, root_mean_square(before.residuals, out), root_mean_square(after.residuals, out),
-                       predictive_p(after, out, in), out.size()};
+                       predictive_p(extension.fit.chi2, after.chi2, out.size()), out.size()};
   });
   for (auto& block : found)
     if (block) gain.held_out.push_back(std::move(*block));

@@ -4,16 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <boost/math/distributions/normal.hpp>
 
 #include "diagnosis/causes.hpp"
+#include "diagnosis/noise_statement.hpp"
 #include "diagnosis/refits.hpp"
 
 namespace tunica::diagnosis {
 namespace {
 
+constexpr const char* outliers = "outliers";  ///< the mechanism
 constexpr double gross_score = 16, gross_contrast = 4;
 constexpr Eigen::Index most = 30;          ///< one row in so many
 constexpr std::size_t most_of_curve = 10;  ///< one of a curve in so many, or one: more are a shape
@@ -71,6 +76,71 @@ void leave_out(Diagnosis& d, const std::vector<GrossRow>& rows, const plugins::C
   d.gross.insert(d.gross.end(), rows.begin(), rows.end());
   d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
   d.warnings.push_back(fmt::format("left out as gross errors: {}; look at them in residuals.csv", words(rows)));
+}
+
+std::vector<GrossRow> taken_out(const Diagnosis& d) {
+  std::vector<GrossRow> rows;
+  std::set<std::string> taken;
+  if (d.extension)
+    for (const auto& test : d.extension->extended->experiment().tests)
+      for (const auto& mechanism : test.mechanisms)
+        if (mechanism.type == outliers) taken.insert(test.name);
+  for (const GrossRow& row : d.gross)
+    if (taken.insert(row.test).second) rows.push_back(row);
+  return rows;
+}
+
+namespace {
+
+/// Where a row lies from what the extension predicts, and its σ, in the unit of its channel.
+struct Away {
+  double value = 0, sd = 1;
+  std::string unit;
+};
+std::optional<Away> away(const Diagnosis& d, const GrossRow& row) {
+  const calibration::Assembly& assembly = d.extension->extended->assembly();
+  std::vector<double> predicted(assembly.prediction_count());
+  if (!assembly.predict(d.extension->fit.free, predicted, {}, *assembly.make_workspace()).ok()) return std::nullopt;
+  for (const calibration::ChannelView& view : assembly.channels()) {
+    if (view.test != row.test || view.observable != row.channel) continue;
+    const auto before = static_cast<std::size_t>(
+        std::count(view.fitted.begin(), view.fitted.begin() + static_cast<std::ptrdiff_t>(row.row), true));
+    return Away{view.measured[row.row] - predicted[view.offset + row.row], row_deviations(view)[before], view.unit};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<GrossRow> still_gross(const Diagnosis& d) {
+  std::vector<GrossRow> rows = d.gross;
+  if (d.extension)
+    std::erase_if(rows, [&](const GrossRow& row) {
+      const auto found = away(d, row);
+      return found && found->value * found->value < gross_score * found->sd * found->sd;
+    });
+  return rows;
+}
+
+std::vector<Cause> causes_of_rows(const Diagnosis& d, const plugins::Catalogue& catalogue) {
+  const auto found = catalogue.mechanisms().find(outliers);
+  if (!d.extension || found == catalogue.mechanisms().end()) return {};
+  const MechanismFactory& mechanism = found->second.factory;
+  const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
+  std::vector<Cause> causes;
+  for (const GrossRow& row : taken_out(d)) {
+    const auto far = away(d, row);
+    if (!far) continue;
+    const double value = far->value, half = quantile * far->sd;
+    Cause cause;
+    cause.id = outliers, cause.target = {{row.test}, row.channel, row.row};
+    cause.amplitude = {mechanism.parameters.front().name, far->unit, value, value - half, value + half, false, true};
+    cause.probability = 1, cause.p_value = std::erfc(std::abs(value) / far->sd / std::sqrt(2.0));
+    cause.retained = 1, cause.gain = value * value / (far->sd * far->sd);
+    explain(cause, mechanism);
+    causes.push_back(std::move(cause));
+  }
+  return causes;
 }
 
 void name_gross_rows(Diagnosis& d, const std::vector<GrossRow>& rows, const plugins::Catalogue& catalogue) {

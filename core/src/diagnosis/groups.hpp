@@ -30,10 +30,9 @@ std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detect
 std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, std::span<const Group> pairs,
                                const plugins::Catalogue& catalogue);
 
-/// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md.
-constexpr double set_width = 6;  ///< of 2 ln w
-/// Residuals that have been explained by one mechanism are looked at again below this p-value, and another is accepted
-/// with fewer false alarms than the other.
+/// Calibrated on the development seed of the blind benchmark, see docs/diagnosis.md. Residuals that have been explained
+/// by one mechanism are looked at again below this p-value, and another is accepted with fewer false alarms than the
+/// other.
 constexpr double look_again = 0.03, second_alpha = 0.01;
 
 /// ln of the odds that two mechanisms are at work and not one, before the data, for each pair against each single one

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "diagnosis/causes.hpp"
+#include "diagnosis/credible.hpp"
 #include "diagnosis/groups.hpp"
-#include "diagnosis/squares.hpp"
+#include "diagnosis/rest.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -64,27 +64,8 @@ class Naming {
     return d_.candidates[d_.directions[direction].candidate].id;
   }
 
-  /// What is left with the additions, as a test among all that was not added.
-  struct Rest {
-    std::vector<Candidate> others;
-    std::vector<Direction> directions;
-    std::unique_ptr<Detection> detection;
-  };
-  [[nodiscard]] Rest rest_of(const Refitted& refitted) const {
-    const Projection projection(interior(refitted.fit));
-    Rest rest;
-    rest.others = d_.candidates;
-    for (Candidate& candidate : rest.others)
-      for (const Addition& addition : refitted.additions)
-        if (candidate.id == addition.id) candidate.hypotheses.clear();
-    rest.directions = directions(rest.others, projection);
-    rest.detection = std::make_unique<Detection>(projection, rest.directions, rest.others.size(), shapes_, draws_);
-    return rest;
-  }
   [[nodiscard]] double p_of_rest(const Refitted& refitted) const {
-    const Rest rest = rest_of(refitted);
-    const double p = rest.detection->judge(-refitted.fit.residuals).p;
-    return std::min(p, p_of_squares(d_, refitted.fit));
+    return diagnosis::p_of_rest(d_, refitted, shapes_, draws_);
   }
 
   void rank() {
@@ -104,21 +85,24 @@ class Naming {
   /// One mechanism, and those that explain the misfit as well.
   void one(double p) {
     d_.p_after = p, d_.named = 1;
-    const double best = singles_.front().log_weight;
+    double mass = 0;
+    std::vector<Explanation> explanations;
     for (std::size_t place = 0; place < singles_.size(); ++place) {
       const Single& single = singles_[place];
       if (!single.best) continue;
       const std::string& id = d_.candidates[single.candidate].id;
-      if (2 * (best - single.log_weight) > set_width) {
-        if (!d_.gain) set_best_wrong(id, single.best->fit.chi2);
-        continue;
+      if (mass >= set_mass) {
+        set_best_wrong(id, single.best->fit.chi2);
+        break;
       }
       Cause cause = cause_of(d_, *single.best, 0, d_.directions[single.direction], catalogue_);
-      cause.probability = d_.ranking[place].probability;
+      mass += cause.probability = d_.ranking[place].probability;
       cause.p_value = d_.detection.by_candidate[single.candidate];
       d_.ambiguity_set.push_back(cause.id), d_.rivals.push_back(*single.best);
       d_.causes.push_back(std::move(cause));
+      explanations.push_back({single.candidate});
     }
+    classify(explanations);
     d_.extension = singles_.front().best;
   }
 
@@ -141,22 +125,38 @@ class Naming {
       d_.ambiguity_set.push_back(cause.id);
       d_.causes.push_back(std::move(cause));
     }
+    d_.extension = best.refitted;
+    d_.rivals.push_back(*best.refitted);
+    double mass = 0;
+    std::vector<Explanation> explanations{candidates_of(best)};
     for (const Group& group : groups_) {
+      const bool in_set = mass < set_mass;
+      mass += std::exp(group.log_weight - all);
       if (group.additions.size() != best.additions.size() || same_members(group, best)) continue;
-      if (2 * (best.log_weight - group.log_weight) > set_width) {
-        if (!d_.gain) set_best_wrong(words(group), group.refitted->fit.chi2);
-        continue;
+      if (!in_set) {
+        set_best_wrong(words(group), group.refitted->fit.chi2);
+        break;
       }
+      explanations.push_back(candidates_of(group));
       bool grows = false;
       for (const Addition& addition : group.additions) grows = add_to_set(addition.id) || grows;
       if (!grows) continue;
       if (group.additions.size() == 2) d_.alternatives.emplace_back(group.additions[0].id, group.additions[1].id);
       d_.rivals.push_back(*group.refitted);
     }
-    d_.extension = best.refitted;
-    d_.rivals.insert(d_.rivals.begin(), *best.refitted);
+    classify(explanations);
   }
 
+  /// How many explanations there are, look-alikes counted once.
+  void classify(const std::vector<Explanation>& explanations) {
+    for (const std::size_t one : classes_of(d_, explanations)) explanations_ = std::max(explanations_, one + 1);
+  }
+
+  [[nodiscard]] Explanation candidates_of(const Group& group) const {
+    Explanation candidates;
+    for (const std::size_t direction : group.directions) candidates.push_back(d_.directions[direction].candidate);
+    return candidates;
+  }
   static std::multiset<std::string> members(const Group& group) {
     std::multiset<std::string> ids;
     for (const Addition& addition : group.additions) ids.insert(addition.id);
@@ -178,12 +178,12 @@ class Naming {
 
   /// The table of verdicts, for an explanation after which the residuals are clean.
   void judge() {
-    const std::size_t rivals = d_.ambiguity_set.size();
-    d_.verdict = rivals == d_.named       ? Verdict::named
-                 : rivals <= d_.named + 3 ? Verdict::indistinguishable
-                                          : Verdict::unknown;
+    d_.verdict = d_.ambiguity_set.size() == d_.named  ? Verdict::named
+                 : explanations_ <= most_explanations ? Verdict::indistinguishable
+                                                      : Verdict::unknown;
     if (d_.verdict == Verdict::unknown)
-      d_.reasons.push_back(fmt::format("{} mechanisms explain the misfit equally well", rivals));
+      d_.reasons.push_back(
+          fmt::format("{} explanations that do not look alike are about as likely as each other", explanations_));
     if (d_.verdict != Verdict::named) return;
     const auto suspect = [this](std::string why) {
       d_.verdict = Verdict::suspect_data;
@@ -215,7 +215,7 @@ class Naming {
     unexplained(fmt::format("{} {} {:.0f} % of the misfit; what is left is no noise (p {})", fmt::join(ids, " and "),
                             ids.size() == 1 ? "takes" : "take", 100 * std::min(share, 1.0),
                             d_.p_after < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", d_.p_after)));
-    const Rest rest = rest_of(*d_.extension);
+    const Rest rest(d_, *d_.extension, shapes_, draws_);
     for (double factor = 1.1; factor < 20; factor *= 1.1) {
       if (rest.detection->judge(-d_.extension->fit.residuals / factor).p <= look_again) continue;
       const double alarm = detection_.judge(-d_.fit.residuals / factor).p;
@@ -238,6 +238,7 @@ class Naming {
   const plugins::Catalogue& catalogue_;
   std::vector<Single> singles_;
   std::vector<Group> groups_;
+  std::size_t explanations_ = 0;  ///< in the ambiguity set, look-alikes counted once
 };
 
 }  // namespace

@@ -167,4 +167,13 @@ std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const s
   return sources;
 }
 
+std::vector<double> row_deviations(const calibration::ChannelView& view) {
+  data::Noise noise = view.noise.value();
+  noise.gross.clear();
+  std::vector<std::string> said;
+  return calibration::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
+                                  view.test, said)
+      .sd;
+}
+
 }  // namespace tunica::diagnosis

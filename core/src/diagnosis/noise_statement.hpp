@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/assembly.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -30,5 +31,9 @@ struct NoiseSource {
 /// Throws InputError where nothing can be known.
 std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
                                      const plugins::Catalogue& catalogue);
+
+/// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
+/// that of their neighbours, and not the one that silences them.
+std::vector<double> row_deviations(const calibration::ChannelView& view);
 
 }  // namespace tunica::diagnosis

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "calibration/noise.hpp"
 #include "diagnosis/causes.hpp"
 #include "diagnosis/detectable.hpp"
+#include "diagnosis/noise_statement.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
 
@@ -26,17 +26,6 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
   if (!whitened(extended.assembly(), without, *extended.assembly().make_workspace(), residuals, nullptr).ok())
     return nothing;
   return Projection(interior(d.fit)).off(d.extension->fit.residuals - residuals);
-}
-
-/// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
-/// that of their neighbours, and not the one that silences them.
-std::vector<double> deviations(const calibration::ChannelView& view) {
-  auto noise = view.noise;
-  noise->gross.clear();
-  std::vector<std::string> said;
-  return calibration::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
-                                  view.test, said)
-      .sd;
 }
 
 std::string residual_table(const Diagnosis& d) {
@@ -60,7 +49,7 @@ std::string residual_table(const Diagnosis& d) {
   for (const calibration::ChannelView& view : d.base->channels()) {
     if (c >= d.curves.size() || d.curves[c].test != view.test || d.curves[c].channel != view.observable) continue;
     const Curve& curve = d.curves[c++];
-    const std::vector<double> sd = deviations(view);
+    const std::vector<double> sd = row_deviations(view);
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);

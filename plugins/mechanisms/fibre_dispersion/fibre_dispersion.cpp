@@ -100,7 +100,7 @@ MechanismFactory factory() {
       .side = MechanismFactory::Side::positive,
       .plausible_min = 0,
       .plausible_max = 1. / 3,
-      .look_alikes = {"matrix_stiffening", "fibre_recruitment", "axial_fibres"},
+      .look_alikes = {"matrix_stiffening", "chain_extensibility", "fibre_recruitment"},
       .isolated_by = "transverse stretch of a strip, or imaging of the fibre directions",
       .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)",
       .options = {}};

@@ -109,7 +109,7 @@ MechanismFactory geometry_error() {
       .side = Side::both,
       .plausible_min = -0.3,
       .plausible_max = 0.3,
-      .look_alikes = {"axial_stretch_error", "axial_force_offset", "residual_stress"},
+      .look_alikes = {"axial_stretch_error", "axial_force_offset", "axial_force_scale_error"},
       .isolated_by = "a second measurement of the thickness, by microscopy of the section",
       .reference = "O'Leary, Doyle, McGloughlin, J. Biomech. 46:1955 (2013)",
       .options = {},

@@ -39,7 +39,12 @@ Verdict judged(const Case& one) {
       std::any_of(hidden.begin(), hidden.end(), [](const TrueEffect& effect) { return effect.id == "outliers"; });
   if (!one.truth.contaminated || told_to_find) return left;
   const bool any = !left.causes.empty();
-  std::erase_if(left.causes, [](const Cause& cause) { return cause.id == "outliers"; });
+  const auto gross = [](const Cause& cause) { return cause.id == "outliers"; };
+  if (left.together) {
+    const auto named = static_cast<std::ptrdiff_t>(std::min(*left.together, left.causes.size()));
+    *left.together -= static_cast<std::size_t>(std::count_if(left.causes.begin(), left.causes.begin() + named, gross));
+  }
+  std::erase_if(left.causes, gross);
   std::erase(left.ambiguity_set, "outliers");
   // What is left when the gross errors are taken away is no alarm of anything else.
   if (left.verdict == "suspect_data" && left.causes.empty()) left.verdict = "nothing_detected";
