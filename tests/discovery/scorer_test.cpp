@@ -223,6 +223,14 @@ TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
   set.verdict = single("", 0, "indistinguishable", {"a", "b"}).verdict;
   name.verdict = single("", 0, "named", {"a"}).verdict;
   EXPECT_NEAR(figure({far, set, name}, "outside the catalogue, remainder ≥ 25: unknown or a set").value, 2. / 3, 1e-12);
+  // Two together, or what is not listed; and two together.
+  Case open = set, closed = name;
+  closed.verdict.ambiguity_set = open.verdict.ambiguity_set;
+  for (Case* one : {&open, &closed}) {
+    one->verdict.together = 2;
+    one->verdict.causes.push_back(one->verdict.causes.front());
+  }
+  EXPECT_NEAR(figure({open, closed}, "outside the catalogue, remainder ≥ 25: unknown or a set").value, 0.5, 1e-12);
 
   const std::string near_row = "outside, remainder below: in a set with its look-alike, or \"consistent with\"";
   for (Case* one : {&far, &set, &name}) one->truth.remainder = 5, one->truth.look_alike = "b";

@@ -185,6 +185,7 @@ json diagnosis_json(const Diagnosis& d) {
       rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.row}, {"residual", row.residual}});
     result["left_out"] = std::move(rows);
   }
+  if (d.unlisted) result["unlisted"] = true;
   if (d.extension) result["p_after"] = d.p_after;
   if (d.alarm_factor) result["alarm_factor"] = *d.alarm_factor;
   if (d.noise_factor) result["noise_factor"] = *d.noise_factor;

@@ -31,6 +31,9 @@ std::string verdict_line(const Diagnosis& d) {
       return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
     }
     case Verdict::indistinguishable:
+      if (d.unlisted && d.ambiguity_set.size() == d.named)
+        return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
+                           fmt::join(d.ambiguity_set, " and "));
       return fmt::format("INDISTINGUISHABLE: {} explain the misfit as well as each other",
                          fmt::join(d.ambiguity_set, ", "));
     case Verdict::suspect_data:
@@ -131,6 +134,7 @@ std::string summary(const Diagnosis& d) {
   for (std::size_t k = d.named; k < d.causes.size(); ++k)
     rivals.push_back(fmt::format("{} ({:.2f})", d.causes[k].id, d.causes[k].probability));
   for (const auto& [one, other] : d.alternatives) rivals.push_back(one + " with " + other);
+  if (d.unlisted) rivals.push_back("an effect that the catalogue does not list: " + d.reasons.back());
   if (d.verdict != Verdict::nothing_detected && !d.causes.empty())
     line("Or else:  ", rivals.empty() ? "no other mechanism of the catalogue comes near"
                                       : fmt::format("{}", fmt::join(rivals, ", ")));

@@ -89,8 +89,8 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
 ///
 ///   |r|² of all − |r|² of the others, each at its own fit  ~  χ²(n)
 ///
-/// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands where
-/// a prediction by exponentials has no linear error.
+/// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands
+/// where a prediction by exponentials has no linear error.
 double predictive_p(double all, double others, std::size_t n) {
   return boost::math::cdf(
       boost::math::complement(boost::math::chi_squared(static_cast<double>(n)), std::max(all - others, 0.0)));

@@ -125,7 +125,7 @@ class Naming {
       d_.ambiguity_set.push_back(cause.id);
       d_.causes.push_back(std::move(cause));
     }
-    d_.extension = best.refitted;
+    d_.extension = best.refitted, corrected_ = correction_in(best);
     d_.rivals.push_back(*best.refitted);
     double mass = 0;
     std::vector<Explanation> explanations{candidates_of(best)};
@@ -145,6 +145,22 @@ class Naming {
       d_.rivals.push_back(*group.refitted);
     }
     classify(explanations);
+  }
+
+  /// The member of a group that by itself takes the least of what the group takes, where that is hardly anything: two
+  /// causes each show in the data, and what shows only beside another makes up for its shape. Else empty.
+  [[nodiscard]] std::string correction_in(const Group& group) const {
+    constexpr double hardly = 0.15;
+    double least = hardly * (d_.fit.chi2 - group.refitted->fit.chi2);
+    std::string found;
+    for (const std::size_t direction : group.directions)
+      for (const Single& single : singles_) {
+        if (single.candidate != d_.directions[direction].candidate) continue;
+        const double alone = single.best ? d_.fit.chi2 - single.best->fit.chi2
+                                         : score(d_.directions[single.direction], -d_.fit.residuals).T;
+        if (alone < least) least = alone, found = d_.candidates[single.candidate].id;
+      }
+    return found;
   }
 
   /// How many explanations there are, look-alikes counted once.
@@ -184,6 +200,13 @@ class Naming {
     if (d_.verdict == Verdict::unknown)
       d_.reasons.push_back(
           fmt::format("{} explanations that do not look alike are about as likely as each other", explanations_));
+    if (d_.verdict != Verdict::unknown && !corrected_.empty()) {
+      d_.verdict = Verdict::indistinguishable, d_.unlisted = true;
+      d_.reasons.push_back(
+          fmt::format("{} explains next to nothing without the others: it may correct the shape of an effect that the "
+                      "catalogue does not list",
+                      corrected_));
+    }
     if (d_.verdict != Verdict::named) return;
     const auto suspect = [this](std::string why) {
       d_.verdict = Verdict::suspect_data;
@@ -238,6 +261,7 @@ class Naming {
   const plugins::Catalogue& catalogue_;
   std::vector<Single> singles_;
   std::vector<Group> groups_;
+  std::string corrected_;         ///< what in the best group may be no cause of its own
   std::size_t explanations_ = 0;  ///< in the ambiguity set, look-alikes counted once
 };
 

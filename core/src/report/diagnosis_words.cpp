@@ -25,6 +25,9 @@ std::string verdict_words(const Json& diagnosis) {
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", joined(named_causes(diagnosis)));
+  if (verdict == "indistinguishable" && member(diagnosis, "unlisted") == true)
+    return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
+                       joined(named_causes(diagnosis)), reasons);
   if (verdict == "indistinguishable")
     return fmt::format("Indistinguishable: {} explain the misfit as well as each other.",
                        joined(words(list(diagnosis, "ambiguity_set"))));

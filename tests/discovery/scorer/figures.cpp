@@ -178,8 +178,9 @@ void outside(const Cases& cases, std::vector<Figure>& table) {
     detected.add(verdict.detected());
     if (!verdict.detected()) continue;
     const auto set = claimed(verdict);
-    // What is named together is one answer, not a set of rivals.
-    const bool open = verdict.verdict == "unknown" || set.size() > std::max<std::size_t>(1, together(verdict));
+    // What is named together is one answer, not a set of rivals; the rival may be what the catalogue does not list.
+    const bool open = verdict.verdict == "unknown" || verdict.verdict == "indistinguishable" ||
+                      set.size() > std::max<std::size_t>(1, together(verdict));
     if (one.truth.remainder >= 25) {
       honest.add(open);
       continue;
