@@ -203,9 +203,7 @@ class Naming {
     if (d_.verdict != Verdict::unknown && !corrected_.empty()) {
       d_.verdict = Verdict::indistinguishable, d_.unlisted = true;
       d_.reasons.push_back(
-          fmt::format("{} explains next to nothing without the others: it may correct the shape of an effect that the "
-                      "catalogue does not list",
-                      corrected_));
+          fmt::format("{} explains next to nothing without the others, and may only correct their shape", corrected_));
     }
     if (d_.verdict != Verdict::named) return;
     const auto suspect = [this](std::string why) {
