@@ -268,6 +268,33 @@ TEST(Verdict, ABlockThatDisagreesWithTheOthersIsToldByItsPValue) {
   EXPECT_LT(p, 1e-6);
 }
 
+// A hump of one curve is nothing that a mechanism does: two make it up between them, of which one alone does nothing.
+TEST(Verdict, TwoThatOnlyTogetherExplainAnUnlistedEffectAreNotNamed) {
+  const Measured measured;
+  measured.measure(37, {}, [](const Strip& strip, double stretch) {
+    return strip.name == "axial" ? 1.5 * std::exp(-std::pow((stretch - 1.3) / 0.15, 2)) : 0;
+  });
+  const Diagnosis found = measured.diagnose();
+  ASSERT_EQ(found.verdict, Verdict::indistinguishable);
+  EXPECT_TRUE(found.unlisted);
+  EXPECT_GE(found.named, 2u);
+  EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("an effect that the catalogue does not list"));
+  EXPECT_EQ(diagnosis::diagnosis_json(found)["unlisted"], true);
+}
+
+// Both stretch the matrix's curve upwards, by the same shape to first order.
+TEST(Verdict, LookAlikesCountAsOneExplanation) {
+  const Measured measured;
+  measured.measure(
+      38, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("matrix_stiffening", "b", 0.05)}; });
+  const Diagnosis found = measured.diagnose();
+  ASSERT_EQ(found.verdict, Verdict::indistinguishable) << diagnosis::summary(found);
+  ASSERT_FALSE(found.look_alikes.empty());
+  EXPECT_THAT(found.look_alikes.front(), ::testing::IsSupersetOf({"matrix_stiffening", "chain_extensibility"}));
+  EXPECT_LE(found.look_alikes.size(), 4u);
+  EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("much the same here)"));
+}
+
 TEST(Verdict, AModelWithoutFreeParametersIsDiagnosedAsWell) {
   Measured measured;
   for (json& parameter : measured.experiment["models"]["gho"]["parameters"])

@@ -164,21 +164,13 @@ Verdict amplitude_has_an_effect(const WrappedModel& on, std::uint64_t seed) {
 }
 
 Verdict wrapped_model_is_a_model(const WrappedModel& on, std::uint64_t seed) {
-  Verdict all{.compared = "the wrapped model with the properties of models"};
-  std::size_t held = 0;
-  for (const ModelProperty& property : model_properties()) {
-    // A mechanism may be a stress at rest, as the tone of a muscle.
-    if (property.function == deviatoric_stress_vanishes_at_rest || property.advisory) continue;
-    const Verdict one = property.check(*on.with, seed);
-    if (!one.counter_example.empty())
-      return {.compared = one.compared,
-              .worst = one.worst,
-              .tolerance = one.tolerance,
-              .counter_example = fmt::format("{}: {}", property.name, one.counter_example)};
-    held += one.held();
-  }
-  all.note = fmt::format("{} properties", held);
-  return all;
+  return has_properties<Model>(
+      "the wrapped model with the properties of models", model_properties(),
+      [&](const ModelProperty& property) { return property.check(*on.with, seed); },
+      // A mechanism may be a stress at rest, as the tone of a muscle.
+      [](const ModelProperty& property) {
+        return property.function == deviatoric_stress_vanishes_at_rest || property.advisory;
+      });
 }
 
 const std::vector<PropertyOf<WrappedModel>>& wrapped_model_properties() {

@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "conformance/partners.hpp"
 #include "conformance/test_bench.hpp"
@@ -44,6 +47,24 @@ struct WrappedTest {
 
   [[nodiscard]] std::vector<double> at(double value) const;
 };
+
+/// What is wrapped has the properties of its kind, but for those that `skip` says; the first that it breaks, by name.
+template <class Subject, class Check, class Skip>
+Verdict has_properties(std::string compared, const std::vector<PropertyOf<Subject>>& properties, const Check& check,
+                       const Skip& skip) {
+  std::size_t held = 0;
+  for (const PropertyOf<Subject>& property : properties) {
+    if (skip(property)) continue;
+    Verdict one = check(property);
+    if (!one.counter_example.empty()) {
+      one.counter_example = fmt::format("{}: {}", property.name, one.counter_example);
+      one.skipped.clear(), one.note.clear();
+      return one;
+    }
+    held += one.held();
+  }
+  return {.compared = std::move(compared), .note = fmt::format("{} properties", held)};
+}
 
 Verdict parameters_stand_behind_those_of_the_base(const WrappedModel& on, std::uint64_t seed = 20);
 Verdict null_is_the_bare_model(const WrappedModel& on, std::uint64_t seed = 20);

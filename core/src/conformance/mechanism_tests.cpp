@@ -146,22 +146,15 @@ Verdict amplitude_has_an_effect(const WrappedTest& on, std::uint64_t) {
 }
 
 Verdict wrapped_test_is_a_test(const WrappedTest& on, std::uint64_t) {
-  Verdict all{.compared = "the wrapped test with the properties of tests"};
   const Simulation s = simulation(on, on.mechanism.null + 0.3 * plausible(on));
-  std::size_t held = 0;
-  for (const TestProperty& property : test_properties()) {
-    // Differences of load steps are not that sharp.
-    if (on.bare->describe().costly && property.function != given_abscissae_replace_the_bound_ones) continue;
-    const Verdict one = property.check(s);
-    if (!one.counter_example.empty())
-      return {.compared = one.compared,
-              .worst = one.worst,
-              .tolerance = one.tolerance,
-              .counter_example = fmt::format("{}: {}", property.name, one.counter_example)};
-    held += one.held();
-  }
-  all.note = fmt::format("{} properties", held);
-  return all;
+  const bool costly = on.bare->describe().costly;
+  return has_properties<Simulation>(
+      "the wrapped test with the properties of tests", test_properties(),
+      [&](const TestProperty& property) { return property.check(s); },
+      // Differences of load steps are not that sharp.
+      [&](const TestProperty& property) {
+        return costly && property.function != given_abscissae_replace_the_bound_ones;
+      });
 }
 
 const std::vector<PropertyOf<WrappedTest>>& wrapped_test_properties() {

@@ -139,6 +139,7 @@ struct Diagnosis {
   std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm
   std::size_t named = 0;        ///< how many of the causes make up the best explanation
   std::vector<std::string> ambiguity_set;
+  std::vector<std::vector<std::string>> look_alikes;  ///< the ambiguity set by what looks alike; empty for groups
   bool unlisted = false;  ///< an effect that no mechanism lists may look like the causes together
   std::vector<std::pair<std::string, std::string>> alternatives;
   Admissibility admissibility;

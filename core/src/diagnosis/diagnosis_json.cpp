@@ -185,6 +185,8 @@ json diagnosis_json(const Diagnosis& d) {
       rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.row}, {"residual", row.residual}});
     result["left_out"] = std::move(rows);
   }
+  if (!d.look_alikes.empty()) result["look_alikes"] = d.look_alikes;
+  if (!d.causes.empty()) result["explanations"] = explanations(d);
   if (d.unlisted) result["unlisted"] = true;
   if (d.extension) result["p_after"] = d.p_after;
   if (d.alarm_factor) result["alarm_factor"] = *d.alarm_factor;

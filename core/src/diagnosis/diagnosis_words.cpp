@@ -34,8 +34,8 @@ std::string verdict_line(const Diagnosis& d) {
       if (d.unlisted && d.ambiguity_set.size() == d.named)
         return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
                            fmt::join(d.ambiguity_set, " and "));
-      return fmt::format("INDISTINGUISHABLE: {} explain the misfit as well as each other",
-                         fmt::join(d.ambiguity_set, ", "));
+      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about as well as each other",
+                         fmt::join(explanations(d), ", "));
     case Verdict::suspect_data:
       return fmt::format("SUSPECT DATA: {}", fmt::join(d.reasons, "; "));
     case Verdict::unknown:
@@ -101,6 +101,26 @@ std::string predicted(const Gain& gain) {
 }
 
 }  // namespace
+
+std::vector<std::string> explanations(const Diagnosis& d) {
+  std::vector<std::string> all;
+  for (const auto& alike : d.look_alikes) {
+    all.push_back(alike.front());
+    if (alike.size() > 1)
+      all.back() += fmt::format(" (or {}, much the same here)", fmt::join(alike.begin() + 1, alike.end(), ", "));
+  }
+  if (d.named > 1) {
+    std::vector<std::string> together;
+    for (std::size_t k = 0; k < d.named; ++k) together.push_back(d.causes[k].id);
+    all.push_back(fmt::format("{}", fmt::join(together, " with ")));
+    for (const auto& [one, other] : d.alternatives) all.push_back(one + " with " + other);
+    if (d.named > 2 && d.ambiguity_set.size() > d.named)
+      all.push_back(fmt::format(
+          "the like with {}",
+          fmt::join(d.ambiguity_set.begin() + static_cast<std::ptrdiff_t>(d.named), d.ambiguity_set.end(), " or ")));
+  }
+  return all.empty() ? d.ambiguity_set : all;
+}
 
 std::string summary(const Diagnosis& d) {
   std::vector<std::string> lines;

@@ -127,22 +127,20 @@ class Naming {
     }
     d_.extension = best.refitted, corrected_ = correction_in(best);
     d_.rivals.push_back(*best.refitted);
-    double mass = 0;
     std::vector<Explanation> explanations{candidates_of(best)};
-    for (const Group& group : groups_) {
-      const bool in_set = mass < set_mass;
-      mass += std::exp(group.log_weight - all);
-      if (group.additions.size() != best.additions.size() || same_members(group, best)) continue;
-      if (!in_set) {
-        set_best_wrong(words(group), group.refitted->fit.chi2);
-        break;
+    for (const Rival& rival : rivals_of(best)) {
+      if (!rival.in_set) {
+        if (rival.group && !d_.gain) set_best_wrong(words(*rival.group), rival.group->refitted->fit.chi2);
+        continue;
       }
-      explanations.push_back(candidates_of(group));
+      const Refitted& refitted = rival.group ? *rival.group->refitted : *rival.single->best;
+      explanations.push_back(rival.group ? candidates_of(*rival.group) : Explanation{rival.single->candidate});
       bool grows = false;
-      for (const Addition& addition : group.additions) grows = add_to_set(addition.id) || grows;
+      for (const Addition& addition : refitted.additions) grows = add_to_set(addition.id) || grows;
       if (!grows) continue;
-      if (group.additions.size() == 2) d_.alternatives.emplace_back(group.additions[0].id, group.additions[1].id);
-      d_.rivals.push_back(*group.refitted);
+      if (refitted.additions.size() == 2)
+        d_.alternatives.emplace_back(refitted.additions[0].id, refitted.additions[1].id);
+      d_.rivals.push_back(refitted);
     }
     classify(explanations);
   }
@@ -163,9 +161,44 @@ class Naming {
     return found;
   }
 
+  /// What explains the misfit beside the best group, likeliest first: other groups as large, and single mechanisms,
+  /// which are likelier before the data.
+  struct Rival {
+    const Group* group;    ///< or
+    const Single* single;  ///< the other is null
+    double log_weight;
+    bool in_set = true;
+  };
+  [[nodiscard]] std::vector<Rival> rivals_of(const Group& best) const {
+    const double odds = static_cast<double>(best.additions.size() - 1) * log_odds_of_pair(singles_.size());
+    std::vector<Rival> rivals;
+    std::vector<double> logs;
+    for (const Group& group : groups_)
+      if (group.additions.size() == best.additions.size())
+        rivals.push_back({&group, nullptr, group.log_weight + odds}), logs.push_back(rivals.back().log_weight);
+    for (const Single& single : singles_)
+      if (single.best) rivals.push_back({nullptr, &single, single.log_weight}), logs.push_back(single.log_weight);
+    std::stable_sort(rivals.begin(), rivals.end(),
+                     [](const Rival& a, const Rival& b) { return a.log_weight > b.log_weight; });
+    const double all = log_sum(logs);
+    double mass = 0;
+    for (Rival& rival : rivals) {
+      rival.in_set = mass < set_mass;
+      mass += std::exp(rival.log_weight - all);
+    }
+    std::erase_if(rivals, [&](const Rival& rival) { return rival.group && same_members(*rival.group, best); });
+    return rivals;
+  }
+
   /// How many explanations there are, look-alikes counted once.
   void classify(const std::vector<Explanation>& explanations) {
-    for (const std::size_t one : classes_of(d_, explanations)) explanations_ = std::max(explanations_, one + 1);
+    const std::vector<std::size_t> classes = classes_of(d_, explanations);
+    for (std::size_t k = 0; k < explanations.size(); ++k) {
+      explanations_ = std::max(explanations_, classes[k] + 1);
+      if (d_.named > 1) continue;
+      d_.look_alikes.resize(explanations_);
+      d_.look_alikes[classes[k]].push_back(d_.candidates[explanations[k].front()].id);
+    }
   }
 
   [[nodiscard]] Explanation candidates_of(const Group& group) const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -16,6 +17,9 @@ nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 /// The whole of result.json: no runs, the diagnosis, its warnings and provenance.
 std::string result_document(const Diagnosis& diagnosis, const experiment::Experiment& experiment,
                             const plugins::Catalogue& catalogue);
+
+/// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
+std::vector<std::string> explanations(const Diagnosis& diagnosis);
 
 /// What a person reads on the terminal: what is wrong and where, the cause and how sure, what else it could be, what
 /// was gained, what to measure next.

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "plugins/refusals.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::plugins {
 namespace fs = std::filesystem;
@@ -84,8 +85,17 @@ SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
       rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
     }
   }
-  // Nobody asked for the install folder by name, so its absence is no error.
-  const fs::path installed = boost::dll::program_location().parent_path() / TUNICA_PLUGINS_FROM_BIN;
+  // Nobody asked for the install folder by name, so its absence is no error; but without any there is nothing to do.
+  boost::dll::fs::error_code unknown;
+  const fs::path program = boost::dll::program_location(unknown).string();
+  if (unknown && path.folders.empty())
+    throw InputError(
+        fmt::format("where this program is cannot be found out ({}), and so neither where its plugins are; mount "
+                    "/proc, or name their "
+                    "folder in TUNICA_PLUGIN_PATH or with --plugin-path",
+                    unknown.message()));
+  if (unknown) return path;
+  const fs::path installed = program.parent_path() / TUNICA_PLUGINS_FROM_BIN;
   if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
   return path;
 }

@@ -28,9 +28,11 @@ std::string verdict_words(const Json& diagnosis) {
   if (verdict == "indistinguishable" && member(diagnosis, "unlisted") == true)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
                        joined(named_causes(diagnosis)), reasons);
-  if (verdict == "indistinguishable")
-    return fmt::format("Indistinguishable: {} explain the misfit as well as each other.",
-                       joined(words(list(diagnosis, "ambiguity_set"))));
+  if (verdict == "indistinguishable") {
+    const char* const said = list(diagnosis, "explanations").empty() ? "ambiguity_set" : "explanations";
+    return fmt::format("Indistinguishable: {} explain the misfit about as well as each other.",
+                       joined(words(list(diagnosis, said))));
+  }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
   if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
   return verdict;
