@@ -31,14 +31,14 @@ with tempfile.TemporaryDirectory() as work:
     (pathlib.Path(work) / "experiment.json").touch()
     (pathlib.Path(work) / "strip.csv").touch()
     with Screen(["zsh", "-f"], work, environment={"HOME": work}) as screen:
-        screen.enter(f"PS1='> '; PATH={tunica.parent}:$PATH; fpath=({folder} $fpath); autoload -U compinit; compinit -u -D; print ready | tr a-z A-Z")
+        screen.enter(f"bindkey -e; PS1='> '; PATH={tunica.parent}:$PATH; fpath=({folder} $fpath); autoload -U compinit; compinit -u -D; print ready | tr a-z A-Z")
         screen.wait_for(lambda text: "READY" in text, "the prompt")
         for typed, completed in CASES:
-            screen.enter("clear")
+            # Keys of the line editor, which come in order; an interrupt may be handled after the next key and swallow it.
+            screen.press("C-u", "C-l")
             screen.wait_for(lambda text: text.strip() == ">", "an empty screen")
             screen.type(typed)
             screen.press("Tab")
             # Long lines go on in the next row of the screen.
             screen.wait_for(lambda text: completed in text.replace("\n", ""), f"'{completed}' after '{typed}<Tab>'", 20)
-            screen.press("C-c")
 print(f"zsh completed {len(CASES)} command lines")
