@@ -28,9 +28,12 @@ TEST(Differences, AreAsGoodAsTheySay) {
   }
 }
 
-TEST(Differences, SaySoAtAJumpAndWhereThereIsNothing) {
+TEST(Differences, SaySoAtAJumpAtAKinkAndWhereThereIsNothing) {
   const auto jump = differentiate([](double t) { return std::vector<double>{t > 0 ? 1.0 : 0.0}; }, 1e-2);
   EXPECT_GT(jump[0].uncertainty, 10);
+  // Slopes 1 and 3: central differences find their mean exactly.
+  const auto kink = differentiate([](double t) { return std::vector<double>{t > 0 ? t + t * t : 3 * t}; }, 1e-2);
+  EXPECT_NEAR(kink[0].uncertainty, 1, 1e-3);
   const auto none = differentiate([](double) { return std::vector<double>{std::nan("")}; }, 1e-2);
   EXPECT_EQ(none[0].uncertainty, std::numeric_limits<double>::infinity());
 }

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/hypotheses.hpp"
+#include "diagnosis/places.hpp"
 #include "diagnosis/scores.hpp"
 #include "diagnosis/signatures.hpp"
 #include "plugins/guarded.hpp"
@@ -17,99 +18,6 @@ namespace {
 
 using experiment::Experiment;
 using experiment::RunEntry;
-
-bool takes(const MechanismFactory& mechanism, const std::string& option) {
-  return std::any_of(mechanism.options.begin(), mechanism.options.end(),
-                     [&](const Option& declared) { return declared.name == option; });
-}
-
-/// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
-struct Clock {
-  double shortest = INFINITY, longest = 0;
-};
-Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
-  Clock clock;
-  for (const std::string& name : run.tests) {
-    const auto& entry = experiment.test(name);
-    const auto dataset = data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
-    if (dataset.time.size() < 2) continue;
-    clock.longest = std::max(clock.longest, dataset.time.back() - dataset.time.front());
-    for (std::size_t i = 1; i < dataset.time.size(); ++i)
-      if (const double step = dataset.time[i] - dataset.time[i - 1]; step > 0)
-        clock.shortest = std::min(clock.shortest, step);
-  }
-  return clock;
-}
-
-constexpr std::size_t clock_points = 6;
-
-/// Where to look for a mechanism: as it declares, or over the clock of the data for nuisance parameters in seconds.
-std::vector<MechanismFactory::Setting> settings_of(const MechanismFactory& mechanism, const Clock& clock) {
-  if (!mechanism.scan.empty()) return mechanism.scan;
-  std::vector<MechanismFactory::Setting> found;
-  for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) {
-    const Parameter& nuisance = mechanism.parameters[k];
-    if (nuisance.unit != "s" || !(clock.longest > 0)) continue;
-    const double low = std::clamp(clock.shortest, nuisance.min, nuisance.max),
-                 high = std::clamp(clock.longest, nuisance.min, nuisance.max);
-    for (std::size_t i = 0; i < clock_points; ++i)
-      found.push_back({{nuisance.name, low * std::pow(high / low, static_cast<double>(i) / (clock_points - 1))}});
-    break;
-  }
-  if (found.empty()) found.emplace_back();
-  return found;
-}
-
-bool needs_clock(const MechanismFactory& mechanism) {
-  return std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
-                     [](const Parameter& parameter) { return parameter.unit == "s"; });
-}
-
-/// Single tests and channels where the mechanism may act; nothing for one that acts on the model.
-std::vector<Target> single_targets(const MechanismFactory& mechanism, const Experiment& experiment, const RunEntry& run,
-                                   const calibration::Assembly& base) {
-  std::vector<Target> targets;
-  for (const std::string& name : run.tests) {
-    const auto& entry = experiment.test(name);
-    if (entry.hold_out.all) continue;
-    const auto& types = mechanism.applies_to;
-    if (!types.empty() && std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
-    if (!takes(mechanism, "channel")) {
-      targets.push_back({{name}});
-      continue;
-    }
-    for (const calibration::ChannelView& view : base.channels())
-      if (view.test == name && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
-        targets.push_back({{name}, view.observable});
-  }
-  return targets;
-}
-
-/// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
-void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into) {
-  const std::size_t rows = base.residual_count(), predictions = base.prediction_count();
-  std::vector<double> unit(rows, 0.0), map(predictions);
-  // Row k of the whitening, read off its transpose.
-  std::vector<std::vector<std::pair<std::size_t, double>>> columns(predictions);
-  for (std::size_t k = 0; k < rows; ++k) {
-    unit[k] = 1;
-    base.transpose_residuals(unit, map);
-    unit[k] = 0;
-    for (std::size_t i = 0; i < predictions; ++i)
-      if (map[i] != 0) columns[i].emplace_back(k, map[i]);
-  }
-  for (const calibration::ChannelView& view : base.channels()) {
-    if (view.test != whole.addition.target.tests.front() || view.observable != whole.addition.target.channel) continue;
-    for (std::size_t i = 0; i < view.count; ++i) {
-      if (!view.fitted[i]) continue;
-      Hypothesis one = whole;
-      one.addition.target.row = i;
-      one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
-      for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
-      into.push_back(std::move(one));
-    }
-  }
-}
 
 /// Number options of a setting: different ones need different tests.
 std::string options_key(const MechanismFactory& mechanism, const MechanismFactory::Setting& setting) {
@@ -141,45 +49,11 @@ class Search {
       candidate.absent = "the data have no time";
       return candidate;
     }
-    std::vector<Target> targets;
-    if (mechanism.stage < Stage::test) {
-      const auto& owner = experiment_.model(experiment_.models_of(run_).front());
-      if (already_there(owner.mechanisms, id)) {
-        candidate.absent = "the model has it already";
-        return candidate;
-      }
-      targets.emplace_back();
-    } else {
-      targets = single_targets(mechanism, experiment_, run_, base_);
-      std::erase_if(targets, [&](const Target& target) {
-        return already_there(experiment_.test(target.tests.front()).mechanisms, id);
-      });
-      if (targets.empty()) candidate.absent = "no test that it applies to";
-    }
-    const auto settings = settings_of(mechanism, clock_);
+    const std::vector<Target> targets = targets_of(id, mechanism, candidate.absent);
     std::map<std::string, std::vector<MechanismFactory::Setting>> by_options;
-    for (const auto& setting : settings) by_options[options_key(mechanism, setting)].push_back(setting);
-    for (const auto& [key, alike] : by_options) {
-      std::vector<Hypothesis> singles;
-      Target all;  // one amplitude in every test where the mechanism can act
-      for (const Target& target : targets) {
-        try {
-          add(mechanism, {id, target, alike.front()}, alike, singles);
-          if (!target.tests.empty()) all.tests.push_back(target.tests.front());
-        } catch (const InputError& problem) {
-          if (candidate.absent.empty()) candidate.absent = problem.what();
-        }
-      }
-      const std::size_t count = singles.size();
-      if (mechanism.shared && all.tests.size() > 1) add(mechanism, {id, all, alike.front()}, alike, singles);
-      if (takes(mechanism, "rows"))
-        for (std::size_t k = 0; k < count; ++k) {
-          std::vector<Hypothesis> rows;
-          add_rows(singles[k], base_, rows);
-          std::move(rows.begin(), rows.end(), std::back_inserter(singles));
-        }
-      std::move(singles.begin(), singles.end(), std::back_inserter(candidate.hypotheses));
-    }
+    for (const auto& setting : settings_of(mechanism, clock_))
+      by_options[options_key(mechanism, setting)].push_back(setting);
+    for (const auto& [key, alike] : by_options) add_everywhere(targets, alike, candidate);
     std::erase_if(candidate.hypotheses, [](const Hypothesis& hypothesis) {
       return hypothesis.signature.size() == 0 || !hypothesis.signature.allFinite() ||
              !(hypothesis.signature.norm() > 0);
@@ -192,6 +66,47 @@ class Search {
   }
 
  private:
+  /// The model, or the tests and channels that have not got it yet; `absent` says why there is nowhere.
+  [[nodiscard]] std::vector<Target> targets_of(const std::string& id, const MechanismFactory& mechanism,
+                                               std::string& absent) const {
+    if (mechanism.stage < Stage::test) {
+      const auto& owner = experiment_.model(experiment_.models_of(run_).front());
+      if (!already_there(owner.mechanisms, id)) return {Target{}};
+      absent = "the model has it already";
+      return {};
+    }
+    std::vector<Target> targets = single_targets(mechanism, experiment_, run_, base_);
+    std::erase_if(targets, [&](const Target& target) {
+      return already_there(experiment_.test(target.tests.front()).mechanisms, id);
+    });
+    if (targets.empty()) absent = "no test that it applies to";
+    return targets;
+  }
+
+  /// On each target by itself, where the mechanism is shared with one amplitude on all of them, and on single rows.
+  void add_everywhere(const std::vector<Target>& targets, const std::vector<MechanismFactory::Setting>& alike,
+                      Candidate& candidate) const {
+    const MechanismFactory& mechanism = *candidate.mechanism;
+    std::vector<Hypothesis> found;
+    Target all;
+    for (const Target& target : targets) {
+      try {
+        add(mechanism, {candidate.id, target, alike.front()}, alike, found);
+        if (!target.tests.empty()) all.tests.push_back(target.tests.front());
+      } catch (const InputError& problem) {
+        if (candidate.absent.empty()) candidate.absent = problem.what();
+      }
+    }
+    const std::size_t singles = found.size();
+    if (mechanism.shared && all.tests.size() > 1) add(mechanism, {candidate.id, all, alike.front()}, alike, found);
+    if (takes(mechanism, "rows"))
+      for (std::size_t k = 0; k < singles; ++k) {
+        const Hypothesis whole = found[k];
+        add_rows(whole, base_, found);
+      }
+    std::move(found.begin(), found.end(), std::back_inserter(candidate.hypotheses));
+  }
+
   void add(const MechanismFactory& mechanism, const Addition& first,
            const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
     const Extended extended(experiment_, run_of(first.target), {first}, catalogue_);

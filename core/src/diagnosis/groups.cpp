@@ -8,9 +8,8 @@
 #include <span>
 #include <tuple>
 
-#include <tbb/parallel_for.h>
-
 #include "diagnosis/causes.hpp"
+#include "diagnosis/group_fits.hpp"
 #include "diagnosis/refits.hpp"
 
 namespace tunica::diagnosis {
@@ -29,7 +28,7 @@ class Search {
  public:
   Search(const Diagnosis& d, const Detection& detection, std::span<const Single> singles,
          const plugins::Catalogue& catalogue)
-      : d_(d), detection_(detection), singles_(singles), catalogue_(catalogue) {}
+      : d_(d), singles_(singles), catalogue_(catalogue), fits_(d, detection, singles, catalogue) {}
 
   std::vector<Group> pairs(double floor) {
     const std::vector<std::size_t> pool = pool_of(singles_.front());
@@ -45,7 +44,7 @@ class Search {
     groups.resize(std::min(groups.size(), d_.settings.quick ? quick_pairs : full_pairs));
     add_beside_singles(groups);
     std::erase_if(groups, [&](const Group& group) { return group.linear_gain / 2 < floor - short_of; });
-    return refitted(std::move(groups));
+    return fits_.refitted(std::move(groups));
   }
 
   /// Begun from several pairs; then each member of the best triple has to stand against what would take its place.
@@ -54,7 +53,7 @@ class Search {
     std::set<std::set<std::size_t>> seen;
     for (std::size_t g = 0; g < std::min(pairs.size(), beside); ++g)
       extend(pairs[g], *pairs[g].refitted, g == 0 ? triples_tried : beside, groups, seen);
-    groups = refitted(std::move(groups));
+    groups = fits_.refitted(std::move(groups));
     if (groups.empty()) return groups;
     std::vector<Group> others;
     for (std::size_t out = 0; out < groups.front().additions.size(); ++out) {
@@ -62,7 +61,7 @@ class Search {
       if (const auto refit = fit_with(d_, rest.additions, rest.amplitudes, catalogue_))
         extend(rest, *refit, beside, others, seen);
     }
-    for (Group& group : refitted(std::move(others))) groups.push_back(std::move(group));
+    for (Group& group : fits_.refitted(std::move(others))) groups.push_back(std::move(group));
     sort_by_weight(groups);
     return groups;
   }
@@ -153,20 +152,6 @@ class Search {
     const Side side = catalogue_.mechanisms().at(refit.additions.front().id).factory.side;
     return side == Side::even ? amplitude * amplitude : amplitude;
   }
-  [[nodiscard]] static Group without(const Group& group, std::size_t out) {
-    Group rest;
-    for (std::size_t k = 0; k < group.additions.size(); ++k) {
-      if (k == out) continue;
-      rest.directions.push_back(group.directions[k]), rest.additions.push_back(group.additions[k]);
-      rest.amplitudes.push_back(group.amplitudes[k]);
-    }
-    return rest;
-  }
-  static void sort_by_weight(std::vector<Group>& groups) {
-    std::stable_sort(groups.begin(), groups.end(),
-                     [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
-  }
-
   /// The largest gain of two amplitudes on their admissible sides; none where one of them is better left out.
   [[nodiscard]] std::optional<Group> linear_pair(std::size_t i, std::size_t j) const {
     const Direction &a = d_.directions[i], &b = d_.directions[j];
@@ -184,47 +169,10 @@ class Search {
                  nullptr};
   }
 
-  std::vector<Group> refitted(std::vector<Group> groups) const {
-    std::vector<char> needed(groups.size(), 0);
-    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-      groups[g].refitted =
-          fit_with(d_, groups[g].additions, groups[g].amplitudes, catalogue_, groups[g].begun_from.get());
-      if (groups[g].refitted) groups[g].log_weight = (d_.fit.chi2 - groups[g].refitted->fit.chi2) / 2;
-      for (const std::size_t k : groups[g].directions) groups[g].log_weight += log_prior(d_, k);
-      needed[g] = groups[g].refitted && all_needed(groups[g]);
-    });
-    std::vector<Group> kept;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      if (needed[g]) kept.push_back(std::move(groups[g]));
-    sort_by_weight(kept);
-    return kept;
-  }
-
-  /// |r|² of a refit with the additions, which for a single one may have been made already.
-  [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes) const {
-    for (const Single& single : singles_)
-      if (single.best && additions.size() == 1 && single.best->additions.front().id == additions.front().id &&
-          single.best->additions.front().target == additions.front().target)
-        return single.best->fit.chi2;
-    const auto refitted = fit_with(d_, additions, amplitudes, catalogue_);
-    return refitted ? std::min(refitted->fit.chi2, d_.fit.chi2) : d_.fit.chi2;
-  }
-
-  /// Each member loses significantly when it is taken out: the rest is fitted again without it.
-  [[nodiscard]] bool all_needed(const Group& group) const {
-    for (std::size_t out = 0; out < group.additions.size(); ++out) {
-      const Group rest = without(group, out);
-      const double before = squares_with(rest.additions, rest.amplitudes);
-      const std::size_t candidate = d_.directions[group.directions[out]].candidate;
-      if (before - group.refitted->fit.chi2 < detection_.threshold(candidate, second_alpha)) return false;
-    }
-    return true;
-  }
-
   const Diagnosis& d_;
-  const Detection& detection_;
   std::span<const Single> singles_;
   const plugins::Catalogue& catalogue_;
+  const GroupFits fits_;
 };
 
 }  // namespace
