@@ -19,7 +19,8 @@ def run(*words):
 
 
 found = run("diagnose", results / "input.json", "--quick", "-o", results / "diagnosis")["diagnosis"]
-assert found["verdict"] in ("named", "indistinguishable"), found["verdict"]
+# Softening shows next to nothing by itself: together with the fibres it may make up for the shape of what no mechanism lists.
+assert found["verdict"] == "indistinguishable" and found["unlisted"], found["verdict"]
 assert "circumferential_fibres" in found["ambiguity_set"], found["ambiguity_set"]
 gain = found["gain"]
 assert gain["after"] < 0.1 * gain["before"], gain

@@ -23,10 +23,10 @@ struct Law {
 
 /// y = 1 + x² at 60 places up to x = 10, replicates with this noise.
 struct Replicated : fakes::Bench {
-  Replicated(const Law& law, std::size_t replicates, std::uint64_t seed) {
+  Replicated(const Law& law, std::size_t replicates, std::uint64_t seed,
+             const std::vector<double>& x = fakes::grid(0, 10, 60)) {
     std::mt19937_64 generator(seed);
     std::normal_distribution<double> normal;
-    const auto x = fakes::grid(0, 10, 60);
     auto& entry = add_test("t", x, x);
     const auto folder = entry.data.files.front().parent_path();
     entry.data.files.clear();
@@ -89,14 +89,25 @@ TEST(NoiseStatement, RecoversTheCorrelationOfNeighboursWithinWhatItStates) {
   }
 }
 
-// Seed 4; 60 overlapping differences: σ̂² of about 30 degrees of freedom; 4 standard deviations, 6e-5.
+// Seed 4; 58 overlapping differences of 60 rows: σ̂² of about 30 degrees of freedom; 4 standard deviations, 6e-5.
 TEST(NoiseStatement, ElseTakesDifferencesOfNeighbouringRows) {
   Replicated bench({0.5}, 1, 4);
   const NoiseSource source = bench.stated();
   EXPECT_EQ(source.kind, NoiseSource::Kind::differences);
-  EXPECT_NEAR(source.freedom, 60 * 18.0 / 35, 1e-9);
+  EXPECT_NEAR(source.freedom, 58 * 18.0 / 35, 1e-9);
   EXPECT_NEAR(source.noise.absolute, 0.5, 4 * 0.5 / std::sqrt(2 * source.freedom));
   EXPECT_EQ(source.noise.correlation, 0);
+}
+
+// A hold has no neighbours on either side: its rows say nothing, and are no degrees of freedom.
+TEST(NoiseStatement, CountsOnlyTheDifferencesThatItTook) {
+  std::vector<double> x = fakes::grid(0, 10, 30);
+  x.insert(x.end(), 30, 10.0);
+  EXPECT_NEAR(Replicated({0.5}, 1, 6, x).stated().freedom, 28 * 18.0 / 35, 1e-9);
+  // Nor are rows that are held out.
+  Replicated bench({0.5}, 1, 6);
+  bench.experiment.tests[0].hold_out.rows = data::RowRange{40, 60, 1};
+  EXPECT_NEAR(bench.stated().freedom, 38 * 18.0 / 35, 1e-9);
 }
 
 TEST(NoiseStatement, RefusesIdenticalReplicates) {

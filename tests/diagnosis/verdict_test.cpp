@@ -71,6 +71,7 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   int lines = 0;
   for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(comparison::columns(line), 80u) << line;
   EXPECT_GT(lines, 8);
+  EXPECT_LE(lines, 25) << "names of 50 characters take a line each";
 }
 
 // A gain of the load cell and stiffer matrix and fibres are one and the same for one strip. Seed 32: 5 %.
@@ -117,6 +118,36 @@ TEST(Verdict, AWrongRowIsSuspectData) {
   EXPECT_EQ(written["causes"][0]["target"]["row"], 14);
   EXPECT_EQ(written["causes"][0]["target"]["channel"], "stress");
   EXPECT_THAT(diagnosis::summary(found), AllOf(HasSubstr("SUSPECT DATA"), HasSubstr("row 14")));
+}
+
+// Only causes that a single row is none of are asked for; the row is said all the same, and nothing is named for it.
+TEST(Verdict, AWrongRowIsSuspectDataWhereOutliersAreNotAskedFor) {
+  Measured measured;
+  measured.experiment["diagnosis"]["mechanisms"] = {"force_offset", "axial_fibres"};
+  measured.measure(34, {}, [](const Strip& strip, double stretch) {
+    return strip.name == "axial" && std::abs(stretch - 1.3) < 0.01 ? 4.0 : 0;
+  });
+  const Diagnosis found = measured.diagnose();
+  ASSERT_EQ(found.verdict, Verdict::suspect_data);
+  EXPECT_THAT(found.reasons.front(), HasSubstr("nothing is wrong but row 14"));
+  EXPECT_TRUE(found.causes.empty());
+  EXPECT_FALSE(found.extension);
+}
+
+// Whatever was not fitted again at finite amplitude is told by its best place and score.
+TEST(Verdict, TheRankingHasTheBestPlaceOfEveryMechanism) {
+  const Measured measured;
+  measured.measure(36, offset_of_the_axial_strip);
+  const json found = diagnosis::diagnosis_json(measured.diagnose());
+  ASSERT_FALSE(found["ranking"].empty());
+  std::size_t compared = 0;
+  for (const json& one : found["ranking"])
+    for (const json& score : found["scores"])
+      if (one["id"] == score["id"] && one["gain"].is_null() && one["id"] != "outliers") {
+        EXPECT_EQ(one["score"], score["score"]) << one["id"];
+        ++compared;
+      }
+  EXPECT_GT(compared, 0u);
 }
 
 // Axial fibres, and twenty standard deviations in row 14: both are said, and the extension has both.

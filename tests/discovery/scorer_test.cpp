@@ -181,6 +181,16 @@ TEST(Scorer, ComparesDetectionWithTheOracleOnTheSameCases) {
   EXPECT_NEAR(figure(cases, "detected, as a share of the oracle's, Λ ≥ 25").value, 1, 1e-12);
 }
 
+TEST(Scorer, WantsEveryEffectNamedInHalfOfItsCases) {
+  const auto row = [](double lambda, std::size_t named, std::size_t cases) {
+    EffectRow one;
+    one.id = "a", one.lambda = lambda, one.detected = {cases, cases}, one.named_or_look_alike = {named, cases};
+    return one;
+  };
+  EXPECT_TRUE(unnamed({row(60, 2, 3), row(60, 1, 2), row(60, 0, 0), row(25, 0, 3)}).empty());
+  EXPECT_EQ(unnamed({row(60, 1, 3)}), std::vector<std::string>{"a is named in 1 of 3 cases at Λ 60"});
+}
+
 TEST(Scorer, WantsBothOfAPairAndNothingElse) {
   Case pair = of_set("pairs", "white", "named");
   pair.truth.asked = 60, pair.truth.effects = {{.id = "a", .target = {}}, {.id = "b", .target = {}}};

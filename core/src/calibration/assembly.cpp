@@ -11,7 +11,6 @@
 #include "calibration/composition.hpp"
 
 namespace tunica::calibration {
-namespace {
 
 std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count) {
   std::vector<bool> fitted(count, !entry.hold_out.all);
@@ -26,6 +25,8 @@ std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t co
   for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
   return fitted;
 }
+
+namespace {
 
 std::string unit_of(const std::string& name, const std::vector<Observable>& observables) {
   const auto found = std::find_if(observables.begin(), observables.end(),

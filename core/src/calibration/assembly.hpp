@@ -16,6 +16,9 @@
 
 namespace tunica::calibration {
 
+/// Which of the rows of a test are fitted: those that are not held out.
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count);
+
 /// Bounds that the owner of a parameter declares: outside of them it may mean nothing.
 struct DeclaredRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();

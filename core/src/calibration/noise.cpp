@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -67,8 +68,9 @@ double replicate_variance(const data::Channel& channel, const std::vector<std::s
   return sum / (static_cast<double>(rows.size()) * (replicates - 1)) / replicates;
 }
 
-/// The difference estimator of the header; zero when no row lies strictly between fitted neighbours.
-double difference_variance(const data::Channel& channel, std::span<const double> x, const std::vector<bool>& fitted) {
+/// The difference estimator of the header, and how many rows lie strictly between fitted neighbours.
+std::pair<double, std::size_t> difference_variance(const data::Channel& channel, std::span<const double> x,
+                                                   const std::vector<bool>& fitted) {
   const auto& y = channel.values;
   double sum = 0;
   std::size_t count = 0;
@@ -79,7 +81,7 @@ double difference_variance(const data::Channel& channel, std::span<const double>
     sum += std::pow(a * y[i - 1] + b * y[i + 1] - y[i], 2) / (a * a + b * b + 1);
     ++count;
   }
-  return count == 0 ? 0 : sum / static_cast<double>(count);
+  return {count == 0 ? 0 : sum / static_cast<double>(count), count};
 }
 
 }  // namespace
@@ -89,8 +91,8 @@ NoiseModel noise_model(const data::Channel& channel, std::span<const double> abs
   const std::vector<std::size_t> rows = indices(fitted);
   if (channel.noise) return stated(channel, rows, where, warnings);
   const bool replicated = channel.replicates.size() > 1;
-  const double variance =
-      replicated ? replicate_variance(channel, rows) : difference_variance(channel, abscissa, fitted);
+  const auto [variance, terms] = replicated ? std::pair(replicate_variance(channel, rows), rows.size())
+                                            : difference_variance(channel, abscissa, fitted);
   if (!(variance > 0)) {
     throw InputError(
         fmt::format("{}: no noise is stated and none can be estimated from the data; state noise.absolute or "
@@ -100,7 +102,7 @@ NoiseModel noise_model(const data::Channel& channel, std::span<const double> abs
   const double sd = std::sqrt(variance);
   warnings.push_back(fmt::format("{}: no noise is stated; σ = {:.4g} {} was estimated from {}", where, sd, channel.unit,
                                  replicated ? "the replicates" : "differences of neighbouring rows"));
-  return {std::vector<double>(rows.size(), sd), {}, true};
+  return {std::vector<double>(rows.size(), sd), {}, true, terms};
 }
 
 }  // namespace tunica::calibration

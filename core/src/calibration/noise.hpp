@@ -14,6 +14,7 @@ struct NoiseModel {
   std::vector<double> sd;         ///< one per fitted row
   std::vector<double> neighbour;  ///< correlation with the fitted row before it; empty = uncorrelated
   bool estimated = false;
+  std::size_t terms = 0;  ///< rows, or differences of neighbours, that an estimate is the mean of
 };
 
 /// The standard deviation σ of each fitted row. Stated: σ² = absolute² + (relative·y)², and a mean over m replicates

@@ -46,7 +46,8 @@ std::vector<Difference> differentiate(const Function& f, double h) {
       const double uncertainty = std::abs(fine - coarse) + rounding;
       if (uncertainty < found[i].uncertainty) found[i] = {fine, uncertainty};
     }
-    // f′(0⁺) − f′(0⁻) = bend(h) − a h − b h³ − O(h⁵): the step in the slope where there is a kink and nothing elsewhere.
+    // f′(0⁺) − f′(0⁻) = bend(h) − a h − b h³ − O(h⁵): the step in the slope where there is a kink and nothing
+    // elsewhere.
     double kink = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k + 2 < levels; ++k) {
       const double coarse = (4 * bend[k + 1][i] - bend[k][i]) / 3, fine = (4 * bend[k + 2][i] - bend[k + 1][i]) / 3;

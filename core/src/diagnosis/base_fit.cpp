@@ -130,7 +130,10 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
   starts.insert(starts.begin(), initial);
   if (!d.settings.quick && !d.settings.optimizer.empty()) {
     const auto& entry = d.experiment.optimizer(d.settings.optimizer);
-    if (entry.stages.empty()) {
+    if (!entry.stages.empty()) {
+      d.warnings.push_back(fmt::format(
+          "diagnosis.optimizer '{}' has stages and is not used here; name one of its stages", d.settings.optimizer));
+    } else {
       const calibration::LocalOptimizer optimizer{&catalogue.optimizers().find(entry.type)->second, entry.options};
       const calibration::Target target{
           assembly.blocks(), assembly.residual_count(),
@@ -140,7 +143,11 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
       const auto workspace = assembly.make_workspace();
       const auto found =
           calibration::refit(assembly, target, optimizer, initial, std::nullopt, d.settings.seed, *workspace);
-      if (found.status.ok()) starts.push_back(found.free);
+      if (found.status.ok())
+        starts.push_back(found.free);
+      else
+        d.warnings.push_back(fmt::format("the optimizer '{}' found no start for the base fit: {}", d.settings.optimizer,
+                                         found.status.reason()));
     }
   }
   std::vector<Fit> fits(starts.size());

@@ -66,14 +66,20 @@ class Search {
   }
 
  private:
-  /// The model, or the tests and channels that have not got it yet; `absent` says why there is nowhere.
+  /// The models, or the tests and channels, that have not got it yet; `absent` says why there is nowhere.
   [[nodiscard]] std::vector<Target> targets_of(const std::string& id, const MechanismFactory& mechanism,
                                                std::string& absent) const {
     if (mechanism.stage < Stage::test) {
-      const auto& owner = experiment_.model(experiment_.models_of(run_).front());
-      if (!already_there(owner.mechanisms, id)) return {Target{}};
-      absent = "the model has it already";
-      return {};
+      std::vector<Target> materials;
+      const std::vector<std::string> models = experiment_.models_of(run_);
+      for (const std::string& name : models) {
+        if (already_there(experiment_.model(name).mechanisms, id)) continue;
+        Target material;
+        if (models.size() > 1) material.model = name;
+        materials.push_back(std::move(material));
+      }
+      if (materials.empty()) absent = "the model has it already";
+      return materials;
     }
     std::vector<Target> targets = single_targets(mechanism, experiment_, run_, base_);
     std::erase_if(targets, [&](const Target& target) {

@@ -103,7 +103,13 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
       amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
       const auto [lowest, highest] = plausible_range(diagnosis, mechanism, addition.target);
       amplitude.plausible = amplitude.high >= lowest && amplitude.low <= highest;
-      if (mechanism.side == MechanismFactory::Side::positive) amplitude.low = std::max(amplitude.low, mechanism.null);
+      // No further than the parameter may go; a mechanism of one side not beyond its null.
+      amplitude.low = std::max(amplitude.low, parameter.min), amplitude.high = std::min(amplitude.high, parameter.max);
+      const bool upwards = mechanism.plausible_max > mechanism.null;
+      if (mechanism.side == MechanismFactory::Side::positive && upwards)
+        amplitude.low = std::max(amplitude.low, mechanism.null);
+      if (mechanism.side == MechanismFactory::Side::positive && !upwards)
+        amplitude.high = std::min(amplitude.high, mechanism.null);
       cause.amplitude = amplitude;
     } else {
       cause.nuisance.push_back(amplitude);

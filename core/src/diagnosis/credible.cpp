@@ -1,44 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/credible.hpp"
 
-#include <set>
-
-#include "diagnosis/detectable.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace tunica::diagnosis {
 namespace {
 
-/// Whether each member of `a` from `first` on finds a partner of its own in `b`.
-bool alike(const Eigen::MatrixXd& likeness, const Explanation& a, const Explanation& b, std::size_t first = 0,
-           const std::set<std::size_t>& taken = {}) {
+bool alike(const std::vector<Direction>& directions, const Explanation& a, Explanation b) {
   if (a.size() != b.size()) return false;
-  if (first == a.size()) return true;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(a[first]), j = static_cast<Eigen::Index>(b[k]);
-    if (taken.contains(k) || !(i == j || likeness(i, j) > look_alike)) continue;
-    std::set<std::size_t> now = taken;
-    now.insert(k);
-    if (alike(likeness, a, b, first + 1, now)) return true;
-  }
+  // Three at most: every order of the partners is tried.
+  std::sort(b.begin(), b.end());
+  do {
+    bool all = true;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const std::size_t other = directions[b[k]].candidate;
+      all = all && (directions[a[k]].candidate == other || likeness(directions, a[k], other) > look_alike);
+    }
+    if (all) return true;
+  } while (std::next_permutation(b.begin(), b.end()));
   return false;
 }
 
 }  // namespace
 
-std::vector<std::size_t> classes_of(const Diagnosis& diagnosis, const std::vector<Explanation>& explanations) {
-  const Eigen::MatrixXd alikes = likeness(diagnosis.directions, diagnosis.candidates.size());
-  constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> classes(explanations.size(), none);
-  std::size_t count = 0;
-  for (std::size_t first = 0; first < explanations.size(); ++first) {
-    if (classes[first] != none) continue;
-    std::vector<std::size_t> reached{first};
-    classes[first] = count;
-    for (std::size_t at = 0; at < reached.size(); ++at)
-      for (std::size_t other = 0; other < explanations.size(); ++other)
-        if (classes[other] == none && alike(alikes, explanations[reached[at]], explanations[other]))
-          classes[other] = count, reached.push_back(other);
-    ++count;
+double likeness(const std::vector<Direction>& directions, std::size_t direction, std::size_t candidate) {
+  double largest = 0;
+  for (const Direction& other : directions)
+    if (other.candidate == candidate) largest = std::max(largest, std::abs(directions[direction].unit.dot(other.unit)));
+  return std::min(largest, 1.0);
+}
+
+Eigen::MatrixXd likeness(const Diagnosis& d) {
+  const auto C = static_cast<Eigen::Index>(d.candidates.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Identity(C, C);
+  for (Eigen::Index a = 0; a < C; ++a)
+    for (Eigen::Index b = 0; b < C; ++b)
+      if (const auto best = d.best_direction[static_cast<std::size_t>(a)]; best && a != b)
+        all(a, b) = likeness(d.directions, *best, static_cast<std::size_t>(b));
+  return all;
+}
+
+std::vector<std::size_t> classes_of(const std::vector<Direction>& directions,
+                                    const std::vector<Explanation>& explanations) {
+  std::vector<std::size_t> classes, first;
+  for (std::size_t k = 0; k < explanations.size(); ++k) {
+    const auto own = std::find_if(first.begin(), first.end(),
+                                  [&](std::size_t f) { return alike(directions, explanations[f], explanations[k]); });
+    classes.push_back(static_cast<std::size_t>(own - first.begin()));
+    if (own == first.end()) first.push_back(k);
   }
   return classes;
 }

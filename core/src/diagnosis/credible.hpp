@@ -10,17 +10,25 @@ namespace tunica::diagnosis {
 
 /// The ambiguity set is a credible set: the likeliest explanations that hold this probability together.
 constexpr double set_mass = 0.95;
-/// Mechanisms are look-alikes on these data where projected signatures of theirs correlate by more (likeness()).
+/// A mechanism looks like another on these data above this likeness.
 constexpr double look_alike = 0.9;
 /// Explanations that do not look alike, beyond which the cause is unknown.
 constexpr std::size_t most_explanations = 4;
 
-/// The candidates that act together: one, a pair, a triple.
+/// How much a candidate, wherever it acts, may look like what shows in this direction: the largest |ŝᵀ ŝ_h| over its
+/// hypotheses h; 0 where it leaves no trace.
+double likeness(const std::vector<Direction>& directions, std::size_t direction, std::size_t candidate);
+
+/// Row a: how much every candidate may look like a as it explains these data best; ones on the diagonal.
+Eigen::MatrixXd likeness(const Diagnosis& diagnosis);
+
+/// The directions that act together: one, a pair, a triple.
 using Explanation = std::vector<std::size_t>;
 
-/// Explanations by looks: the class of each. Two look alike where their members can be matched one to one so that each
-/// is the same mechanism or its look-alike; and so do those that a chain of such joins. Classes are numbered in the
-/// order in which they come.
-std::vector<std::size_t> classes_of(const Diagnosis& diagnosis, const std::vector<Explanation>& explanations);
+/// Explanations by looks, likeliest first: the class of each. The first of a class stands for it, and those belong to
+/// it of which the members can be matched with its members one to one so that each is the same mechanism as its partner
+/// or looks like it. Classes are numbered in the order in which they come.
+std::vector<std::size_t> classes_of(const std::vector<Direction>& directions,
+                                    const std::vector<Explanation>& explanations);
 
 }  // namespace tunica::diagnosis

@@ -38,12 +38,12 @@ Options defaults(const std::vector<Option>& declared) {
   return options;
 }
 
-/// σ of an observable: the smallest that the data state for it, as absolute noise; none where it was not measured.
-std::optional<double> known_sd(const Diagnosis& d, const std::string& observable) {
+/// Noise of an observable: the smallest at this value that the data state for it; none where it was not measured.
+std::optional<double> known_sd(const Diagnosis& d, const std::string& observable, double value) {
   std::optional<double> sd;
   for (const Curve& curve : d.curves) {
     if (curve.channel != observable) continue;
-    const double own = std::max(curve.noise.noise.absolute, 0.0);
+    const double own = std::hypot(curve.noise.noise.absolute, curve.noise.noise.relative * value);
     if (own > 0) sd = std::min(sd.value_or(own), own);
   }
   return sd;
@@ -172,8 +172,14 @@ std::vector<Design> designs(const Diagnosis& d, const plugins::Catalogue& catalo
       double largest = 0;
       for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(values[k * n + i]));
       const bool plain_stretch = plan.channels[k] == "transverse_stretch";
-      const double sd = known_sd(d, plan.channels[k]).value_or(plain_stretch ? 0.005 : relative_noise * largest);
-      design.sd.insert(design.sd.end(), n, std::max(sd, 1e-12));
+      // Relative noise alone would make rows near zero exact: no row is known better than one of a tenth of the
+      // largest.
+      for (std::size_t i = 0; i < n; ++i) {
+        const double value = std::max(std::abs(values[k * n + i]), 0.1 * largest);
+        const double sd =
+            known_sd(d, plan.channels[k], value).value_or(plain_stretch ? 0.005 : relative_noise * largest);
+        design.sd.push_back(std::max(sd, 1e-12));
+      }
     }
     library.push_back(std::move(design));
   }

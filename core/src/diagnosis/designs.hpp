@@ -19,9 +19,10 @@ struct Design {
 };
 
 /// The library: strips along both directions with their width measured, a strip cut at 45°, sheets pulled equally and
-/// in pure shear, a load–unload cycle and a hold where the data have time, and where tubes were measured the same tube
-/// at another axial stretch. Stretches reach as far as those of the data; noise is that of the data's channels of the
-/// same kind, else 1.5 % of the largest value, which `scale` predicts. Types that no plugin provides are left out.
+/// twice as far in one direction, a load–unload cycle and a hold where the data have time, and where tubes were
+/// measured the same tube at another axial stretch. Stretches reach as far as those of the data; noise is that of the
+/// data's channels of the same kind, else 1.5 % of the largest value, which `scale` predicts. Types that no plugin
+/// provides are left out.
 std::vector<Design> designs(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue, const Refitted& scale);
 
 /// What the material of a refit shows in a design; false where it cannot be simulated. The errors of the rig that the

@@ -60,22 +60,6 @@ const Direction* typical(const Diagnosis& d, std::size_t candidate) {
 
 }  // namespace
 
-Eigen::MatrixXd likeness(const std::vector<Direction>& directions, std::size_t candidates) {
-  const auto C = static_cast<Eigen::Index>(candidates), D = static_cast<Eigen::Index>(directions.size());
-  Eigen::MatrixXd largest = Eigen::MatrixXd::Zero(C, C);
-  if (D == 0) return largest;
-  Eigen::MatrixXd units(directions.front().unit.size(), D);
-  for (Eigen::Index k = 0; k < D; ++k) units.col(k) = directions[static_cast<std::size_t>(k)].unit;
-  const Eigen::MatrixXd correlations = units.transpose() * units;
-  for (Eigen::Index b = 0; b < D; ++b)
-    for (Eigen::Index a = 0; a < D; ++a) {
-      double& entry = largest(static_cast<Eigen::Index>(directions[static_cast<std::size_t>(a)].candidate),
-                              static_cast<Eigen::Index>(directions[static_cast<std::size_t>(b)].candidate));
-      entry = std::max(entry, std::min(1.0, std::abs(correlations(a, b))));
-    }
-  return largest;
-}
-
 std::vector<Detectable> detectable(const Diagnosis& d, const Detection& detection) {
   std::vector<Detectable> found;
   for (std::size_t c = 0; c < d.candidates.size(); ++c) {

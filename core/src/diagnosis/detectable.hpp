@@ -14,7 +14,4 @@ namespace tunica::diagnosis {
 /// infinite where |c| > 0.999.
 std::vector<Detectable> detectable(const Diagnosis& diagnosis, const Detection& detection);
 
-/// Largest absolute correlations between directions of two candidates, candidate by candidate; 0 where one has none.
-Eigen::MatrixXd likeness(const std::vector<Direction>& directions, std::size_t candidates);
-
 }  // namespace tunica::diagnosis

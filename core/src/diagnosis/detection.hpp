@@ -36,11 +36,12 @@ class Detection {
   [[nodiscard]] Verdict judge(const Eigen::VectorXd& residuals) const;
   /// The score at which a candidate alone raises an alarm of this level.
   [[nodiscard]] double threshold(std::size_t candidate, double alpha) const;
+  /// P-value of the largest score of one candidate where there is nothing to find.
+  [[nodiscard]] double candidate_p(std::size_t candidate, double T) const;
   /// What the best mechanism gains on average where there is nothing to find.
   [[nodiscard]] double gain_of_nothing() const { return gain_of_nothing_; }
 
  private:
-  [[nodiscard]] double candidate_p(std::size_t candidate, double T) const;
   [[nodiscard]] double smooth_p(double Q) const;
   [[nodiscard]] double mechanisms_p(double B) const;
 

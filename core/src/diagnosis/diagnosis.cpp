@@ -15,6 +15,7 @@
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/gain.hpp"
 #include "diagnosis/gross_rows.hpp"
+#include "diagnosis/groups.hpp"
 #include "diagnosis/large_noise.hpp"
 #include "diagnosis/misfit.hpp"
 #include "diagnosis/naming.hpp"
@@ -113,7 +114,7 @@ std::pair<Diagnosis, Judgement> without(const std::vector<GrossRow>& rows, const
 void explain(Diagnosis& d, const Judgement& judgement, const std::vector<GrossRow>& gross,
              const plugins::Catalogue& catalogue) {
   if (judgement.alarm) d.alarm_factor = alarm_factor(d, *judgement.detection);
-  d.misfit = misfits(d);
+  for (std::size_t c = 0; c < d.candidates.size(); ++c) d.best_direction.push_back(likeliest_direction(d, c));
   d.detectable = detectable(d, *judgement.detection);
   judge_admissibility(d);
 
@@ -122,9 +123,18 @@ void explain(Diagnosis& d, const Judgement& judgement, const std::vector<GrossRo
   const bool alarm = judgement.alarm;
   if (alarm || inadmissible) report(d, "fitting the mechanisms", 0.4);
   if (inadmissible) name_admissible_extension(d, catalogue);
-  if (alarm && !d.extension && !gross.empty()) name_gross_rows(d, gross, catalogue);
-  if (d.extension) d.p_after = p_of_rest(d, *d.extension, judgement.shapes, judgement.draws);
-  if (alarm && !d.extension) name_causes(d, *judgement.detection, judgement.draws, judgement.shapes, catalogue);
+  if (d.extension) {
+    d.p_after = p_of_rest(d, *d.extension, judgement.shapes, judgement.draws);
+    if (alarm && d.p_after <= second_alpha) not_clean(d, *judgement.detection, judgement.draws, judgement.shapes);
+  } else if (alarm && !gross.empty()) {
+    name_gross_rows(d, gross, catalogue);
+    if (d.extension) d.p_after = p_of_rest(d, *d.extension, judgement.shapes, judgement.draws);
+  } else if (alarm) {
+    name_causes(d, *judgement.detection, judgement.draws, judgement.shapes, catalogue);
+    // Whatever explains the curves: a cause under which the material stays unstable is not the whole of it.
+    if (inadmissible && d.verdict == Verdict::named) d.verdict = Verdict::unknown;
+  }
+  d.misfit = misfits(d);
   if (!alarm && !inadmissible)
     d.reasons.push_back(
         fmt::format("what is left over could be noise (p = {:.2g})", d.p_refits.value_or(d.detection.p)));

@@ -36,7 +36,9 @@ struct Amplitude {
 struct Cause {
   std::string id;
   Target target;
-  double p_value = 1;      ///< of its score among all that were tried
+  /// Of what it takes of |r|² at finite amplitude (beside others: what is lost without it), where nothing is wrong and
+  /// the mechanism is looked for in all its places.
+  double p_value = 1;
   double probability = 0;  ///< that it is this one, of the mechanisms of the catalogue
   Amplitude amplitude;
   std::vector<Amplitude> nuisance;
@@ -137,11 +139,13 @@ struct Diagnosis {
   std::vector<Cause> causes;    ///< of the best explanation first, then rivals
   std::vector<Cause> left_out;  ///< gross rows that the extension takes out beside its causes
   std::vector<Ranked> ranking;  ///< likeliest first; empty without an alarm
-  std::size_t named = 0;        ///< how many of the causes make up the best explanation
+  /// Of each candidate the direction that explains these data best; none where it leaves no trace.
+  std::vector<std::optional<std::size_t>> best_direction;
+  std::size_t named = 0;  ///< how many of the causes make up the best explanation
   std::vector<std::string> ambiguity_set;
   std::vector<std::vector<std::string>> look_alikes;  ///< the ambiguity set by what looks alike; empty for groups
   bool unlisted = false;  ///< an effect that no mechanism lists may look like the causes together
-  std::vector<std::pair<std::string, std::string>> alternatives;
+  std::vector<std::vector<std::string>> alternatives;  ///< to a group that is named: what rivals it, likeliest first
   Admissibility admissibility;
   std::vector<Detectable> detectable;
   std::optional<Refitted> extension;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/result_json.hpp"
-#include "diagnosis/detectable.hpp"
+#include "diagnosis/credible.hpp"
 #include "diagnosis/outputs.hpp"
 
 namespace tunica::diagnosis {
@@ -22,11 +22,12 @@ json or_null(const std::optional<Value>& value) {
 }
 
 json target_json(const Target& target) {
-  if (target.tests.empty()) return nullptr;
+  if (target.tests.empty() && target.model.empty()) return nullptr;
   json result = {{"test", target.tests.size() == 1 ? json(target.tests.front()) : json(nullptr)},
                  {"channel", target.channel.empty() ? json(nullptr) : json(target.channel)}};
   if (target.tests.size() > 1) result["tests"] = target.tests;
   if (target.row) result["row"] = *target.row;
+  if (!target.model.empty()) result["model"] = target.model;
   return result;
 }
 
@@ -102,7 +103,8 @@ json diagnosis_json(const Diagnosis& d) {
                       {"to", one.to},
                       {"p_value", one.p_value}});
   for (const Cause& cause : all_causes(d)) causes.push_back(cause_json(cause));
-  for (const auto& [one, other] : d.alternatives) alternatives.push_back({one, other});
+  for (const auto& ids : d.alternatives)
+    if (ids.size() == 2) alternatives.push_back(ids);
   for (const Detectable& one : d.detectable)
     detectable.push_back({{"id", one.id},
                           {"detectable", finite(one.detectable)},
@@ -116,7 +118,7 @@ json diagnosis_json(const Diagnosis& d) {
                           {"correlation", one.correlation},
                           {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)}});
   json ranking = json::array();
-  const Eigen::MatrixXd alike = likeness(d.directions, d.candidates.size());
+  const Eigen::MatrixXd alike = likeness(d);
   for (const Ranked& one : d.ranking)
     ranking.push_back({{"id", one.id},
                        {"target", target_json(one.target)},
@@ -132,7 +134,9 @@ json diagnosis_json(const Diagnosis& d) {
             target_json(d.candidates[a].hypotheses[d.directions[d.detection.direction[a]].hypothesis].addition.target)},
            {"score", score(d.directions[d.detection.direction[a]], -d.fit.residuals).T}});
     for (std::size_t b = a + 1; b < d.candidates.size(); ++b)
-      if (const double c = alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)); c > 0.9)
+      if (const double c = std::max(alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)),
+                                    alike(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)));
+          c > look_alike)
         confusable.push_back({{"id", d.candidates[a].id}, {"with", d.candidates[b].id}, {"correlation", c}});
   }
   for (const NoiseSource& source : d.noise)

@@ -15,6 +15,9 @@ std::string amount(double value, const std::string& unit) {
   return unit == "1" || unit.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
 }
 
+/// Rivals that a summary lists.
+constexpr std::size_t most_told = 4;
+
 /// Factors are looked for up to twenty.
 std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "19 and more"; }
 
@@ -113,11 +116,8 @@ std::vector<std::string> explanations(const Diagnosis& d) {
     std::vector<std::string> together;
     for (std::size_t k = 0; k < d.named; ++k) together.push_back(d.causes[k].id);
     all.push_back(fmt::format("{}", fmt::join(together, " with ")));
-    for (const auto& [one, other] : d.alternatives) all.push_back(one + " with " + other);
-    if (d.named > 2 && d.ambiguity_set.size() > d.named)
-      all.push_back(fmt::format(
-          "the like with {}",
-          fmt::join(d.ambiguity_set.begin() + static_cast<std::ptrdiff_t>(d.named), d.ambiguity_set.end(), " or ")));
+    for (const auto& ids : d.alternatives)
+      all.push_back(ids.size() == 1 ? ids.front() + " alone" : fmt::format("{}", fmt::join(ids, " with ")));
   }
   return all.empty() ? d.ambiguity_set : all;
 }
@@ -151,16 +151,24 @@ std::string summary(const Diagnosis& d) {
                      amount(cause.amplitude.value, cause.amplitude.unit), interval, cause.probability));
   }
   std::vector<std::string> rivals;
-  for (std::size_t k = d.named; k < d.causes.size(); ++k)
-    rivals.push_back(fmt::format("{} ({:.2f})", d.causes[k].id, d.causes[k].probability));
-  for (const auto& [one, other] : d.alternatives) rivals.push_back(one + " with " + other);
+  if (d.named > 1) {
+    const std::vector<std::string> all = explanations(d);
+    rivals.assign(all.begin() + 1, all.end());
+  } else {
+    for (std::size_t k = d.named; k < d.causes.size(); ++k)
+      rivals.push_back(fmt::format("{} ({:.2f})", d.causes[k].id, d.causes[k].probability));
+  }
+  if (const std::size_t count = rivals.size(); count > most_told) {
+    rivals.resize(most_told);
+    rivals.push_back(fmt::format("and {} more", count - most_told));
+  }
   if (d.unlisted) rivals.push_back("an effect that the catalogue does not list: " + d.reasons.back());
   if (d.verdict != Verdict::nothing_detected && !d.causes.empty())
     line("Or else:  ", rivals.empty() ? "no other mechanism of the catalogue comes near"
                                       : fmt::format("{}", fmt::join(rivals, ", ")));
   if (d.extension && d.gain) {
-    std::string text = fmt::format("|r|² {:.1f} → {:.1f} (by chance {:.1f} would go)", d.gain->before, d.gain->after,
-                                   d.gain->expected_under_nothing);
+    std::string text = fmt::format("|r|² {:.1f} → {:.1f} (by chance {:.1f} would go{})", d.gain->before, d.gain->after,
+                                   d.gain->expected_under_nothing, d.named > 1 ? " with one mechanism" : "");
     text += predicted(*d.gain);
     if (!d.gain->best_wrong.empty())
       text += fmt::format("; the best wrong one, {}, leaves {:.1f}", d.gain->best_wrong, d.gain->best_wrong_after);

@@ -41,7 +41,7 @@ std::optional<std::size_t> index_of(const calibration::Assembly& assembly, const
 }  // namespace
 
 std::string Target::words() const {
-  if (tests.empty()) return "in the material";
+  if (tests.empty()) return model.empty() ? "in the material" : fmt::format("in the material of '{}'", model);
   if (tests.size() > 1) return fmt::format("alike in the tests '{}'", fmt::join(tests, "', '"));
   const std::string where = row ? fmt::format(", row {}", *row) : std::string();
   if (channel.empty()) return fmt::format("in the test '{}'{}", tests.front(), where);
@@ -55,14 +55,14 @@ Extended::Extended(const experiment::Experiment& experiment, const experiment::R
   for (const Addition& addition : additions_) {
     const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
     if (addition.target.tests.empty())
-      named(experiment_.models, models.front()).mechanisms.push_back(entry_of(addition, mechanism));
+      named(experiment_.models, addition.target.model.empty() ? models.front() : addition.target.model)
+          .mechanisms.push_back(entry_of(addition, mechanism));
     for (const std::string& test : addition.target.tests)
       named(experiment_.tests, test).mechanisms.push_back(entry_of(addition, mechanism));
   }
   assembly_ = std::make_unique<calibration::Assembly>(experiment_, run, catalogue);
 
   std::vector<bool> added(assembly_->parameters().size(), false);
-  const std::string prefix = models.size() > 1 ? models.front() + "." : "";
   for (const Addition& addition : additions_) {
     const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
     Part part{{}, {}, {}, mechanism.null};
@@ -77,7 +77,7 @@ Extended::Extended(const experiment::Experiment& experiment, const experiment::R
                           mechanism.parameters[k].name));
         variable.push_back(*index), added[*index] = true;
       };
-      if (addition.target.tests.empty()) add(prefix);
+      if (addition.target.tests.empty()) add(addition.target.model.empty() ? "" : addition.target.model + ".");
       for (const std::string& test : addition.target.tests) add(test + ".");
       if (k == 0) {
         part.amplitude = std::move(variable);

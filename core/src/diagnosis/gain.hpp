@@ -10,8 +10,8 @@ namespace tunica::diagnosis {
 /// of test, and the rows beyond 70 % of the range of the abscissa predicted from those below. A test that alone shows
 /// the effect cannot be predicted with it from the others, and is left out of the list.
 ///
-/// With residuals r_H of a block at the refit, their Jacobian J_H and the covariance C of the parameters from the rest,
-/// r_Hᵀ (I + J_H C J_Hᵀ)⁻¹ r_H ~ χ² of as many degrees of freedom as rows: the p-value.
+/// The p-value of a block is Chow's: |r|² of all rows at the fit of all, less |r|² of the others at theirs, is χ² of as
+/// many degrees of freedom as the block has rows.
 void measure_gain(Diagnosis& diagnosis);
 
 }  // namespace tunica::diagnosis

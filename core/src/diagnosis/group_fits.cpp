@@ -51,12 +51,12 @@ double GroupFits::squares_with(const std::vector<Addition>& additions, std::span
 }
 
 /// Each member loses significantly when it is taken out: the rest is fitted again without it.
-bool GroupFits::all_needed(const Group& group) const {
+bool GroupFits::all_needed(Group& group) const {
   for (std::size_t out = 0; out < group.additions.size(); ++out) {
     const Group rest = without(group, out);
-    const double before = squares_with(rest.additions, rest.amplitudes);
     const std::size_t candidate = d_.directions[group.directions[out]].candidate;
-    if (before - group.refitted->fit.chi2 < detection_.threshold(candidate, second_alpha)) return false;
+    group.losses.push_back(squares_with(rest.additions, rest.amplitudes) - group.refitted->fit.chi2);
+    if (group.losses.back() < detection_.threshold(candidate, second_alpha)) return false;
   }
   return true;
 }

@@ -20,7 +20,7 @@ class GroupFits {
 
  private:
   [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes) const;
-  [[nodiscard]] bool all_needed(const Group& group) const;
+  [[nodiscard]] bool all_needed(Group& group) const;
 
   const Diagnosis& d_;
   const Detection& detection_;

@@ -116,7 +116,7 @@ class Search {
       if (!single.best || used++ >= beside) break;
       const std::size_t k = single.direction;
       const double gain = d_.fit.chi2 - single.best->fit.chi2 + 2 * log_prior(d_, k);
-      Group alone{{k}, {hypothesis(k).addition}, {amplitude_of(*single.best)}, gain, 0, std::nullopt, nullptr};
+      Group alone{{k}, {hypothesis(k).addition}, {amplitude_of(*single.best)}, gain, 0, std::nullopt, {}, nullptr};
       extend(alone, *single.best, beside, groups, seen);
     }
   }
@@ -131,7 +131,7 @@ class Search {
       if (tried.size() >= own + count) return;
       if (!tried.insert(d_.directions[k].candidate).second) continue;
       Group more = group;
-      more.refitted.reset();
+      more.refitted.reset(), more.losses.clear();
       more.begun_from = from;
       more.linear_gain += T + 2 * log_prior(d_, k);
       more.directions.push_back(k), more.additions.push_back(hypothesis(k).addition);
@@ -166,6 +166,7 @@ class Search {
                  ta * xa + tb * xb + 2 * (log_prior(d_, i) + log_prior(d_, j)),
                  0,
                  std::nullopt,
+                 {},
                  nullptr};
   }
 

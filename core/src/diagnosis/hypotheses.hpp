@@ -20,9 +20,11 @@ struct Target {
   std::vector<std::string> tests;       ///< empty: the model; several: one amplitude in all of them
   std::string channel = {};             ///< of a mechanism that takes one
   std::optional<std::size_t> row = {};  ///< of a mechanism that takes rows; none = the whole curve
+  std::string model = {};               ///< where a run has several, and no tests are named
 
   bool operator==(const Target&) const = default;
-  /// "in the model", "in test 'strip'", "in the tests 'a', 'b' alike", "channel 'stress' of test 'strip', row 12"
+  /// "in the material", "in the material of 'media'", "in the test 'strip'", "alike in the tests 'a', 'b'", "in the
+  /// channel 'stress' of the test 'strip', row 12"
   [[nodiscard]] std::string words() const;
 };
 

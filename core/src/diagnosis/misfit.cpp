@@ -35,6 +35,27 @@ std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
   return {first - std::min(first, half), std::min(last + half, means.size() - 1)};
 }
 
+/// The region of a curve where `shape`, in σ, is largest, and what the residuals do there.
+Misfit told(const Diagnosis& d, const Curve& curve, const Eigen::VectorXd& shape, double p) {
+  const auto [first, last] = region(smoothed(shape));
+  const auto begin = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
+             end = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+  const auto [from, to] = std::minmax_element(begin, end);
+  std::string name = "row", unit;
+  for (const auto& view : d.base->channels())
+    if (view.test == curve.test && view.observable == curve.channel)
+      name = view.abscissa_name, unit = view.abscissa_unit;
+  const double mean =
+      -d.fit.residuals
+           .segment(curve.first + static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1))
+           .mean();
+  Misfit misfit{curve.test, curve.channel, {}, p, *from, *to};
+  misfit.where = fmt::format(
+      "{} {:.4g} … {:.4g}{}: measured lies {} the prediction, by {:.1f} σ in the mean of {} rows", name, *from, *to,
+      unit == "1" || unit.empty() ? "" : " " + unit, mean > 0 ? "above" : "below", std::abs(mean), last - first + 1);
+  return misfit;
+}
+
 }  // namespace
 
 std::vector<Misfit> misfits(const Diagnosis& d) {
@@ -46,23 +67,20 @@ std::vector<Misfit> misfits(const Diagnosis& d) {
   for (std::size_t place = 0; place < order.size(); ++place) {
     const Curve& curve = d.curves[order[place]];
     if (p[order[place]] * static_cast<double>(order.size() - place) > d.settings.alpha) break;
-    const Eigen::VectorXd r = -d.fit.residuals.segment(curve.first, curve.count);
-    const auto [first, last] = region(smoothed(r));
-    const auto from = std::min_element(curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
-                                       curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-    const auto to = std::max_element(curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first),
-                                     curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-    std::string name = "row", unit;
-    for (const auto& view : d.base->channels())
-      if (view.test == curve.test && view.observable == curve.channel)
-        name = view.abscissa_name, unit = view.abscissa_unit;
-    const double mean = r.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1)).mean();
-    Misfit misfit{curve.test, curve.channel, {}, p[order[place]], *from, *to};
-    misfit.where = fmt::format(
-        "{} {:.4g} … {:.4g}{}: measured lies {} the prediction, by {:.1f} σ in the mean of {} rows", name, *from, *to,
-        unit == "1" || unit.empty() ? "" : " " + unit, mean > 0 ? "above" : "below", std::abs(mean), last - first + 1);
-    found.push_back(std::move(misfit));
+    found.push_back(told(d, curve, -d.fit.residuals.segment(curve.first, curve.count), p[order[place]]));
   }
+  if (!found.empty() || !d.extension) return found;
+  // No curve is wrong enough by itself: the one of which the cause explains most, and where it does.
+  const Eigen::VectorXd change = d.extension->fit.residuals - d.fit.residuals;
+  const auto explained = [&](std::size_t c) {
+    const Curve& curve = d.curves[c];
+    return d.fit.residuals.segment(curve.first, curve.count).squaredNorm() -
+           d.extension->fit.residuals.segment(curve.first, curve.count).squaredNorm();
+  };
+  const std::size_t most =
+      *std::max_element(order.begin(), order.end(), [&](auto a, auto b) { return explained(a) < explained(b); });
+  const Curve& curve = d.curves[most];
+  found.push_back(told(d, curve, change.segment(curve.first, curve.count), p[most]));
   return found;
 }
 

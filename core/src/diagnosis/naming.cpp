@@ -13,6 +13,7 @@
 #include "diagnosis/credible.hpp"
 #include "diagnosis/groups.hpp"
 #include "diagnosis/rest.hpp"
+#include "diagnosis/squares.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -37,8 +38,8 @@ class Naming {
     groups_ = fit_pairs(d_, detection_, singles_, floor, catalogue_);
     if (!groups_.empty() && groups_.front().log_weight < floor) groups_.clear();
     if (groups_.empty()) {
-      claim(claim_one(d_, singles_, catalogue_), p_one);
-      return p_one > second_alpha ? judge() : not_clean();
+      claim(claim_one(d_, detection_, singles_, catalogue_), p_one);
+      return p_one > second_alpha ? judge() : not_clean(d_, detection_, draws_, shapes_);
     }
     double p = p_of_rest(*groups_.front().refitted);
     if (p <= second_alpha) {
@@ -48,16 +49,16 @@ class Naming {
       }
     }
     if (p > second_alpha) {
-      claim(claim_several(d_, groups_, singles_, catalogue_), p);
+      claim(claim_several(d_, detection_, groups_, singles_, catalogue_), p);
       return judge();
     }
     // Nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little more.
     const double rows = static_cast<double>(d_.fit.residuals.size());
     if (d_.fit.chi2 - singles_.front().best->fit.chi2 > most_of_it * (d_.fit.chi2 - rows))
-      claim(claim_one(d_, singles_, catalogue_), p_one);
+      claim(claim_one(d_, detection_, singles_, catalogue_), p_one);
     else
-      claim(claim_several(d_, groups_, singles_, catalogue_), p);
-    not_clean();
+      claim(claim_several(d_, detection_, groups_, singles_, catalogue_), p);
+    not_clean(d_, detection_, draws_, shapes_);
   }
 
  private:
@@ -76,6 +77,7 @@ class Naming {
     for (const Single& single : singles_) logs.push_back(single.log_weight);
     const double all = log_sum(logs);
     for (const Single& single : singles_) {
+      d_.best_direction[single.candidate] = single.direction;
       const Direction& direction = d_.directions[single.direction];
       Ranked ranked{id_of(single.direction),
                     d_.candidates[direction.candidate].hypotheses[direction.hypothesis].addition.target,
@@ -87,7 +89,7 @@ class Naming {
 
   /// The table of verdicts, for an explanation after which the residuals are clean.
   void judge() {
-    d_.verdict = d_.ambiguity_set.size() == d_.named        ? Verdict::named
+    d_.verdict = claim_.alone                               ? Verdict::named
                  : claim_.explanations <= most_explanations ? Verdict::indistinguishable
                                                             : Verdict::unknown;
     if (d_.verdict == Verdict::unknown)
@@ -119,27 +121,6 @@ class Naming {
       suspect("the effect should show in several curves and is carried by one: " + curve);
   }
 
-  /// Unknown, with the share that the causes take, and how much larger than it is said to be the noise would have to be
-  /// for the rest to be clean: where the alarm stands at that noise too, the causes may be all there is.
-  void not_clean() {
-    std::vector<std::string> ids;
-    for (std::size_t k = 0; k < d_.named; ++k) ids.push_back(d_.causes[k].id);
-    const double rows = static_cast<double>(d_.fit.residuals.size());
-    const double share = (d_.fit.chi2 - d_.extension->fit.chi2) / std::max(d_.fit.chi2 - rows, 1.0);
-    unexplained(fmt::format("{} {} {:.0f} % of the misfit; what is left is no noise (p {})", fmt::join(ids, " and "),
-                            ids.size() == 1 ? "takes" : "take", 100 * std::min(share, 1.0),
-                            d_.p_after < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", d_.p_after)));
-    const Rest rest(d_, *d_.extension, shapes_, draws_);
-    for (double factor = 1.1; factor < 20; factor *= 1.1) {
-      if (rest.detection->judge(-d_.extension->fit.residuals / factor).p <= look_again) continue;
-      const double alarm = detection_.judge(-d_.fit.residuals / factor).p;
-      d_.noise_factor = factor;
-      d_.reasons.push_back(fmt::format("with noise {:.1f} times as large it would be, and the base model {}", factor,
-                                       alarm <= d_.settings.alpha ? "would still be wrong" : "would be right too"));
-      return;
-    }
-  }
-
   void unexplained(std::string why) {
     d_.verdict = Verdict::unknown;
     d_.reasons.push_back(std::move(why));
@@ -156,6 +137,30 @@ class Naming {
 };
 
 }  // namespace
+
+void not_clean(Diagnosis& d, const Detection& detection, const Eigen::MatrixXf& draws, const Shapes& shapes) {
+  std::vector<std::string> ids;
+  for (std::size_t k = 0; k < d.named; ++k) ids.push_back(d.causes[k].id);
+  const double rows = static_cast<double>(d.fit.residuals.size());
+  const double share = (d.fit.chi2 - d.extension->fit.chi2) / std::max(d.fit.chi2 - rows, 1.0);
+  d.verdict = Verdict::unknown;
+  d.reasons.push_back(fmt::format("{} {} {:.0f} % of the misfit; what is left is no noise (p {})",
+                                  fmt::join(ids, " and "), ids.size() == 1 ? "takes" : "take",
+                                  100 * std::clamp(share, 0.0, 1.0),
+                                  d.p_after < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", d.p_after)));
+  const Rest rest(d, *d.extension, shapes, draws);
+  Fit fit = d.extension->fit;
+  for (double factor = 1.1; factor < 20; factor *= 1.1) {
+    fit.residuals = d.extension->fit.residuals / factor;
+    if (std::min(rest.detection->judge(-fit.residuals).p, p_of_squares(d, fit)) <= second_alpha) continue;
+    fit.residuals = d.fit.residuals / factor;
+    const double alarm = std::min(detection.judge(-fit.residuals).p, p_of_squares(d, fit));
+    d.noise_factor = factor;
+    d.reasons.push_back(fmt::format("with noise {:.1f} times as large it would be, and the base model {}", factor,
+                                    alarm <= d.settings.alpha ? "would still be wrong" : "would be right too"));
+    return;
+  }
+}
 
 void name_causes(Diagnosis& diagnosis, const Detection& detection, const Eigen::MatrixXf& draws, const Shapes& shapes,
                  const plugins::Catalogue& catalogue) {

@@ -13,4 +13,9 @@ namespace tunica::diagnosis {
 void name_causes(Diagnosis& diagnosis, const Detection& detection, const Eigen::MatrixXf& draws, const Shapes& shapes,
                  const plugins::Catalogue& catalogue);
 
+/// The verdict where the extension leaves what is no noise: unknown, with the share that the causes take, and how much
+/// larger than it is said to be the noise would have to be for the rest to be clean. Where the alarm stands at that
+/// noise too, the causes may be all there is.
+void not_clean(Diagnosis& diagnosis, const Detection& detection, const Eigen::MatrixXf& draws, const Shapes& shapes);
+
 }  // namespace tunica::diagnosis

@@ -60,8 +60,15 @@ double distance(const Design& design, const Refitted& a, const Refitted& b) {
   return (target - J * x).squaredNorm();
 }
 
-std::string isolating(const plugins::Catalogue& catalogue, const std::string& id) {
-  return catalogue.mechanisms().at(id).factory.isolated_by;
+/// What switches mechanisms by themselves, of the first `most_told` of them.
+std::string isolating(const plugins::Catalogue& catalogue, const std::vector<std::string>& ids) {
+  constexpr std::size_t most_told = 3;
+  std::vector<std::string> switches;
+  for (const std::string& id : ids)
+    if (switches.size() < most_told)
+      switches.push_back(fmt::format("{}: {}", id, catalogue.mechanisms().at(id).factory.isolated_by));
+  if (ids.size() > most_told) switches.push_back("and so on, see `tunica describe` of the others");
+  return fmt::format("{}", fmt::join(switches, "; "));
 }
 
 }  // namespace
@@ -74,10 +81,9 @@ std::optional<NextExperiment> next_experiment(const Diagnosis& d, const plugins:
   NextExperiment next;
   next.separates = d.ambiguity_set;
   if (d.rivals.size() == 1) {
-    next.description =
-        fmt::format("To confirm {}: {}.", d.ambiguity_set.front(), isolating(catalogue, d.ambiguity_set.front()));
+    next.description = fmt::format("To confirm {}.", isolating(catalogue, d.ambiguity_set));
     if (const auto more = determining_experiment(d, d.rivals.front(), catalogue))
-      next.description += fmt::format(" {}", more->description);
+      next.description += fmt::format(" {}", more->description), next.repeats = more->repeats;
     return next;
   }
   const std::vector<Design> library = designs(d, catalogue, d.rivals.front());
@@ -90,13 +96,11 @@ std::optional<NextExperiment> next_experiment(const Diagnosis& d, const plugins:
     smallest[k] = std::isfinite(least) ? least : 0;
   });
   const auto best = std::max_element(smallest.begin(), smallest.end());
-  std::vector<std::string> switches;
-  for (const std::string& id : d.ambiguity_set) switches.push_back(fmt::format("{}: {}", id, isolating(catalogue, id)));
   if (best == smallest.end() || *best * most_repeats < separated) {
     next.description = fmt::format(
         "No strip, sheet or inflation of the library tells them apart in {} repeats; what switches one of "
         "them by itself does: {}.",
-        most_repeats, fmt::join(switches, "; "));
+        most_repeats, isolating(catalogue, d.ambiguity_set));
     return next;
   }
   next.repeats = static_cast<std::size_t>(std::ceil(separated / *best));
@@ -104,7 +108,8 @@ std::optional<NextExperiment> next_experiment(const Diagnosis& d, const plugins:
       fmt::format("{}, {} (the rivals differ by {:.1f} σ there)",
                   library[static_cast<std::size_t>(best - smallest.begin())].description,
                   *next.repeats == 1 ? "once" : fmt::format("{} times", *next.repeats), std::sqrt(*best));
-  next.description += fmt::format("; or what switches one of them by itself: {}.", fmt::join(switches, "; "));
+  next.description +=
+      fmt::format("; or what switches one of them by itself: {}.", isolating(catalogue, d.ambiguity_set));
   return next;
 }
 

@@ -81,21 +81,22 @@ std::pair<double, double> neighbours(const data::Channel& channel, const data::N
   return {products, squares};
 }
 
-/// Effective degrees of freedom of the difference estimator: its terms overlap (Gasser et al. 1986: var = 35/9 σ⁴/n).
+/// Effective degrees of freedom of the difference estimator: its n terms overlap (Gasser et al. 1986: var = 35/9 σ⁴/n).
 constexpr double difference_share = 18.0 / 35;
 
-NoiseSource from_differences(const data::Channel& channel, const data::Dataset& dataset, const std::string& where) {
+NoiseSource from_differences(const data::Channel& channel, const data::Dataset& dataset,
+                             const std::vector<bool>& fitted, const std::string& where) {
   std::vector<double> abscissa;
   if (!dataset.abscissae.empty())
     abscissa = dataset.abscissae.front().second;
   else
     for (std::size_t i = 0; i < dataset.count; ++i) abscissa.push_back(static_cast<double>(i));
   std::vector<std::string> said;
-  const auto model = calibration::noise_model(channel, abscissa, std::vector<bool>(dataset.count, true), where, said);
+  const auto model = calibration::noise_model(channel, abscissa, fitted, where, said);
   NoiseSource source;
   source.kind = NoiseSource::Kind::differences;
   source.noise.absolute = model.sd.front();
-  source.freedom = std::max(2.0, 2 * difference_share * static_cast<double>(dataset.count) / 2);
+  source.freedom = std::max(2.0, difference_share * static_cast<double>(model.terms));
   return source;
 }
 
@@ -131,6 +132,9 @@ std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const s
     if (std::find(tests.begin(), tests.end(), entry.name) == tests.end()) continue;
     const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
+    // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
+    const std::vector<bool> fitted =
+        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : calibration::fitted_rows(entry, dataset.count);
     Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;
@@ -139,8 +143,8 @@ std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const s
       else if (channel.replicates.size() > 1)
         source = from_replicates(channel);
       else
-        source =
-            from_differences(channel, dataset, fmt::format("test '{}', channel '{}'", entry.name, channel.observable));
+        source = from_differences(channel, dataset, fitted,
+                                  fmt::format("test '{}', channel '{}'", entry.name, channel.observable));
       source.test = entry.name, source.channel = channel.observable, source.unit = channel.unit;
       if (source.kind == NoiseSource::Kind::replicates) {
         const auto [product, square] = neighbours(channel, source.noise);

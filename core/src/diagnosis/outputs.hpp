@@ -36,7 +36,7 @@ void warn_of_run(Diagnosis& diagnosis, std::vector<GrossRow> gross, const plugin
 /// residuals.csv: one line a fitted row; measured, predicted by the base and by the extension, σ of the measured value
 /// (of its mean over replicates), whitened residuals of both, and what each cause changes: how its refit differs from
 /// the base fit, or for one of several its own share of their refit, whitened.
-/// confusability.csv: largest absolute correlation of projected signatures, mechanism by mechanism.
+/// confusability.csv: how much every mechanism may look like that of the row as it explains these data best.
 void write_tables(const std::filesystem::path& directory, const Diagnosis& diagnosis);
 
 }  // namespace tunica::diagnosis

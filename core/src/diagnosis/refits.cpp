@@ -10,6 +10,8 @@
 namespace tunica::diagnosis {
 namespace {
 
+constexpr double next_to_nothing = 0.01;  ///< of the amplitude that the scores promise
+
 /// The signature of an addition at the base fit, on the side of the amplitude; or null.
 const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addition, double amplitude) {
   for (const Candidate& candidate : diagnosis.candidates)
@@ -99,6 +101,14 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
     if (!fit.status.ok()) continue;
     if (!found || fit.chi2 < refitted.fit.chi2) refitted.fit = std::move(fit), found = true;
     if (diagnosis.settings.quick && refitted.fit.chi2 < diagnosis.fit.chi2) break;
+  }
+  // The base is among the extensions: from next to it a search cannot end above it.
+  if (found && refitted.fit.chi2 > diagnosis.fit.chi2) {
+    std::vector<double> start = extended.at_null(diagnosis.fit.free);
+    for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, next_to_nothing);
+    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+        fit.status.ok() && fit.chi2 < refitted.fit.chi2)
+      refitted.fit = std::move(fit);
   }
   if (!found) return std::nullopt;
   return refitted;

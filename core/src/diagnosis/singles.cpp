@@ -36,7 +36,7 @@ class Search {
     const std::size_t C = d_.candidates.size();
     std::vector<Single> singles;
     for (std::size_t c = 0; c < C; ++c)
-      if (!of_[c].empty()) singles.push_back({c, weight(c, {}), of_[c].front(), std::nullopt});
+      if (!of_[c].empty()) singles.push_back({c, weight(c, {}), *likeliest_direction(d_, c), std::nullopt});
     const auto by_weight = [](const Single& a, const Single& b) { return a.log_weight > b.log_weight; };
     std::stable_sort(singles.begin(), singles.end(), by_weight);
 
@@ -155,6 +155,17 @@ double log_sum(const std::vector<double>& logs) {
 double log_prior(const Diagnosis& d, std::size_t direction) {
   const Direction& own = d.directions[direction];
   return std::log(own.share) + (own.side == Side::both ? 0 : std::log(2.0));
+}
+
+std::optional<std::size_t> likeliest_direction(const Diagnosis& d, std::size_t candidate) {
+  std::optional<std::size_t> best;
+  double most = -INFINITY;
+  for (std::size_t k = 0; k < d.directions.size(); ++k) {
+    if (d.directions[k].candidate != candidate) continue;
+    const double log_weight = score(d.directions[k], -d.fit.residuals).T / 2 + log_prior(d, k);
+    if (log_weight > most) most = log_weight, best = k;
+  }
+  return best;
 }
 
 std::vector<Single> fit_singles(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue) {

@@ -9,7 +9,7 @@ namespace tunica::diagnosis {
 struct Single {
   std::size_t candidate = 0;
   double log_weight = -INFINITY;
-  std::size_t direction = 0;     ///< of the best refit
+  std::size_t direction = 0;     ///< of the best refit; without one the likeliest by its score
   std::optional<Refitted> best;  ///< none: too far behind to be fitted again, or no start could be evaluated
 };
 
@@ -26,6 +26,9 @@ std::vector<Single> fit_singles(const Diagnosis& diagnosis, const plugins::Catal
 
 /// What the weight of a hypothesis has beside exp(gain/2): its share among those of its candidate, and its sides.
 double log_prior(const Diagnosis& diagnosis, std::size_t direction);
+
+/// The direction of a candidate that is likeliest by its score; none where the candidate leaves no trace.
+std::optional<std::size_t> likeliest_direction(const Diagnosis& diagnosis, std::size_t candidate);
 
 /// ln Σ exp
 double log_sum(const std::vector<double>& logs);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/causes.hpp"
-#include "diagnosis/detectable.hpp"
+#include "diagnosis/credible.hpp"
 #include "diagnosis/noise_statement.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
@@ -66,14 +66,14 @@ std::string residual_table(const Diagnosis& d) {
 }
 
 std::string confusability_table(const Diagnosis& d) {
-  const Eigen::MatrixXd alike = likeness(d.directions, d.candidates.size());
+  const Eigen::MatrixXd alike = likeness(d);
   std::string text = "mechanism";
   for (const Candidate& candidate : d.candidates) text += "," + candidate.id;
   text += '\n';
   for (std::size_t a = 0; a < d.candidates.size(); ++a) {
     text += d.candidates[a].id;
     for (std::size_t b = 0; b < d.candidates.size(); ++b)
-      text += fmt::format(",{:.4f}", a == b ? 1.0 : alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
+      text += fmt::format(",{:.4f}", alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
     text += '\n';
   }
   return text;

@@ -110,6 +110,7 @@ std::string place_words(const Json& target) {
   std::vector<std::string> tests = words(list(target, "tests"));
   if (tests.empty() && !word(target, "test").empty()) tests.push_back(word(target, "test"));
   std::string text = tests.empty() ? "" : " in " + joined(tests);
+  if (const std::string model = word(target, "model"); !model.empty()) text += " in " + model;
   if (const std::string channel = word(target, "channel"); !channel.empty()) text += ", " + channel;
   if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row);
   return text;

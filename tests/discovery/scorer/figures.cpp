@@ -305,6 +305,16 @@ std::vector<Figure> figures(const Cases& cases, const LookAlikes& look_alikes) {
   return table;
 }
 
+std::vector<std::string> unnamed(const std::vector<EffectRow>& rows) {
+  std::vector<std::string> words;
+  for (const EffectRow& row : rows) {
+    const std::size_t named = row.named_or_look_alike.hits, cases = row.detected.total;
+    if (row.lambda == 60 && 2 * named < cases)
+      words.push_back(fmt::format("{} is named in {} of {} cases at Λ 60", row.id, named, cases));
+  }
+  return words;
+}
+
 std::vector<EffectRow> effects(const Cases& cases, const LookAlikes& look_alikes) {
   std::map<std::pair<std::string, double>, EffectRow> rows;
   std::map<std::pair<std::string, double>, std::map<std::string, std::size_t>> instead;

@@ -50,6 +50,8 @@ struct EffectRow {
 /// Every row of the table; and effect by effect.
 std::vector<Figure> figures(const std::vector<Case>& cases, const LookAlikes& look_alikes);
 std::vector<EffectRow> effects(const std::vector<Case>& cases, const LookAlikes& look_alikes);
+/// Effects that at Λ = 60 neither they themselves nor look-alikes are named for in half of their cases, in words.
+std::vector<std::string> unnamed(const std::vector<EffectRow>& rows);
 
 // What the figures are made of, one case at a time.
 
