@@ -39,7 +39,6 @@ TEST(Signatures, OfTheWholeCatalogueAreTheSlopesOfWhatTheExtensionPredicts) {
       experiment::read_experiment(TUNICA_SOURCE_DIR "/examples/hidden_effect/experiment.json", catalogue);
   Diagnosis d;
   d.settings = settings_of(experiment, catalogue);
-  d.settings.quick = true;
   prepare(d, experiment, catalogue);
   fit_base(d, catalogue);
   // At rest fibres begin to pull: a kink, of which either slope is right.

@@ -34,14 +34,15 @@ bool already_there(const std::vector<experiment::MechanismEntry>& entries, const
 class Search {
  public:
   Search(const Experiment& experiment, const RunEntry& run, const calibration::Assembly& base,
-         std::span<const double> fitted, const Projection& projection, const plugins::Catalogue& catalogue)
+         std::span<const double> fitted, const Projection& projection, const plugins::Catalogue& catalogue, bool quick)
       : experiment_(experiment),
         run_(run),
         base_(base),
         fitted_(fitted),
         projection_(projection),
         catalogue_(catalogue),
-        clock_(clock_of(experiment, run, catalogue)) {}
+        clock_(clock_of(experiment, run, catalogue)),
+        quick_(quick) {}
 
   Candidate find(const std::string& id, const MechanismFactory& mechanism) const {
     Candidate candidate{id, &mechanism, {}, {}};
@@ -132,7 +133,7 @@ class Search {
       const bool exact = assembly.jacobian_is_exact();
       // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
       if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
-      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace)) {
+      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
         if (slope.signature.size() == 0) continue;
         Hypothesis tangent{&mechanism,
                            {first.id, first.target, settings[s]},
@@ -217,6 +218,7 @@ class Search {
   const Projection& projection_;
   const plugins::Catalogue& catalogue_;
   Clock clock_;
+  bool quick_;
 };
 
 }  // namespace
@@ -224,7 +226,7 @@ class Search {
 std::vector<Candidate> candidates(const Experiment& experiment, const RunEntry& run, const Settings& settings,
                                   const calibration::Assembly& base, std::span<const double> fitted,
                                   const Projection& projection, const plugins::Catalogue& catalogue) {
-  const Search search(experiment, run, base, fitted, projection, catalogue);
+  const Search search(experiment, run, base, fitted, projection, catalogue, settings.quick);
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : catalogue.mechanisms())
     if (settings.mechanisms.empty() ||

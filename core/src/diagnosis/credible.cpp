@@ -14,8 +14,9 @@ bool alike(const std::vector<Direction>& directions, const Explanation& a, Expla
   do {
     bool all = true;
     for (std::size_t k = 0; k < a.size(); ++k) {
-      const std::size_t other = directions[b[k]].candidate;
-      all = all && (directions[a[k]].candidate == other || likeness(directions, a[k], other) > look_alike);
+      const std::size_t own = directions[a[k]].candidate, other = directions[b[k]].candidate;
+      all = all && (own == other || likeness(directions, a[k], other) > look_alike ||
+                    likeness(directions, b[k], own) > look_alike);
     }
     if (all) return true;
   } while (std::next_permutation(b.begin(), b.end()));

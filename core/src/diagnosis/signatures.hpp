@@ -18,9 +18,10 @@ struct Slope {
 ///
 /// Two-sided: exact where the Jacobian is, unless the simulation has a kink at the null (an opening angle, where fibres
 /// only pull): then one for each side. Else from simulations: with f(δ) even, the parabola of δ² through f(0), f(δ),
-/// f(2δ); with one side only, [f(δ) − f(0)]/δ at a thousandth of a plausible amplitude.
+/// f(2δ); with one side only, [f(δ) − f(0)]/δ at a thousandth of a plausible amplitude (`quick`), or to second order at
+/// what changes the residuals by no more than a tenth of σ in all: good to 1e-6.
 std::vector<Slope> slopes_of(const Extended& extended, const MechanismFactory& mechanism,
                              const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
-                             calibration::Assembly::Workspace& workspace);
+                             calibration::Assembly::Workspace& workspace, bool quick);
 
 }  // namespace tunica::diagnosis
