@@ -89,6 +89,28 @@ TEST_F(Layers, AreRecoveredFromOneTube) {
                     HasSubstr("\n  model 'adventitia'\n    circumferential strip:")));
 }
 
+// The first layer has no fibres; the crimp of those of the second is found there. Without noise, 5 µm and 0.5 mN are
+// stated.
+TEST_F(Layers, ACauseIsLookedForInEachOfThem) {
+  std::swap(bench.experiment["tests"]["tube"]["layers"][0], bench.experiment["tests"]["tube"]["layers"][1]);
+  auto& media = bench.experiment["models"]["media"];
+  media["mechanisms"] = {{{"type", "fibre_recruitment"}, {"parameters", {{"stretch", {{"initial", 1.2}}}}}}};
+  measure();
+  media.erase("mechanisms");
+  bench.experiment["tests"]["tube"]["data"]["noise"] = {{"outer_diameter", {{"absolute", "5 um"}}},
+                                                        {"axial_force", {{"absolute", "0.5 mN"}}}};
+  const auto ended = bench.tunica({"diagnose", "experiment.json", "-o", "found", "--quick"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto found = bench.result("found")["diagnosis"];
+  EXPECT_THAT(found["ambiguity_set"].dump(), HasSubstr("fibre_recruitment"));
+  EXPECT_EQ(found["causes"][0]["target"]["model"], "media") << found["causes"];
+  EXPECT_THAT(ended.out, HasSubstr("in the material of 'media'"));
+  EXPECT_LT(found["gain"]["after"], 0.1 * found["gain"]["before"].get<double>());
+  const auto extended = bench.tunica({"run", "found/extended.json", "-o", "extended"});
+  ASSERT_EQ(extended.code, 0) << extended.err;
+  EXPECT_TRUE(bench.result("extended")["runs"][0]["best"]["parameters"].contains("media.fibre_recruitment.stretch"));
+}
+
 TEST_F(Layers, AreCheckedBeforeARun) {
   measure();
   const auto ended = bench.tunica({"check", "experiment.json"});

@@ -69,7 +69,8 @@ std::vector<Misfit> misfits(const Diagnosis& d) {
     if (p[order[place]] * static_cast<double>(order.size() - place) > d.settings.alpha) break;
     found.push_back(told(d, curve, -d.fit.residuals.segment(curve.first, curve.count), p[order[place]]));
   }
-  if (!found.empty() || !d.extension) return found;
+  const bool alarm = d.p_refits.value_or(d.detection.p) <= d.settings.alpha;
+  if (!found.empty() || !alarm || !d.extension) return found;
   // No curve is wrong enough by itself: the one of which the cause explains most, and where it does.
   const Eigen::VectorXd change = d.extension->fit.residuals - d.fit.residuals;
   const auto explained = [&](std::size_t c) {

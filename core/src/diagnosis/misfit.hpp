@@ -6,7 +6,7 @@
 namespace tunica::diagnosis {
 
 /// The curves whose smooth misfit is significant at the level alpha, shared out among the curves (Holm), the worst
-/// first; where on them, and on which side. Where none is by itself, and a cause was found, the curve of which that
+/// first; where on them, and on which side. Where none is by itself, and the alarm has a cause, the curve of which that
 /// explains most. Descriptive: the alarm is Detection's.
 std::vector<Misfit> misfits(const Diagnosis& diagnosis);
 
