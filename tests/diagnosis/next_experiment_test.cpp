@@ -133,6 +133,14 @@ TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   ASSERT_GE(library.size(), 6u);
   EXPECT_THAT(library.front().description, HasSubstr("to a stretch of 1.6"));
   EXPECT_DOUBLE_EQ(library.front().sd.front(), 0.3);
+  // P with 0.3 kPa and 2 % is known as a Cauchy stress λ P to λ times as much.
+  Rivals nominal(second_invariant);
+  for (auto& test : nominal.d.experiment.tests) test.data.stress_measure = "first_piola_kirchhoff";
+  for (Curve& curve : nominal.d.curves) curve.noise.noise.relative = 0.02;
+  const auto wider = designs(nominal.d, testing::catalogue(), nominal.d.rivals.front());
+  std::vector<double> values;
+  ASSERT_TRUE(predict(wider.front(), nominal.d.rivals.front(), nominal.d.rivals.front().fit.free, values));
+  EXPECT_DOUBLE_EQ(wider.front().sd[19], 1.6 * std::hypot(0.3, 0.02 * values[19] / 1.6));
   for (const Design& design : library) {
     EXPECT_EQ(design.sd.size(), design.test->rows().count * design.test->rows().channels.size());
     for (const double sd : design.sd) EXPECT_GT(sd, 0) << design.description;

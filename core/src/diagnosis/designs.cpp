@@ -38,12 +38,22 @@ Options defaults(const std::vector<Option>& declared) {
   return options;
 }
 
+/// σ_Cauchy = λ P = λ² S of a face that is stretched by λ: by how much the Cauchy stress is larger than the measured
+/// one.
+double cauchy_factor(const std::string& measure, double stretch) {
+  if (measure == "first_piola_kirchhoff") return stretch;
+  return measure == "second_piola_kirchhoff" ? stretch * stretch : 1;
+}
+
 /// Noise of an observable: the smallest at this value that the data state for it; none where it was not measured.
-std::optional<double> known_sd(const Diagnosis& d, const std::string& observable, double value) {
+/// Stresses are Cauchy stresses here, at this stretch.
+std::optional<double> known_sd(const Diagnosis& d, const std::string& observable, double value, double stretch) {
   std::optional<double> sd;
   for (const Curve& curve : d.curves) {
     if (curve.channel != observable) continue;
-    const double own = std::hypot(curve.noise.noise.absolute, curve.noise.noise.relative * value);
+    const double factor = cauchy_factor(d.experiment.test(curve.test).data.stress_measure, stretch);
+    const data::Noise& noise = curve.noise.noise;
+    const double own = factor * std::hypot(noise.absolute, noise.relative * value / factor);
     if (own > 0) sd = std::min(sd.value_or(own), own);
   }
   return sd;
@@ -176,9 +186,10 @@ std::vector<Design> designs(const Diagnosis& d, const plugins::Catalogue& catalo
       // largest.
       for (std::size_t i = 0; i < n; ++i) {
         const double value = std::max(std::abs(values[k * n + i]), 0.1 * largest);
-        const double sd =
-            known_sd(d, plan.channels[k], value).value_or(plain_stretch ? 0.005 : relative_noise * largest);
-        design.sd.push_back(std::max(sd, 1e-12));
+        const auto& [along, stretches] = plan.abscissae[std::min(k, plan.abscissae.size() - 1)];
+        const bool stress = plan.channels[k].starts_with("stress") && along.starts_with("stretch");
+        const auto known = known_sd(d, plan.channels[k], value, stress ? stretches[i] : 1);
+        design.sd.push_back(std::max(known.value_or(plain_stretch ? 0.005 : relative_noise * largest), 1e-12));
       }
     }
     library.push_back(std::move(design));
