@@ -19,8 +19,9 @@ class GroupFits {
   [[nodiscard]] std::vector<Group> refitted(std::vector<Group> groups) const;
 
  private:
-  [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes) const;
-  [[nodiscard]] bool all_needed(Group& group) const;
+  [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes,
+                                    bool again) const;
+  [[nodiscard]] bool all_needed(Group& group, bool again) const;
 
   const Diagnosis& d_;
   const Detection& detection_;

@@ -52,9 +52,12 @@ class Naming {
       claim(claim_several(d_, detection_, groups_, singles_, catalogue_), p);
       return judge();
     }
-    // Nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little more.
+    // Nothing explains it all. What one mechanism does to most of it is worth more than what three do to a little more,
+    // and so is what is likelier.
     const double rows = static_cast<double>(d_.fit.residuals.size());
-    if (d_.fit.chi2 - singles_.front().best->fit.chi2 > most_of_it * (d_.fit.chi2 - rows))
+    const double odds = static_cast<double>(groups_.front().additions.size() - 1) * log_odds_of_pair(singles_.size());
+    if (d_.fit.chi2 - singles_.front().best->fit.chi2 > most_of_it * (d_.fit.chi2 - rows) ||
+        singles_.front().log_weight > groups_.front().log_weight + odds)
       claim(claim_one(d_, detection_, singles_, catalogue_), p_one);
     else
       claim(claim_several(d_, detection_, groups_, singles_, catalogue_), p);

@@ -3,13 +3,17 @@
 #include <cmath>
 
 #include <Eigen/QR>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
 
 #include "diagnosis/refits.hpp"
 #include "tunica/error.hpp"
+#include "tunica/random.hpp"
 
 namespace tunica::diagnosis {
 namespace {
 
+constexpr std::size_t quick_starts = 6, full_starts = 16;
 constexpr double next_to_nothing = 0.01;  ///< of the amplitude that the scores promise
 
 /// The signature of an addition at the base fit, on the side of the amplitude; or null.
@@ -112,6 +116,36 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
   }
   if (!found) return std::nullopt;
   return refitted;
+}
+
+bool at_a_bound(const Fit& fit) {
+  return std::find(fit.at_bound.begin(), fit.at_bound.end(), true) != fit.at_bound.end();
+}
+
+bool search_again(const Diagnosis& diagnosis, Refitted& refitted) {
+  if (!at_a_bound(diagnosis.fit)) return false;
+  const Extended& extended = *refitted.extended;
+  const auto& parameters = extended.assembly().parameters();
+  const auto workspace = extended.assembly().make_workspace();
+  boost::random::mt19937_64 generator(derive_seed(diagnosis.settings.seed, "starts off the bounds"));
+  boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
+  bool better = false;
+  for (std::size_t k = 0; k < (diagnosis.settings.quick ? quick_starts : full_starts); ++k) {
+    std::vector<double> unit(diagnosis.base->parameters().size()), base(unit.size());
+    for (double& x : unit) x = uniform(generator);
+    diagnosis.base->from_unit(unit, base);
+    std::vector<double> start = extended.at_null(base);
+    for (const Extended::Part& part : extended.parts()) {
+      const double share = uniform(generator);
+      for (const std::size_t member : part.amplitude)
+        start[member] = std::clamp(part.null + share * (refitted.fit.free[member] - part.null), parameters[member].min,
+                                   parameters[member].max);
+    }
+    Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60);
+    if (!fit.status.ok() || !(fit.chi2 < refitted.fit.chi2 - 1e-6)) continue;
+    refitted.fit = std::move(fit), better = true;
+  }
+  return better;
 }
 
 }  // namespace tunica::diagnosis

@@ -17,8 +17,9 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-constexpr std::size_t quick_refits = 10;  ///< candidates
-constexpr double quick_reach = 9;         ///< of ln w, beyond the first four
+constexpr std::size_t quick_refits = 10;   ///< candidates
+constexpr std::size_t searched_again = 6;  ///< refits, the best
+constexpr double quick_reach = 9;          ///< of ln w, beyond the first four
 
 double log_side(Side side, double T) {
   return side == Side::both ? 0 : std::log(std::erfc(-std::sqrt(std::max(T, 0.0) / 2)));
@@ -56,6 +57,13 @@ class Search {
       const double share = static_cast<double>(++finished) / static_cast<double>(jobs.size());
       if (d_.settings.progress) d_.settings.progress("fitting the mechanisms", 0.4 + 0.3 * share);
     });
+    std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
+      const auto left = [](const Job& job) { return job.refitted ? job.refitted->fit.chi2 : INFINITY; };
+      return left(a) < left(b);
+    });
+    tbb::parallel_for(std::size_t{0}, std::min(jobs.size(), searched_again), [&](std::size_t j) {
+      if (jobs[j].refitted) search_again(d_, *jobs[j].refitted);
+    });
     std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain
     for (Job& job : jobs) {
       if (!job.refitted) continue;
@@ -83,12 +91,16 @@ class Search {
     return d_.candidates[chosen.candidate].hypotheses[chosen.hypothesis];
   }
 
-  /// ln w, with gains at finite amplitude in place of T where they are known.
+  /// ln w, with gains at finite amplitude in place of T where they are known; what was not fitted again is taken to
+  /// gain no larger part of its score than the best one that was.
   [[nodiscard]] double weight(std::size_t candidate, const std::map<std::size_t, double>& gains) const {
+    double largest = 0, part = 1;
+    for (const auto& [k, gain] : gains)
+      if (scores_[k].T > largest) largest = scores_[k].T, part = std::clamp(gain / largest, 0.0, 1.0);
     std::vector<double> logs;
     for (const std::size_t k : of_[candidate]) {
       const auto found = gains.find(k);
-      const double T = found == gains.end() ? scores_[k].T : std::max(found->second, 0.0);
+      const double T = found == gains.end() ? part * scores_[k].T : std::max(found->second, 0.0);
       logs.push_back(T / 2 + std::log(d_.directions[k].share) + log_side(d_.directions[k].side, T));
     }
     return log_sum(logs);

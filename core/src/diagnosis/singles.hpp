@@ -16,8 +16,8 @@ struct Single {
 /// All candidates that leave a trace, those fitted again first, likeliest first.
 ///
 /// With T_h = (s̃ᵀr)²/|s̃|² of hypothesis h (a target and nuisance values) at the null, or the gain of |r|² at finite
-/// amplitude where it was fitted again, the weight of a candidate is its marginal likelihood with equal prior weight
-/// for its hypotheses and a wide prior on the amplitude in noise units,
+/// amplitude where it was fitted again (and beside such no larger part of T_h), the weight of a candidate is its
+/// marginal likelihood with equal prior weight for its hypotheses and a wide prior on the amplitude in noise units,
 ///
 ///   w = mean over h of exp(T_h/2) · {1 two-sided, 2Φ(√T_h) one-sided};
 ///
