@@ -44,6 +44,32 @@ void tell_of_constraints(Diagnosis& d, const experiment::RunEntry* run) {
       fmt::join(types, ", ")));
 }
 
+/// Weights say what a channel is worth to a run; here its noise does. But one of weight 0 takes no part.
+void take_out_unweighted(Diagnosis& d, const plugins::Catalogue& catalogue) {
+  for (auto& test : d.experiment.tests) {
+    std::vector<double> weights;
+    std::swap(weights, test.weights);
+    const bool here = std::find(d.run.tests.begin(), d.run.tests.end(), test.name) != d.run.tests.end();
+    if (!here || std::find(weights.begin(), weights.end(), 0.0) == weights.end()) continue;
+    const auto channels =
+        data::read_dataset(test.data, catalogue.tests().find(test.type)->second.factory.observables).channels;
+    std::vector<std::string> silent;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      if (weights[k] == 0) silent.push_back(channels[k].observable);
+    d.warnings.push_back(fmt::format("test '{}': {} of weight 0 takes no part; give it a weight to have it judged too",
+                                     test.name, fmt::join(silent, " and ")));
+    if (silent.size() == channels.size()) {
+      test.hold_out.all = true;
+      continue;
+    }
+    const auto is_silent = [&](const auto& entry) {
+      return std::find(silent.begin(), silent.end(), entry.first) != silent.end();
+    };
+    std::erase_if(test.data.columns, is_silent);
+    std::erase_if(test.data.noise, is_silent);
+  }
+}
+
 std::vector<std::vector<double>> random_starts(const calibration::Assembly& assembly, std::size_t count,
                                                std::uint64_t seed) {
   boost::random::mt19937_64 generator(derive_seed(seed, "starts of the base fit"));
@@ -91,15 +117,16 @@ std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::v
   return curves;
 }
 
-void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+             const std::vector<GrossRow>& gross) {
   d.experiment = experiment;
   d.run.model = d.settings.model;
   const experiment::RunEntry* const run = run_of(experiment, d.settings.model);
   d.run.tests = tests_of(experiment, run);
   d.run.optimizer = d.settings.optimizer;
   d.run.objective = experiment::ObjectiveType::least_squares;
-  d.noise = state_noise(d.experiment, d.run.tests, catalogue);
-  for (auto& test : d.experiment.tests) test.weights.clear();
+  take_out_unweighted(d, catalogue);
+  d.noise = state_noise(d.experiment, d.run.tests, catalogue, gross);
   d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
   d.curves = curves_of(*d.base, d.noise);
   if (d.curves.empty())
@@ -111,6 +138,10 @@ void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugi
                     "parameters or give more rows",
                     d.base->parameters().size(), d.base->residual_count()));
   tell_of_constraints(d, run);
+  for (const auto& test : d.experiment.tests)
+    if (test.hold_out.all && std::find(d.run.tests.begin(), d.run.tests.end(), test.name) != d.run.tests.end())
+      d.warnings.push_back(fmt::format(
+          "test '{}' is held out and takes no part; set hold_out to false to have it judged too", test.name));
   for (const NoiseSource& source : d.noise)
     if (source.kind == NoiseSource::Kind::differences)
       d.warnings.push_back(fmt::format(
@@ -146,8 +177,10 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
       if (found.status.ok())
         starts.push_back(found.free);
       else
-        d.warnings.push_back(fmt::format("the optimizer '{}' found no start for the base fit: {}", d.settings.optimizer,
-                                         found.status.reason()));
+        d.warnings.push_back(
+            fmt::format("the optimizer '{}' found no start for the base fit, which began from its own ones only: {}; "
+                        "look at what `tunica run` says of it",
+                        d.settings.optimizer, found.status.reason()));
     }
   }
   std::vector<Fit> fits(starts.size());

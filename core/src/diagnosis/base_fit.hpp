@@ -7,8 +7,9 @@ namespace tunica::diagnosis {
 
 /// The experiment as diagnosis sees it: every channel with its noise, weights of one, whitened least squares of one
 /// model over all tests of the first run (all tests where there is none), no constraints. Fills experiment, run, noise,
-/// base, curves.
-void prepare(Diagnosis& diagnosis, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+/// base, curves. Channels of weight 0 take no part, nor do `gross` rows in an estimate of the noise.
+void prepare(Diagnosis& diagnosis, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+             const std::vector<GrossRow>& gross = {});
 
 /// The base model fitted from its initial values and from random points, by the optimiser that the settings name
 /// first unless it is quick; the best of all, checked: a gradient that is not zero is no optimum to judge from. Throws

@@ -104,7 +104,7 @@ std::pair<Diagnosis, Judgement> without(const std::vector<GrossRow>& rows, const
                                         const Settings& settings, const plugins::Catalogue& catalogue) {
   Diagnosis d;
   d.settings = settings;
-  prepare(d, experiment, catalogue);
+  prepare(d, experiment, catalogue, rows);
   if (!rows.empty()) leave_out(d, rows, catalogue);
   Judgement judgement = judge(d, catalogue);
   return {std::move(d), std::move(judgement)};

@@ -62,13 +62,6 @@ struct Ranked {
   std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
 };
 
-/// A row that stands apart from its neighbours as no mechanism makes it.
-struct GrossRow {
-  std::string test, channel;
-  std::size_t row = 0;
-  double residual = 0;  ///< in σ
-};
-
 /// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.
 struct Detectable {
   std::string id, unit, absent;  ///< absent: why it leaves no trace; else empty

@@ -21,7 +21,12 @@ constexpr std::size_t most_told = 4;
 /// Factors are looked for up to twenty.
 std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "19 and more"; }
 
-std::string p_text(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+std::string p_text(const Diagnosis& d) {
+  const double p = d.p_refits.value_or(d.detection.p);
+  // So many refits cannot tell smaller ones apart.
+  if (d.p_refits && d.detection.p < p && p < 0.001) return fmt::format("p ≤ {:.2g}", p);
+  return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+}
 
 std::string verdict_line(const Diagnosis& d) {
   switch (d.verdict) {
@@ -31,6 +36,9 @@ std::string verdict_line(const Diagnosis& d) {
       std::vector<std::string> ids;
       for (std::size_t k = 0; k < d.named; ++k) ids.push_back(d.causes[k].id);
       for (const Cause& row : d.left_out) ids.push_back(fmt::format("{} {}", row.id, row.target.words()));
+      if (!d.admissibility.remedy.empty() && d.p_refits.value_or(d.detection.p) > d.settings.alpha)
+        return fmt::format("NAMED: {} mends the stability that the base fit loses; the curves raise no alarm",
+                           fmt::join(ids, " and "));
       return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
     }
     case Verdict::indistinguishable:
@@ -85,13 +93,15 @@ std::string size_of(double sigmas) {
 /// predicts, and the one that it is furthest from.
 std::string predicted(const Gain& gain) {
   constexpr double near = 2, better = 0.98, worse = 1.2;  // of σ, of the error without the extension
+  constexpr double contradicts = 0.05;
   const HeldOut *best = nullptr, *worst = nullptr;
   for (const HeldOut& block : gain.held_out) {
     if (block.after < near && block.after < better * block.before &&
         (best == nullptr || block.before - block.after > best->before - best->after))
       best = &block;
-    if ((block.after >= near || block.after > worse * block.before) && (worst == nullptr || block.after > worst->after))
-      worst = &block;
+    // Far off is no contradiction where the other rows leave the parameters open: the p-value knows of that.
+    const bool off = block.after >= near || block.after > worse * block.before;
+    if (off && block.p_value < contradicts && (worst == nullptr || block.after > worst->after)) worst = &block;
   }
   std::string text;
   if (best != nullptr)
@@ -129,8 +139,8 @@ std::string summary(const Diagnosis& d) {
   };
   line("Verdict:  ", verdict_line(d));
   line("Alarm:    ",
-       fmt::format("{} that noise alone looks like this ({} rows, |r|² = {:.1f}, {} mechanisms){}",
-                   p_text(d.p_refits.value_or(d.detection.p)), d.fit.residuals.size(), d.fit.chi2, d.candidates.size(),
+       fmt::format("{} that noise alone looks like this ({} values, |r|² = {:.1f}, {} mechanisms){}", p_text(d),
+                   d.fit.residuals.size(), d.fit.chi2, d.candidates.size(),
                    d.alarm_factor ? fmt::format("; it stands up to {} times this noise", factor_words(*d.alarm_factor))
                                   : std::string()));
   if (d.verdict != Verdict::nothing_detected) {

@@ -60,12 +60,19 @@ void set_shared(Experiment& experiment, const std::string& name, double value) {
   }
 }
 
+/// The one that the diagnosis was asked to use; else Levenberg–Marquardt, which from the fitted values is there at
+/// once.
 std::string optimizer_of(Experiment& experiment, const std::string& asked, const plugins::Catalogue& catalogue) {
   if (!asked.empty()) return asked;
-  if (!experiment.runs.empty()) return experiment.runs.front().optimizer;
-  if (!experiment.optimizers.empty()) return experiment.optimizers.front().name;
+  for (const experiment::OptimizerEntry& entry : experiment.optimizers)
+    if (entry.type == "ceres_lm") return entry.name;
+  if (!catalogue.optimizers().contains("ceres_lm") && !experiment.runs.empty())
+    return experiment.runs.front().optimizer;
   experiment::OptimizerEntry entry;
   entry.name = "lm", entry.type = "ceres_lm";
+  while (std::any_of(experiment.optimizers.begin(), experiment.optimizers.end(),
+                     [&](const auto& other) { return other.name == entry.name; }))
+    entry.name += "_extended";
   for (const Option& option : catalogue.optimizers().at("ceres_lm").factory.options)
     if (option.fallback) entry.options.set(option.name, *option.fallback);
   experiment.optimizers.push_back(std::move(entry));
@@ -82,6 +89,7 @@ void add_gross_rows(Experiment& experiment, const Diagnosis& d, const plugins::C
         if (option.fallback) entry.options.set(option.name, *option.fallback);
       entry.options.set("channel", row.target.channel);
       entry.options.set("rows", fmt::format("{}:{}:1", *row.target.row, *row.target.row + 1));
+      entry.parameters[row.amplitude.name].initial = row.amplitude.value;
       test.mechanisms.push_back(std::move(entry));
     }
 }
@@ -113,6 +121,7 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
   }
   experiment::RunEntry run = d.run;
   run.optimizer = optimizer_of(experiment, d.settings.optimizer, catalogue);
+  if (!experiment.runs.empty()) run.stop = experiment.runs.front().stop;
   experiment.runs = {run};
   experiment.name += "_extended";
   return experiment::write_input(experiment, catalogue);

@@ -26,8 +26,22 @@ constexpr std::size_t most_of_curve = 10;  ///< one of a curve in so many, or on
 std::string words(const std::vector<GrossRow>& rows) {
   std::vector<std::string> all;
   for (const GrossRow& row : rows)
-    all.push_back(fmt::format("row {} of {}, {} ({:+.1f} σ)", row.row, row.test, row.channel, row.residual));
+    all.push_back(
+        fmt::format("row {} of {}, {} ({}; {:+.1f} σ)", row.row, row.test, row.channel, row.where, row.residual));
   return fmt::format("{}", fmt::join(all, "; "));
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit == "1" || unit.empty() ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
+}
+
+/// "stretch 1.25, measured 14 kPa": rows are counted from 0 behind `rows` and `where`, which is hard to find in a file.
+std::string where(const Diagnosis& d, const Curve& curve, std::size_t row) {
+  for (const calibration::ChannelView& view : d.base->channels())
+    if (view.test == curve.test && view.observable == curve.channel)
+      return fmt::format("{} {}, measured {}", view.abscissa_name, with_unit(view.abscissa[row], view.abscissa_unit),
+                         with_unit(view.measured[row], view.unit));
+  return {};
 }
 
 /// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
@@ -57,7 +71,8 @@ std::vector<GrossRow> gross_rows(const Diagnosis& d) {
       const double r = -d.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
       if (!(free > 0.05) || r * r / free < gross_score) continue;
       if (std::abs(contrast(d, curve, k)) > gross_contrast)
-        of_curve.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r});
+        of_curve.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r,
+                            where(d, curve, curve.rows[static_cast<std::size_t>(k)])});
     }
     if (of_curve.size() <= std::max<std::size_t>(1, static_cast<std::size_t>(curve.count) / most_of_curve))
       found.insert(found.end(), of_curve.begin(), of_curve.end());

@@ -28,7 +28,10 @@ class Naming {
 
   void run() {
     singles_ = fit_singles(d_, catalogue_);
-    if (singles_.empty()) return unexplained("no mechanism of the catalogue leaves a trace in these data");
+    if (singles_.empty())
+      return unexplained(d_.settings.mechanisms.empty()
+                             ? "no mechanism of the catalogue leaves a trace in these data"
+                             : "none of the mechanisms that were asked for leaves a trace in these data");
     if (!singles_.front().best) return unexplained("no mechanism could be fitted at finite amplitude");
     rank();
     const double p_one = p_of_rest(*singles_.front().best);
@@ -147,7 +150,7 @@ void not_clean(Diagnosis& d, const Detection& detection, const Eigen::MatrixXf& 
   const double rows = static_cast<double>(d.fit.residuals.size());
   const double share = (d.fit.chi2 - d.extension->fit.chi2) / std::max(d.fit.chi2 - rows, 1.0);
   d.verdict = Verdict::unknown;
-  d.reasons.push_back(fmt::format("{} {} {:.0f} % of the misfit; what is left is no noise (p {})",
+  d.reasons.push_back(fmt::format("{} {} {:.0f} % of the misfit beyond noise; what is left is no noise (p {})",
                                   fmt::join(ids, " and "), ids.size() == 1 ? "takes" : "take",
                                   100 * std::clamp(share, 0.0, 1.0),
                                   d.p_after < 1e-4 ? "< 0.0001" : fmt::format("= {:.2g}", d.p_after)));

@@ -100,6 +100,13 @@ NoiseSource from_differences(const data::Channel& channel, const data::Dataset& 
   return source;
 }
 
+std::vector<bool> without(std::vector<bool> fitted, const std::vector<GrossRow>& gross, const std::string& test,
+                          const std::string& channel) {
+  for (const GrossRow& row : gross)
+    if (row.test == test && row.channel == channel) fitted[row.row] = false;
+  return fitted;
+}
+
 /// Correlation of neighbouring deviations in one test.
 struct Correlation {
   std::string test;
@@ -125,7 +132,7 @@ void pool(std::vector<Correlation>& correlations) {
 }  // namespace
 
 std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
-                                     const plugins::Catalogue& catalogue) {
+                                     const plugins::Catalogue& catalogue, const std::vector<GrossRow>& gross) {
   std::vector<NoiseSource> sources;
   std::vector<Correlation> correlations;  // one a test with replicates
   for (const experiment::TestEntry& entry : experiment.tests) {
@@ -143,7 +150,7 @@ std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const s
       else if (channel.replicates.size() > 1)
         source = from_replicates(channel);
       else
-        source = from_differences(channel, dataset, fitted,
+        source = from_differences(channel, dataset, without(fitted, gross, entry.name, channel.observable),
                                   fmt::format("test '{}', channel '{}'", entry.name, channel.observable));
       source.test = entry.name, source.channel = channel.observable, source.unit = channel.unit;
       if (source.kind == NoiseSource::Kind::replicates) {

@@ -20,6 +20,14 @@ struct NoiseSource {
   double correlation_sd = 0;  ///< standard deviation of the estimated correlation
 };
 
+/// A row that stands apart from its neighbours as no mechanism makes it.
+struct GrossRow {
+  std::string test, channel;
+  std::size_t row = 0;
+  double residual = 0;  ///< in σ
+  std::string where;    ///< "stretch 1.25, measured 14 kPa"
+};
+
 /// Makes every channel of the tests say how large its noise is, so that every model is judged by the same: what the
 /// file states stays. Else, never from residuals of a fit,
 ///
@@ -28,9 +36,10 @@ struct NoiseSource {
 ///               over the tests that agree on it, where it exceeds twice its standard deviation;
 ///   else:       deviations from the line through neighbouring rows (calibration/noise.hpp), uncorrelated.
 ///
-/// Throws InputError where nothing can be known.
+/// Rows that are held out and `gross` ones take no part in those differences. Throws InputError where nothing can be
+/// known.
 std::vector<NoiseSource> state_noise(experiment::Experiment& experiment, const std::vector<std::string>& tests,
-                                     const plugins::Catalogue& catalogue);
+                                     const plugins::Catalogue& catalogue, const std::vector<GrossRow>& gross = {});
 
 /// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
 /// that of their neighbours, and not the one that silences them.

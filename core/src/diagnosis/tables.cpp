@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -53,11 +54,17 @@ std::string residual_table(const Diagnosis& d) {
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
+      // A gross row is all but silent in the fit, and here it is as far off as it is.
+      const auto& gross = view.noise->gross;
+      const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
+      const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
+        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
+      };
       text += fmt::format(
           "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
           view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
           base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
-          -d.fit.residuals[i], d.extension ? fmt::format("{:.6g}", -d.extension->fit.residuals[i]) : "");
+          residual(base, d.fit), d.extension ? fmt::format("{:.6g}", residual(extended, d.extension->fit)) : "");
       for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
       text += '\n';
     }

@@ -172,9 +172,11 @@ void add_candidates(Page& page, const Folder& folder) {
   if (scores.empty() && list(diagnosis, "causes").empty()) return;
   page.section("Candidate causes");
   add_ranking_table(page, diagnosis);
-  std::vector<std::string> alternatives;
-  for (const Json& pair : list(diagnosis, "alternatives")) alternatives.push_back(joined(words(pair)));
-  if (!alternatives.empty()) page.box("", "Pairs that together rival the cause", alternatives);
+  if (std::vector<std::string> rivals = words(list(diagnosis, "explanations")); rivals.size() > 1) {
+    const std::string first = rivals.front();
+    rivals.erase(rivals.begin());
+    page.box("", "What explains the misfit about as well as " + first, rivals);
+  }
   page.chart(std::move(scores), folder.address());
 }
 

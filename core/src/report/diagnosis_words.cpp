@@ -25,13 +25,15 @@ std::string verdict_words(const Json& diagnosis) {
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", joined(named_causes(diagnosis)));
-  if (verdict == "indistinguishable" && member(diagnosis, "unlisted") == true)
+  const bool unlisted = member(diagnosis, "unlisted") == true;
+  if (verdict == "indistinguishable" && unlisted && list(diagnosis, "explanations").size() < 2)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
                        joined(named_causes(diagnosis)), reasons);
   if (verdict == "indistinguishable") {
     const char* const said = list(diagnosis, "explanations").empty() ? "ambiguity_set" : "explanations";
-    return fmt::format("Indistinguishable: {} explain the misfit about as well as each other.",
-                       joined(words(list(diagnosis, said))));
+    return fmt::format("Indistinguishable: {} explain the misfit about as well as each other{}.",
+                       joined(words(list(diagnosis, said))),
+                       unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
   if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
@@ -77,10 +79,11 @@ std::string gain_words(const Json& diagnosis) {
   const Json& blocks = list(gain, "held_out");
   for (const Json& block : blocks) better += number(block, "after") < number(block, "before") ? 1 : 0;
   if (!blocks.empty()) text += fmt::format("; better on {} of {} blocks that were held out", better, blocks.size());
-  constexpr double near = 2;  // σ
+  // Far off is no contradiction where the other rows leave the parameters open: the p-value knows of that.
+  constexpr double near = 2, contradicts = 0.05;  // σ, p
   std::vector<std::string> missed;
   for (const Json& block : blocks)
-    if (number(block, "after") >= near)
+    if (number(block, "after") >= near && number(block, "p_value") < contradicts)
       missed.push_back(fmt::format("{} ({} σ)", word(block, "block"), figure(number(block, "after"))));
   if (!missed.empty()) text += "; not predicted: " + joined(missed);
   return text + '.';
