@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "comparison/text.hpp"
+#include "data/nearest.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
@@ -47,16 +48,16 @@ struct DiagnoseOptions {
 
 diagnosis::Settings settings_of(const experiment::Experiment& experiment, const Session& session,
                                 const DiagnoseOptions& options) {
-  diagnosis::Settings settings = diagnosis::settings_of(experiment, session.catalogue());
+  diagnosis::Settings settings = diagnosis::settings_of(experiment);
   if (options.seed) settings.seed = *options.seed;
   if (options.alpha) settings.alpha = *options.alpha;
   settings.quick = options.quick;
+  std::vector<std::string> known;
+  for (const auto& [id, entry] : session.catalogue().mechanisms()) known.push_back(id);
   for (const std::string& id : options.mechanisms) {
     if (!session.catalogue().mechanisms().contains(id))
-      throw InputError(
-          fmt::format("--mechanisms: no loaded plugin provides the mechanism '{}'; `tunica list mechanisms` "
-                      "shows what there is",
-                      id));
+      throw InputError(fmt::format("--mechanisms: no loaded plugin provides the mechanism '{}'. {}", id,
+                                   data::suggestion(id, known)));
     settings.mechanisms = options.mechanisms;
   }
   return settings;

@@ -16,7 +16,7 @@ Diagnosis lamb_aorta(bool admissibility, const data::Noise& noise = {2, 0.03, 0}
       std::filesystem::path(TUNICA_SOURCE_DIR) / "examples/lamb_aorta_cause/experiment.json", testing::catalogue());
   // As a rule so much that the curves alone are far from an alarm.
   for (auto& test : experiment.tests) test.data.noise = {{"stress", noise}};
-  Settings settings = settings_of(experiment, testing::catalogue());
+  Settings settings = settings_of(experiment);
   EXPECT_TRUE(settings.admissibility);
   settings.quick = true, settings.admissibility = admissibility;
   return diagnose(experiment, settings, testing::catalogue());

@@ -3,6 +3,8 @@
 
 #include <random>
 
+#include <regex>
+
 #include <fmt/format.h>
 
 #include "calibration/assembly.hpp"
@@ -77,7 +79,7 @@ experiment::Experiment Measured::read() const {
 
 diagnosis::Diagnosis Measured::diagnose(bool quick) const {
   const experiment::Experiment own = read();
-  diagnosis::Settings settings = diagnosis::settings_of(own, testing::catalogue());
+  diagnosis::Settings settings = diagnosis::settings_of(own);
   settings.quick = quick;
   return diagnosis::diagnose(own, settings, testing::catalogue());
 }
@@ -87,5 +89,7 @@ json mechanism(const std::string& type, const std::string& parameter, double val
   more["parameters"][parameter]["initial"] = value;
   return more;
 }
+
+std::string in_one_line(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
 
 }  // namespace tunica::trial

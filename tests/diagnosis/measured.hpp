@@ -53,4 +53,7 @@ class Measured {
 nlohmann::json mechanism(const std::string& type, const std::string& parameter, double value,
                          nlohmann::json more = nlohmann::json::object());
 
+/// With a blank for every line break and what is indented behind it.
+std::string in_one_line(const std::string& text);
+
 }  // namespace tunica::trial

@@ -38,7 +38,7 @@ TEST(Signatures, OfTheWholeCatalogueAreTheSlopesOfWhatTheExtensionPredicts) {
   const auto experiment =
       experiment::read_experiment(TUNICA_SOURCE_DIR "/examples/hidden_effect/experiment.json", catalogue);
   Diagnosis d;
-  d.settings = settings_of(experiment, catalogue);
+  d.settings = settings_of(experiment);
   prepare(d, experiment, catalogue);
   fit_base(d, catalogue);
   // At rest fibres begin to pull: a kink, of which either slope is right.

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/settings.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include "data/nearest.hpp"
-#include "tunica/error.hpp"
 
 namespace tunica::diagnosis {
 
-Settings settings_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+Settings settings_of(const experiment::Experiment& experiment) {
   Settings settings;
   settings.seed = experiment.seed;
   if (!experiment.runs.empty()) settings.model = experiment.runs.front().model;
@@ -23,12 +17,6 @@ Settings settings_of(const experiment::Experiment& experiment, const plugins::Ca
   settings.admissibility = json.value("admissibility", false);
   if (const auto names = json.find("mechanisms"); names != json.end() && names->is_array())
     settings.mechanisms = names->get<std::vector<std::string>>();
-  std::vector<std::string> known;
-  for (const auto& [id, entry] : catalogue.mechanisms()) known.push_back(id);
-  for (const std::string& id : settings.mechanisms)
-    if (!catalogue.mechanisms().contains(id))
-      throw InputError(fmt::format("/diagnosis/mechanisms: no loaded plugin provides the mechanism '{}'. {}", id,
-                                   data::suggestion(id, known)));
   return settings;
 }
 

@@ -23,8 +23,7 @@ struct Settings {
   std::function<void(const std::string& what, double share)> progress = {};
 };
 
-/// Fills in what the file leaves open: the model of the first run. Throws InputError where a mechanism is named that no
-/// plugin provides.
-Settings settings_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+/// Fills in what the file leaves open: the model of the first run.
+Settings settings_of(const experiment::Experiment& experiment);
 
 }  // namespace tunica::diagnosis

@@ -81,7 +81,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   check_shared(shared);
   if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
   if (const auto node = root.find("diagnosis")) {
-    check_diagnosis(*node, experiment);
+    check_diagnosis(*node, experiment, catalogue);
     experiment.diagnosis_json = node->json().dump();
   }
   experiment.input_json = write_input(experiment, catalogue);

@@ -94,7 +94,7 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
                std::vector<Shared>& shared, Experiment& experiment);
 /// "analysis": profiles, bootstrap, optimizer; needs the optimizers.
 void read_analysis(const Node& node, Experiment& experiment);
-void check_diagnosis(const Node& node, const Experiment& experiment);
+void check_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue);
 
 // writer.cpp
 /// input.json: the experiment with every default filled in, numbers in base units, file names absolute.

@@ -196,7 +196,7 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
   }
 }
 
-void check_diagnosis(const Node& node, const Experiment& experiment) {
+void check_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
   node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility"}, "\"diagnosis\"");
   if (const auto child = node.find("model")) child->one_of(entry_names(experiment.models), "model");
   if (const auto child = node.find("optimizer")) child->one_of(entry_names(experiment.optimizers), "optimizer");
@@ -206,11 +206,17 @@ void check_diagnosis(const Node& node, const Experiment& experiment) {
     child->fail(fmt::format("the significance level is {}", child->number("")),
                 "Expected a number between 0 and 1, for example 0.05.");
   if (const auto child = node.find("mechanisms")) {
-    if (child->is_text())
-      child->one_of({"all"}, "set of mechanisms");
-    else  // some are native to tests, so the catalogue does not know them all
-      for (const Node& name : child->elements("\"all\" or a list of mechanism names"))
-        name.check_name(name.text("the name of a mechanism"), "mechanism");
+    if (child->is_text()) {
+      if (child->text("") != "all")
+        child->fail(fmt::format("unknown set of mechanisms '{}'", child->text("")),
+                    fmt::format("Give \"all\" or a list, for example [\"{}\"].", child->text("")));
+      return;
+    }
+    std::vector<std::string> known;
+    for (const auto& [id, entry] : catalogue.mechanisms()) known.push_back(id);
+    const auto names = child->elements("\"all\" or a list of mechanism names");
+    if (names.empty()) child->fail("the list is empty", "Leave \"mechanisms\" out, or give \"all\", to try every one.");
+    for (const Node& name : names) name.one_of(known, "mechanism");
   }
 }
 
