@@ -24,7 +24,7 @@ std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3
 std::string p_text(const Diagnosis& d) {
   const double p = d.p_refits.value_or(d.detection.p);
   // So many refits cannot tell smaller ones apart.
-  if (d.p_refits && d.detection.p < p && p < 0.001) return fmt::format("p ≤ {:.2g}", p);
+  if (d.p_refits && d.detection.p < p && p >= 1e-4 && p < 0.001) return fmt::format("p ≤ {:.2g}", p);
   return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
 }
 
