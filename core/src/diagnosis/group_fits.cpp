@@ -8,7 +8,6 @@
 #include "diagnosis/refits.hpp"
 
 namespace tunica::diagnosis {
-
 namespace {
 
 constexpr std::size_t searched_again = 6;  ///< of the likeliest, without each of their members

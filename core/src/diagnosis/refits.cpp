@@ -122,14 +122,13 @@ bool at_a_bound(const Fit& fit) {
   return std::find(fit.at_bound.begin(), fit.at_bound.end(), true) != fit.at_bound.end();
 }
 
-bool search_again(const Diagnosis& diagnosis, Refitted& refitted) {
-  if (!at_a_bound(diagnosis.fit)) return false;
+void search_again(const Diagnosis& diagnosis, Refitted& refitted) {
+  if (!at_a_bound(diagnosis.fit)) return;
   const Extended& extended = *refitted.extended;
   const auto& parameters = extended.assembly().parameters();
   const auto workspace = extended.assembly().make_workspace();
   boost::random::mt19937_64 generator(derive_seed(diagnosis.settings.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
-  bool better = false;
   for (std::size_t k = 0; k < (diagnosis.settings.quick ? quick_starts : full_starts); ++k) {
     std::vector<double> unit(diagnosis.base->parameters().size()), base(unit.size());
     for (double& x : unit) x = uniform(generator);
@@ -142,10 +141,8 @@ bool search_again(const Diagnosis& diagnosis, Refitted& refitted) {
                                    parameters[member].max);
     }
     Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60);
-    if (!fit.status.ok() || !(fit.chi2 < refitted.fit.chi2 - 1e-6)) continue;
-    refitted.fit = std::move(fit), better = true;
+    if (fit.status.ok() && fit.chi2 < refitted.fit.chi2) refitted.fit = std::move(fit);
   }
-  return better;
 }
 
 }  // namespace tunica::diagnosis

@@ -16,7 +16,7 @@ bool at_a_bound(const Fit& fit);
 
 /// What a missing effect has driven to a bound of the base fit may stay there, though with the effect it is there no
 /// longer: at θ = 0 two families of fibres are one, and no derivative leads away. Where the base fit has such a
-/// parameter, the refit is searched for again from random places; whether a better one was found.
-bool search_again(const Diagnosis& diagnosis, Refitted& refitted);
+/// parameter, the refit is searched for again from random places, and the better one stays.
+void search_again(const Diagnosis& diagnosis, Refitted& refitted);
 
 }  // namespace tunica::diagnosis
