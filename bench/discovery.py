@@ -36,7 +36,7 @@ def plan(reduced):
             ("singles", range(0, 30), STATED, [10, 25, 60, 150], True),
             ("singles", range(30, 35), ["ar1"], [10, 25, 60, 150], True),
             ("singles", range(35, 40), ["outliers"], [10, 25, 60, 150], True),
-            ("pairs", range(0, 160), STATED, [60], False), ("outside", range(0, 8), STATED, [25, 60, 150], False)]
+            ("pairs", range(0, 160), STATED, [60], True), ("outside", range(0, 8), STATED, [25, 60, 150], False)]
 
 
 def chunks(stages, size):

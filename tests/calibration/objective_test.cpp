@@ -222,6 +222,23 @@ TEST(Noise, OfARowThatMeasuresZeroIsNeverZero) {
   EXPECT_THAT(warnings.at(0), HasSubstr("row 0 measures 0"));
 }
 
+TEST(Noise, ThatMakesRowsAllButExactIsWarnedOf) {
+  data::Channel relative = channel({1e-5, 3e-5, 1, 2, 3});
+  const std::vector<double> x{0, 1, 2, 3, 4};
+  const auto warnings_with = [&](data::Noise noise, std::vector<bool> fitted) {
+    relative.noise = noise;
+    std::vector<std::string> warnings;
+    calibration::noise_model(relative, x, fitted, "test 't'", warnings);
+    return warnings;
+  };
+  const std::vector<bool> all(5, true), without_first{false, true, true, true, true};
+  EXPECT_THAT(warnings_with({0, 0.1, 0}, all),
+              testing::ElementsAre(HasSubstr("takes 2 rows for all but exact, σ = 1e-06 ")));
+  EXPECT_THAT(warnings_with({0, 0.1, 0}, without_first), testing::ElementsAre(HasSubstr("takes a row for all but")));
+  EXPECT_TRUE(warnings_with({0.001, 0.1, 0}, all).empty());
+  EXPECT_TRUE(warnings_with({0, 0.1, 0}, {false, false, true, true, true}).empty());
+}
+
 TEST(Noise, ThatCannotBeKnownIsRefused) {
   std::vector<std::string> warnings;
   const std::vector<double> x{0, 1, 2};

@@ -85,6 +85,7 @@ class Driver(unittest.TestCase):
         self.assertGreaterEqual(cases["pairs", "white"], 60)
         singles = [line for line in self.calls("discovery_generator") if "--set singles" in line]
         self.assertTrue(all("--lambda 10 25 60 150 --oracle" in line for line in singles))
+        self.assertTrue(all("--oracle" in line for line in self.calls("discovery_generator") if "--set pairs" in line))
 
     def test_verdicts_of_another_build_are_made_anew(self):
         self.run_driver("--reduced")

@@ -166,3 +166,33 @@ TEST(Oracle, FindsWhatIsPlain) {
   EXPECT_TRUE(verdict.detected);
   EXPECT_EQ(verdict.first, "active_tone");
 }
+
+// r is the sum of the first two, of which alone the third, between them, scores most.
+TEST(Oracle, TakesTheTwoThatExplainMostTogether) {
+  const auto& effects = blind::catalogue();
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(4, 4);
+  shapes.col(0) << 1, 0, 0, 0;
+  shapes.col(1) << 0.8, 0.6, 0, 0;
+  shapes.col(2) << 0.95, 0.3, std::sqrt(0.0075), 0;
+  shapes.col(3) << 0, 0, 0, 1;
+  std::vector<blind::Signature> all;
+  for (std::size_t k = 0; k < 4; ++k)
+    all.push_back({&effects[k], {}, false, shapes.col(static_cast<Eigen::Index>(k)), 1});
+  const Eigen::VectorXd r = 8 * shapes.col(0) + 8 * shapes.col(1);
+  EXPECT_EQ(blind::likeliest_pair(all, shapes, r), (std::pair<std::size_t, std::size_t>(0, 1)));
+  all[1].one_sided = true;
+  EXPECT_EQ(blind::likeliest_pair(all, shapes, -r), (std::pair<std::size_t, std::size_t>(0, 2))) << "the wrong side";
+  const auto likeness = blind::likeness_to(all, shapes, 2);
+  ASSERT_EQ(likeness.size(), 2U);
+  EXPECT_NEAR(likeness.at(effects[0].id), 0.95, 1e-12);
+  EXPECT_NEAR(likeness.at(effects[1].id), 0.94, 1e-12);
+}
+
+// At Λ = 400 each, in one fixed case: linear scores, true parameters.
+TEST(Oracle, NamesTwoThatArePlain) {
+  const blind::SealedCase made = blind::make({3, "pairs", "", 400, 0, {"white"}});
+  const blind::OracleVerdict verdict = blind::ask_oracle(made);
+  ASSERT_EQ(verdict.pair.size(), 2U);
+  EXPECT_EQ((std::set<std::string>{verdict.pair[0], verdict.pair[1]}),
+            (std::set<std::string>{made.hidden[0].hidden.effect->id, made.hidden[1].hidden.effect->id}));
+}

@@ -226,6 +226,37 @@ TEST(Scorer, CountsALookAlikeInAPairAndNoRivalOfIt) {
   EXPECT_EQ(counted(figures({pair}, declared), "two effects, exact pair, Λ 60 each"), 0);
 }
 
+TEST(Scorer, TellsPairsThatAreNamedFromThoseThatAreOneOfSeveral) {
+  Case named = of_set("pairs", "white", "named");
+  named.truth.asked = 60, named.truth.effects = {{.id = "a", .target = {}}, {.id = "b", .target = {}}};
+  for (const auto* id : {"c", "a"})
+    named.verdict.causes.push_back({.id = id, .target = {}, .probability = {}, .amplitude = {}, .low = {}, .high = {}});
+  named.verdict.together = 2;
+  Case open = named, silent = named;
+  open.verdict.verdict = "indistinguishable", open.verdict.alternatives = {{"d", "e"}, {"b", "a"}};
+  silent.verdict.verdict = "unknown";
+  const std::vector<Case> cases{named, open, silent};
+  const Figure wrong = figure(cases, "two effects, false discoveries where the verdict is \"named\"");
+  EXPECT_EQ(wrong.cases, 2U);
+  EXPECT_NEAR(wrong.value, 0.5, 1e-12);
+  const Figure within = figure(cases, "two effects, the very pair is the first or an alternative");
+  EXPECT_EQ(within.cases, 2U);
+  EXPECT_NEAR(within.value, 0.5, 1e-12);
+}
+
+TEST(Scorer, SetsTheOraclesPairBesideThatOfTheVerdict) {
+  Case pair = of_set("pairs", "white", "unknown");
+  pair.truth.asked = 60, pair.truth.effects = {{.id = "a", .target = {}}, {.id = "b", .target = {}}};
+  pair.oracle = Oracle{true, "a", {}, {{"twin_of_b", {{"b", 0.95}}}, {"a"}}};
+  const auto remark = [&](const LookAlikes& declared) {
+    return figure({pair}, "two effects, false discoveries among the causes named", declared).remark;
+  };
+  EXPECT_THAT(remark({{"twin_of_b", {"b"}}}), HasSubstr("oracle 0.000"));
+  EXPECT_THAT(remark({}), HasSubstr("oracle 0.500"));
+  pair.oracle->pair.clear();
+  EXPECT_THAT(remark({}), ::testing::Not(HasSubstr("oracle")));
+}
+
 TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
   Case far = single("friction", 60, "unknown", {});
   far.truth.set = "outside", far.truth.remainder = 40;
@@ -342,7 +373,8 @@ TEST(Scorer, ReadsWhatAVerdictSays) {
     "confusable": [{"id": "outliers", "with": "b", "correlation": 0.97}],
     "gain": {"held_out": [{"block": "t", "p_value": 0.4}, {"block": "u", "p_value": null}]}})");
   write_case(folder, "case-1", truth, diagnosis);
-  folder.write("case-1/oracle.json", R"({"detected": true, "first": "outliers"})");
+  folder.write("case-1/oracle.json", R"({"detected": true, "first": "outliers", "pair": ["outliers", "b"],
+                                           "pair_likeness": [{}, {"c": 0.93}]})");
   const Case one = open_cases(folder.path(), folder.path(), false).cases.at(0);
   const Cause& cause = one.verdict.causes.at(0);
   EXPECT_TRUE(one.truth.effects.at(0).target.met_by(cause.target));
@@ -352,6 +384,9 @@ TEST(Scorer, ReadsWhatAVerdictSays) {
   EXPECT_EQ(one.verdict.held_out, std::vector<double>{0.4});
   EXPECT_EQ(one.verdict.confusable.at({"b", "outliers"}), 0.97);
   EXPECT_EQ(one.oracle->first, "outliers");
+  ASSERT_EQ(one.oracle->pair.size(), 2U);
+  EXPECT_EQ(one.oracle->pair[0].id, "outliers");
+  EXPECT_EQ(one.oracle->pair[1].likeness.at("c"), 0.93);
   folder.write("alike.json", R"({"a": ["b"]})");
   EXPECT_EQ(read_look_alikes(folder.path() / "alike.json").at("a"), std::vector<std::string>{"b"});
   folder.write("alike.json", R"(["b"])");

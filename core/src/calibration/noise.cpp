@@ -21,6 +21,22 @@ std::vector<std::size_t> indices(const std::vector<bool>& fitted) {
   return rows;
 }
 
+/// Purely relative noise makes rows near zero all but exact, and an offset of nothing a misfit of many σ.
+void warn_of_exact_rows(const std::vector<double>& sd, const std::vector<std::size_t>& rows, const std::string& unit,
+                        const std::string& where, std::vector<std::string>& warnings) {
+  constexpr double all_but_exact = 1e-3;
+  std::vector<double> sorted = sd;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double median = sorted[sorted.size() / 2], least = *std::min_element(sd.begin(), sd.end());
+  const auto exact = std::count_if(sd.begin(), sd.end(), [&](double one) { return one < all_but_exact * median; });
+  if (exact == 0) return;
+  const auto row = rows[static_cast<std::size_t>(std::min_element(sd.begin(), sd.end()) - sd.begin())];
+  warnings.push_back(fmt::format(
+      "{}: purely relative noise takes {} for all but exact, σ = {:.2g} {} in row {} where half of the rows have more "
+      "than {:.2g}; state noise.absolute, the least that the rig can tell",
+      where, exact == 1 ? "a row" : fmt::format("{} rows", exact), least, unit, row, median));
+}
+
 NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& rows, const std::string& where,
                   std::vector<std::string>& warnings) {
   const data::Noise& noise = *channel.noise;
@@ -43,6 +59,7 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
                     "smallest σ of the other rows, {:.4g} {}; state noise.absolute",
                     where, rows[k], smallest, channel.unit));
   }
+  if (noise.absolute == 0) warn_of_exact_rows(model.sd, rows, channel.unit, where, warnings);
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (std::find(noise.gross.begin(), noise.gross.end(), rows[k]) != noise.gross.end()) model.sd[k] *= 1000;
   if (noise.correlation == 0) return model;

@@ -124,22 +124,32 @@ OracleVerdict ask_oracle(const SealedCase& made) {
   verdict.detected = verdict.p_value <= alpha;
   verdict.first = most_likely(all, shapes.transpose() * r);
   // The direction that scored, against every direction of the others.
-  Eigen::Index scored = 0;
+  std::size_t scored = 0;
   double best = -1;
   for (std::size_t m = 0; m < all.size(); ++m) {
     const double c = all[m].shape.dot(r), size = all[m].one_sided ? c : std::abs(c);
-    if (all[m].effect->id == verdict.first && size > best) best = size, scored = static_cast<Eigen::Index>(m);
+    if (all[m].effect->id == verdict.first && size > best) best = size, scored = m;
   }
-  const Eigen::VectorXd alike = (shapes.transpose() * shapes.col(scored)).cwiseAbs();
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    const double c = alike[static_cast<Eigen::Index>(m)];
-    double& known = verdict.likeness[all[m].effect->id];
-    known = std::max(known, c);
-  }
-  constexpr double worth_telling = 0.9;
-  std::erase_if(verdict.likeness,
-                [&](const auto& one) { return one.second <= worth_telling || one.first == verdict.first; });
+  verdict.likeness = likeness_to(all, shapes, scored);
+  if (made.hidden.size() < 2) return verdict;
+  const auto [one, other] = likeliest_pair(all, shapes, r);
+  verdict.pair = {all[one].effect->id, all[other].effect->id};
+  verdict.pair_likeness = {likeness_to(all, shapes, one), likeness_to(all, shapes, other)};
   return verdict;
+}
+
+std::map<std::string, double> likeness_to(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes,
+                                          std::size_t direction) {
+  constexpr double worth_telling = 0.9;
+  const Eigen::VectorXd alike = (shapes.transpose() * shapes.col(static_cast<Eigen::Index>(direction))).cwiseAbs();
+  std::map<std::string, double> likeness;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    double& known = likeness[all[m].effect->id];
+    known = std::max(known, alike[static_cast<Eigen::Index>(m)]);
+  }
+  std::erase_if(likeness,
+                [&](const auto& one) { return one.second <= worth_telling || one.first == all[direction].effect->id; });
+  return likeness;
 }
 
 }  // namespace blind

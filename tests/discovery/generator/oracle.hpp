@@ -2,8 +2,12 @@
 #pragma once
 
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "sealed_case.hpp"
+#include "signatures.hpp"
 
 namespace blind {
 
@@ -14,7 +18,19 @@ struct OracleVerdict {
   bool detected = false;                   ///< at 5 %
   std::string first;                       ///< the likeliest effect
   std::map<std::string, double> likeness;  ///< of other effects to it on these data: largest correlations above 0.9
+  /// Where two effects are hidden: the likeliest two, and the likeness of others to each.
+  std::vector<std::string> pair = {};
+  std::vector<std::map<std::string, double>> pair_likeness = {};
 };
 OracleVerdict ask_oracle(const SealedCase& made);
+
+/// The directions (columns of `shapes`, unit vectors, those of `all`) of the two effects with the largest marginal
+/// likelihood together, each effect where it scores most in the best of its pairs. Of residuals r, projected.
+std::pair<std::size_t, std::size_t> likeliest_pair(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes,
+                                                   const Eigen::VectorXd& r);
+
+/// Of every other effect the largest correlation with one direction, where above 0.9.
+std::map<std::string, double> likeness_to(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes,
+                                          std::size_t direction);
 
 }  // namespace blind

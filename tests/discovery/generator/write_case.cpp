@@ -193,10 +193,11 @@ bool write(const Order& order, const fs::path& folder, bool oracle) {
   fs::create_directories(folder / "sealed");
   if (oracle) {
     const OracleVerdict verdict = ask_oracle(made);
-    const Json text{{"detected", verdict.detected},
-                    {"p_value", verdict.p_value},
-                    {"first", verdict.first},
-                    {"likeness", verdict.likeness}};
+    Json text{{"detected", verdict.detected},
+              {"p_value", verdict.p_value},
+              {"first", verdict.first},
+              {"likeness", verdict.likeness}};
+    if (!verdict.pair.empty()) text["pair"] = verdict.pair, text["pair_likeness"] = verdict.pair_likeness;
     write_text(known, text.dump() + "\n");
   }
   if (written) return true;

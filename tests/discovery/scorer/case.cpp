@@ -95,6 +95,7 @@ Verdict read_verdict(const Json& from) {
                                  known[0], known[1], known[2], known[3], known[4]));
   for (const Json& one : part(from, "causes")) verdict.causes.push_back(read_cause(one));
   for (const Json& one : part(from, "ambiguity_set")) verdict.ambiguity_set.push_back(one);
+  for (const Json& one : part(from, "alternatives")) verdict.alternatives.push_back(one);
   for (const Json& one : part(from, "confusable")) {
     const std::string a = one.at("id"), b = one.at("with");
     verdict.confusable[{std::min(a, b), std::max(a, b)}] = one.at("correlation");
@@ -171,6 +172,9 @@ Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) 
       one.oracle = Oracle{oracle.at("detected"), word(oracle, "first"), {}};
       if (oracle.contains("likeness"))
         one.oracle->likeness = oracle.at("likeness").get<std::map<std::string, double>>();
+      if (oracle.contains("pair"))
+        for (std::size_t k = 0; k < 2; ++k)
+          one.oracle->pair.push_back({oracle.at("pair").at(k), oracle.at("pair_likeness").at(k)});
       break;
     }
   }

@@ -55,6 +55,7 @@ struct Verdict {
   std::string verdict;
   std::vector<Cause> causes;                                         ///< the best first
   std::vector<std::string> ambiguity_set;                            ///< ids
+  std::vector<std::vector<std::string>> alternatives = {};           ///< pairs that are rivals of the best
   std::map<std::pair<std::string, std::string>, double> confusable;  ///< projected correlations, either order
   std::vector<double> held_out;                                      ///< predictive p-values of blocks
   /// How many causes make up the best explanation, the rest are its rivals; none = all.
@@ -67,6 +68,11 @@ struct Oracle {
   bool detected = false;
   std::string first;
   std::map<std::string, double> likeness = {};  ///< of others to the first
+  struct Member {
+    std::string id;
+    std::map<std::string, double> likeness = {};
+  };
+  std::vector<Member> pair = {};  ///< of cases with two effects: the likeliest two
 };
 
 struct Case {

@@ -68,5 +68,6 @@ bool stands_for(const Verdict& verdict, const std::string& named, const std::str
 bool named_with_look_alike(const Verdict& verdict, const std::string& truth, const LookAlikes& look_alikes);
 /// The oracle's first, or so alike to it on these data and declared.
 bool oracle_named(const Oracle& oracle, const std::string& truth, const LookAlikes& look_alikes);
+bool stands_for(const Oracle::Member& named, const std::string& truth, const LookAlikes& look_alikes);
 
 }  // namespace blind::score

@@ -78,9 +78,13 @@ bool stands_for(const Verdict& verdict, const std::string& named, const std::str
 }
 
 bool oracle_named(const Oracle& oracle, const std::string& truth, const LookAlikes& look_alikes) {
-  const auto likeness = oracle.likeness.find(truth);
-  return oracle.first == truth ||
-         (likeness != oracle.likeness.end() && interchangeable(oracle.first, truth, likeness->second, look_alikes));
+  return stands_for(Oracle::Member{oracle.first, oracle.likeness}, truth, look_alikes);
+}
+
+bool stands_for(const Oracle::Member& named, const std::string& truth, const LookAlikes& look_alikes) {
+  const auto likeness = named.likeness.find(truth);
+  return named.id == truth ||
+         (likeness != named.likeness.end() && interchangeable(named.id, truth, likeness->second, look_alikes));
 }
 
 }  // namespace blind::score
