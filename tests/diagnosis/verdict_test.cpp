@@ -52,6 +52,19 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
       words, AllOf(HasSubstr("NOTHING DETECTED"), HasSubstr("no trace in these data: "), HasSubstr("viscoelasticity")));
 }
 
+TEST(Verdict, DoubtsAmplitudesOfCausesAndRivals) {
+  Diagnosis found;
+  found.verdict = Verdict::indistinguishable, found.named = 1;
+  found.ambiguity_set = {"first", "second"};
+  found.causes = {diagnosis::Cause(), diagnosis::Cause()};
+  found.causes[0].id = "first", found.causes[1].id = "second";
+  found.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
+  found.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
+  const std::string words = in_one_line(diagnosis::summary(found));
+  EXPECT_THAT(words, HasSubstr("value = 3 kPa (2 … 4), at its bound; probability 0.00"));
+  EXPECT_THAT(words, HasSubstr("second (0.00, beyond what is plausible)"));
+}
+
 TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   const Measured measured;
   measured.measure(31);

@@ -268,6 +268,7 @@ TEST_F(Messages, CheckConstraintsAndDiagnosis) {
   expect_within(refusal(R"("h": 0.7)", R"("h": [[1.2, 1], [1.1, 0.7]])"), "the stretch 1.1 does not lie above 1.2");
   expect_within(refusal(R"("h": 0.7)", R"("h": [[1.2]])"), "where a pair [stretch, h] is expected");
   expect_within(refusal(R"("alpha": 0.05)", R"("alpha": 5)"), "the significance level is 5");
+  expect_within(refusal(R"("alpha": 0.05)", R"("alpha": 0.00009)"), "the significance level is 9e-05");
   expect_within(refusal(R"("mechanisms": "all")", R"("mechanisms": "none")"), "unknown set of mechanisms 'none'");
   expect_within(read(with(R"("h": 0.7)", R"("h": [[1, 1], [1.5, 0.7]])")).runs[0].constraints[0].pointer,
                 "experiment.json (/constraints/0, line 38, column ");

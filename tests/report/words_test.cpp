@@ -87,7 +87,7 @@ TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
   const trial::Scratch scratch;
   const std::string page = page_of(scratch, named);
   EXPECT_THAT(page,
-              HasSubstr("hgo to strip, 100 rows, seed 3: mu = 10 kPa. Root mean square of residual over noise: 2."));
+              HasSubstr("hgo to strip, 100 values, seed 3: mu = 10 kPa. Root mean square of residual over noise: 2."));
 }
 
 TEST(Words, OfASimulationSayWhatWasSimulated) {

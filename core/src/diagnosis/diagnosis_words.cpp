@@ -84,6 +84,10 @@ std::string could_hide(const Diagnosis& d) {
   return text;
 }
 
+std::string doubt(const Amplitude& amplitude) {
+  return !amplitude.plausible ? ", beyond what is plausible" : amplitude.at_bound ? ", at its bound" : "";
+}
+
 /// "0.82", "82.9", "1241": root mean squares for sentences.
 std::string size_of(double sigmas) {
   return sigmas < 10 ? fmt::format("{:.2f}", sigmas) : fmt::format("{:.{}f}", sigmas, sigmas < 100 ? 1 : 0);
@@ -156,9 +160,9 @@ std::string summary(const Diagnosis& d) {
     const std::string interval = std::isfinite(cause.amplitude.low)
                                      ? fmt::format(" ({:.3g} … {:.3g})", cause.amplitude.low, cause.amplitude.high)
                                      : std::string();
-    line("Cause:    ",
-         fmt::format("{} {}, {} = {}{}; probability {:.2f}", cause.id, cause.target.words(), cause.amplitude.name,
-                     amount(cause.amplitude.value, cause.amplitude.unit), interval, cause.probability));
+    line("Cause:    ", fmt::format("{} {}, {} = {}{}{}; probability {:.2f}", cause.id, cause.target.words(),
+                                   cause.amplitude.name, amount(cause.amplitude.value, cause.amplitude.unit), interval,
+                                   doubt(cause.amplitude), cause.probability));
   }
   std::vector<std::string> rivals;
   if (d.named > 1) {
@@ -166,7 +170,8 @@ std::string summary(const Diagnosis& d) {
     rivals.assign(all.begin() + 1, all.end());
   } else {
     for (std::size_t k = d.named; k < d.causes.size(); ++k)
-      rivals.push_back(fmt::format("{} ({:.2f})", d.causes[k].id, d.causes[k].probability));
+      rivals.push_back(
+          fmt::format("{} ({:.2f}{})", d.causes[k].id, d.causes[k].probability, doubt(d.causes[k].amplitude)));
   }
   if (const std::size_t count = rivals.size(); count > most_told) {
     rivals.resize(most_told);

@@ -64,9 +64,10 @@ double deviation(const Eigen::MatrixXd& precision, Eigen::Index which) {
   return std::sqrt(std::max(precision.ldlt().solve(unit)[which], 0.0));
 }
 
-/// "a factor of 2.31", "± 12 deg": the 95 % interval.
+/// "a factor of 2.31", "2 %", "± 12 deg": the 95 % interval.
 std::string within(const Coordinate& u, double sd) {
   const double factor = std::exp(two_sided * sd);
+  if (u.logarithmic && factor < 1.1) return fmt::format("{:.2g} %", 100 * (factor - 1));
   if (u.logarithmic)
     return "a factor of " + (factor < 100 ? fmt::format("{:.3g}", factor) : fmt::format("{:.0f}", factor));
   return fmt::format("± {:.2g}{}", two_sided * sd * u.slope, u.unit == "1" ? "" : " " + u.unit);
@@ -121,7 +122,10 @@ std::optional<NextExperiment> determining_experiment(const Diagnosis& d, const R
   });
   NextExperiment next;
   next.separates = {parameter.name};
-  next.description = fmt::format("{} is known to within {} only; ", parameter.name, within(parameter, left));
+  constexpr double only_box = 0.9;  // of the standard deviation over the box
+  next.description = left > only_box * parameter.prior_sd
+                         ? fmt::format("{} is not fixed by these data, only by its bounds; ", parameter.name)
+                         : fmt::format("{} is known to within {} only; ", parameter.name, within(parameter, left));
   constexpr double worthwhile = 0.5;
   if (best == outcomes.end() || best->sd > worthwhile * left) {
     next.description +=

@@ -202,9 +202,10 @@ void check_diagnosis(const Node& node, const Experiment& experiment, const plugi
   if (const auto child = node.find("optimizer")) child->one_of(entry_names(experiment.optimizers), "optimizer");
   if (const auto child = node.find("admissibility")) child->flag("true or false");
   if (const auto child = node.find("alpha");
-      child && !(child->number("a significance level") > 0 && child->number("") < 1))
-    child->fail(fmt::format("the significance level is {}", child->number("")),
-                "Expected a number between 0 and 1, for example 0.05.");
+      child && !(child->number("a significance level") >= 0.0001 && child->number("") <= 0.5))
+    child->fail(
+        fmt::format("the significance level is {}", child->number("")),
+        "Expected a number from 0.0001, below which the draws of noise tell nothing, to 0.5; for example 0.05.");
   if (const auto child = node.find("mechanisms")) {
     if (child->is_text()) {
       if (child->text("") != "all")

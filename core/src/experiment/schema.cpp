@@ -184,7 +184,10 @@ Json diagnosis_schema() {
       {{"model", text_schema("Name of a model.")},
        {"optimizer", text_schema("Name of an optimizer.")},
        {"alpha",
-        {{"description", "Significance level."}, {"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}}},
+        {{"description", "Significance level: the share of false alarms that is accepted."},
+         {"type", "number"},
+         {"minimum", 0.0001},
+         {"maximum", 0.5}}},
        {"mechanisms", std::move(mechanisms)},
        {"admissibility", {{"description", "Lost stability changes the verdict."}, {"type", "boolean"}}}});
 }

@@ -68,7 +68,7 @@ void add_ranking_table(Page& page, const Json& diagnosis) {
   }
   if (rows.empty()) return;
   constexpr std::size_t shown = 8;
-  const std::vector<std::string> head{"cause", "probability", "score", "gain in squares"};
+  const std::vector<std::string> head{"cause", "probability as the only cause", "score", "gain in squares"};
   const auto cut = static_cast<std::ptrdiff_t>(std::min(shown, rows.size()));
   page.html(table_html(head, {rows.begin(), rows.begin() + cut}, first));
   if (rows.size() <= shown) return;

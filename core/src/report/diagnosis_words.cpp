@@ -63,7 +63,7 @@ std::string fitted_words(const Json& result, const Json& diagnosis) {
     values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
   if (values.empty()) return "";
   const double rows = number(base, "rows"), squares = number(base, "squares");
-  return fmt::format("{} to {}, {} rows, seed {}: {}. Root mean square of residual over noise: {}.",
+  return fmt::format("{} to {}, {} values, seed {}: {}. Root mean square of residual over noise: {}.",
                      word(base, "model"), tests.empty() ? "the data" : joined(tests), figure(rows),
                      figure(number(member(result, "provenance"), "seed")), fmt::join(values, ", "),
                      figure(std::sqrt(squares / rows)));
@@ -73,7 +73,7 @@ std::string gain_words(const Json& diagnosis) {
   const Json& gain = member(diagnosis, "gain");
   if (!gain.is_object()) return "";
   std::string text =
-      fmt::format("Sum of squares over the noise: {} before, {} after, over {} rows", figure(number(gain, "before")),
+      fmt::format("Sum of squares over the noise: {} before, {} after, over {} values", figure(number(gain, "before")),
                   figure(number(gain, "after")), figure(number(member(diagnosis, "base"), "rows")));
   std::size_t better = 0;
   const Json& blocks = list(gain, "held_out");

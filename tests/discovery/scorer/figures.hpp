@@ -59,6 +59,9 @@ std::vector<std::string> unnamed(const std::vector<EffectRow>& rows);
 Verdict judged(const Case& one);
 /// The set that the verdict claims: the ambiguity set and the first cause.
 std::vector<std::string> claimed(const Verdict& verdict);
+/// Causes that are said to be at work together: rivals of what is named are no discoveries, and "unknown" names
+/// nothing.
+std::size_t together(const Verdict& verdict);
 bool named_first(const Verdict& verdict, const std::string& truth);
 /// Whether a name counts for what was hidden: it is it, or its declared look-alike that the verdict does not tell
 /// apart.

@@ -59,6 +59,11 @@ std::vector<std::string> claimed(const Verdict& verdict) {
   return all;
 }
 
+std::size_t together(const Verdict& verdict) {
+  if (verdict.verdict == "unknown") return 0;
+  return std::min(verdict.together.value_or(verdict.causes.size()), verdict.causes.size());
+}
+
 bool named_first(const Verdict& verdict, const std::string& truth) {
   return verdict.detected() && verdict.verdict != "unknown" && !verdict.causes.empty() &&
          verdict.causes.front().id == truth;
