@@ -24,6 +24,7 @@
 #include "diagnosis/refit_draws.hpp"
 #include "diagnosis/rest.hpp"
 #include "diagnosis/squares.hpp"
+#include "diagnosis/vanishing_noise.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -168,6 +169,7 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Settings& set
     warn_of_run(d, gross, catalogue);
   }
   warn_of_large_noise(d, d.extension ? d.extension->fit : d.fit);
+  if (d.verdict != Verdict::nothing_detected) warn_of_vanishing_noise(d);
   report(d, "the next experiment", 0.9);
   d.next = next_experiment(d, catalogue);
   report(d, "done", 1);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/vanishing_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/noise_statement.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+constexpr double near_zero = 0.3;  ///< of the median σ
+constexpr double most = 0.5, of_noise = 3;
+
+/// "strip, stress (9 of 32 rows carry 93 % of its |r|²)"; empty where they do not.
+std::string carried(const Curve& curve, std::vector<double> sd, const Eigen::VectorXd& residuals) {
+  double small = 0, all = 0;
+  std::size_t count = 0;
+  std::vector<double> sorted = sd;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  for (std::size_t k = 0; k < sd.size(); ++k) {
+    const double square = std::pow(residuals[curve.first + static_cast<Eigen::Index>(k)], 2);
+    all += square;
+    if (sd[k] < near_zero * sorted[sorted.size() / 2]) small += square, ++count;
+  }
+  if (!(small > most * all) || !(small > of_noise * static_cast<double>(count))) return "";
+  return fmt::format("{}, {} ({} of {} rows carry {:.0f} % of its |r|²)", curve.test, curve.channel, count, sd.size(),
+                     100 * small / all);
+}
+
+}  // namespace
+
+void warn_of_vanishing_noise(Diagnosis& d) {
+  std::vector<std::string> found;
+  std::size_t c = 0;
+  for (const calibration::ChannelView& view : d.base->channels()) {
+    if (c >= d.curves.size() || d.curves[c].test != view.test || d.curves[c].channel != view.observable) continue;
+    const Curve& curve = d.curves[c++];
+    if (view.noise->absolute > 0) continue;
+    if (std::string words = carried(curve, row_deviations(view), d.fit.residuals); !words.empty())
+      found.push_back(std::move(words));
+  }
+  if (found.empty()) return;
+  d.warnings.push_back(fmt::format(
+      "purely relative noise takes rows near zero for all but exact: {}. What is wrong there may be the reading of the "
+      "instrument; state noise.absolute too, the least that it tells apart",
+      fmt::join(found, "; ")));
+}
+
+}  // namespace tunica::diagnosis

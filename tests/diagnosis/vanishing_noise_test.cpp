@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "diagnosis/measured.hpp"
+
+namespace tunica::trial {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Noise of 0.3 kPa; the first row of a strip has some 1 kPa, of which 1 % is 30 times less.
+TEST(VanishingNoise, OfRowsNearZeroIsToldOfWhereTheyCarryTheMisfit) {
+  Measured measured;
+  measured.measure(51);
+  const auto with = [&](const nlohmann::json& noise) {
+    for (const Strip& strip : measured.strips) measured.experiment["tests"][strip.name]["data"]["noise"] = noise;
+    return measured.diagnose().warnings;
+  };
+  EXPECT_THAT(with({{"relative", 0.01}}),
+              Contains(AllOf(HasSubstr("purely relative noise takes rows near zero for all but exact: "),
+                             HasSubstr("axial, stress ("), HasSubstr("state noise.absolute too"))));
+  EXPECT_THAT(with({{"absolute", 0.3}, {"relative", 0.01}}), Not(Contains(HasSubstr("purely relative"))));
+}
+
+// The same rows, known as well as is said: nothing is wrong, and nothing is told.
+TEST(VanishingNoise, IsNotToldOfWhereNothingIsDetected) {
+  Measured measured({Strip{.sd = 1e-9}, Strip{.name = "axial", .sd = 1e-9}});
+  measured.measure(51);
+  for (const Strip& strip : measured.strips)
+    measured.experiment["tests"][strip.name]["data"]["noise"] = {{"relative", 0.01}};
+  EXPECT_THAT(measured.diagnose().warnings, Not(Contains(HasSubstr("purely relative"))));
+}
+
+}  // namespace
+}  // namespace tunica::trial
