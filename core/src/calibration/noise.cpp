@@ -27,14 +27,15 @@ void warn_of_exact_rows(const std::vector<double>& sd, const std::vector<std::si
   constexpr double all_but_exact = 1e-3;
   std::vector<double> sorted = sd;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double median = sorted[sorted.size() / 2], least = *std::min_element(sd.begin(), sd.end());
+  const double median = sorted[sorted.size() / 2];
+  const auto least = std::min_element(sd.begin(), sd.end());
   const auto exact = std::count_if(sd.begin(), sd.end(), [&](double one) { return one < all_but_exact * median; });
   if (exact == 0) return;
-  const auto row = rows[static_cast<std::size_t>(std::min_element(sd.begin(), sd.end()) - sd.begin())];
+  const std::size_t row = rows[static_cast<std::size_t>(least - sd.begin())];
   warnings.push_back(fmt::format(
       "{}: purely relative noise takes {} for all but exact, σ = {:.2g} {} in row {} where half of the rows have more "
       "than {:.2g}; state noise.absolute, the least that the rig can tell",
-      where, exact == 1 ? "a row" : fmt::format("{} rows", exact), least, unit, row, median));
+      where, exact == 1 ? "a row" : fmt::format("{} rows", exact), *least, unit, row, median));
 }
 
 NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& rows, const std::string& where,

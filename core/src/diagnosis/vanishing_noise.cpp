@@ -16,7 +16,7 @@ constexpr double near_zero = 0.3;  ///< of the median σ
 constexpr double most = 0.5, of_noise = 3;
 
 /// "strip, stress (9 of 32 rows carry 93 % of its |r|²)"; empty where they do not.
-std::string carried(const Curve& curve, std::vector<double> sd, const Eigen::VectorXd& residuals) {
+std::string carried(const Curve& curve, const std::vector<double>& sd, const Eigen::VectorXd& residuals) {
   double small = 0, all = 0;
   std::size_t count = 0;
   std::vector<double> sorted = sd;
