@@ -84,6 +84,7 @@ std::string could_hide(const Diagnosis& d) {
   return text;
 }
 
+/// What speaks against an amplitude, to stand behind it.
 std::string doubt(const Amplitude& amplitude) {
   return !amplitude.plausible ? ", beyond what is plausible" : amplitude.at_bound ? ", at its bound" : "";
 }

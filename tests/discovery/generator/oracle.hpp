@@ -24,8 +24,8 @@ struct OracleVerdict {
 };
 OracleVerdict ask_oracle(const SealedCase& made);
 
-/// The directions (columns of `shapes`, unit vectors, those of `all`) of the two effects with the largest marginal
-/// likelihood together, each effect where it scores most in the best of its pairs. Of residuals r, projected.
+/// Of projected residuals r: the two effects with the largest marginal likelihood together, as columns of `shapes` (the
+/// unit vectors of `all`); of their places the two that explain most.
 std::pair<std::size_t, std::size_t> likeliest_pair(const std::vector<Signature>& all, const Eigen::MatrixXd& shapes,
                                                    const Eigen::VectorXd& r);
 
