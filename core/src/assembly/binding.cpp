@@ -75,7 +75,8 @@ void tie(FreeParameter& free, const Slot& first, const Slot& slot) {
         "'{}'; give both the same bounds",
         place(slot), other.min, other.max, free.unit, free.min, free.max, first.declaration.name, free.name));
   }
-  free.min = min, free.max = max;
+  free.min = min;
+  free.max = max;
   if (other.prior) {
     if (free.prior && (free.prior->mean != other.prior->mean || free.prior->sd != other.prior->sd)) {
       throw InputError(fmt::format("{}: a second, different prior for the shared parameter '{}'; state it once",
@@ -98,14 +99,16 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
         throw InputError(fmt::format("{}: another scale than '{}', which shares '{}'; state it once", place(*slot),
                                      scaled->declaration.name, free.name));
       }
-      scaled = slot, free.scale = *scale;
+      scaled = slot;
+      free.scale = *scale;
     }
     if (const auto initial = slot->setting->initial) {
       if (started && *started->setting->initial != *initial) {
         throw InputError(fmt::format("{}: another initial value than '{}', which shares '{}'; state it once",
                                      place(*slot), started->declaration.name, free.name));
       }
-      started = slot, free.initial = *initial;
+      started = slot;
+      free.initial = *initial;
     }
   }
   check_bounds(free, place(*slots.front()));

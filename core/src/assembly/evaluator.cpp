@@ -99,7 +99,8 @@ std::string Evaluator::place(const RunTest& test, std::size_t position) const {
 
 TestInput Evaluator::input(const RunTest& test, std::span<const double> at, Workspace& workspace) const {
   const auto number = static_cast<std::size_t>(&test - tests_.data());
-  std::vector<double>&materials = workspace.materials[number], &own = workspace.own[number];
+  std::vector<double>& materials = workspace.materials[number];
+  std::vector<double>& own = workspace.own[number];
   for (const Link& link : test.materials.links) materials[link.position] = at[link.index];
   for (const Link& link : test.own.links) own[link.position] = at[link.index];
   return {*test.model, materials, own, {}, test.layers};

@@ -51,7 +51,10 @@ double channel_cost(const ChannelObjective& fitted, std::span<const double> meas
   for (std::size_t k = 0; k < n; ++k) {
     const double error = predictions[fitted.rows[k]] - measured[k];
     double residual = fitted.own[k] * error;
-    if (correlated) residual -= fitted.previous[k] * before, before = error;
+    if (correlated) {
+      residual -= fitted.previous[k] * before;
+      before = error;
+    }
     if (!residuals.empty()) residuals[offset + k] = residual;
     sum += residual * residual;
   }

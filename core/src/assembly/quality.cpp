@@ -18,7 +18,8 @@ Agreement agreement(std::span<const double> measured, std::span<const double> pr
     squares += error * error;
     about_mean += (measured[i] - mean) * (measured[i] - mean);
     deviation += std::abs(error);
-    size_measured += std::abs(measured[i]), size_predicted += std::abs(predicted[i]);
+    size_measured += std::abs(measured[i]);
+    size_predicted += std::abs(predicted[i]);
   }
   found.rmse = std::sqrt(squares / n);
   if (about_mean > 0) found.r2 = 1 - squares / about_mean;

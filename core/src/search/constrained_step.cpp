@@ -38,7 +38,8 @@ Vector non_negative_least_squares(const Matrix& E, const Vector& f) {
       for (std::size_t k = 0; k < at.size(); ++k) {
         u[at[k]] += share * (z[static_cast<Index>(k)] - u[at[k]]);
         if (z[static_cast<Index>(k)] > 0 || u[at[k]] > 1e-14) continue;
-        u[at[k]] = 0, passive[static_cast<std::size_t>(at[k])] = false;
+        u[at[k]] = 0;
+        passive[static_cast<std::size_t>(at[k])] = false;
       }
       if (share == 1) break;
     }
@@ -64,7 +65,8 @@ std::optional<ConstrainedStep> constrained_step(const Matrix& J, const Vector& r
   Vector length = G.rowwise().norm();
   for (Index i = 0; i < m; ++i) {
     if (!(length[i] > 0)) length[i] = 1;
-    G.row(i) /= length[i], h[i] /= length[i];
+    G.row(i) /= length[i];
+    h[i] /= length[i];
   }
   const double scale = std::max(h.size() > 0 ? h.cwiseAbs().maxCoeff() : 0.0, 1e-12);
   Matrix E(n + 1, m);

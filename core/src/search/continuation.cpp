@@ -25,7 +25,10 @@ std::span<const double> GoodPoints::nearest(std::span<const double> x) const {
     const std::span<const double> point = std::span(points_).subspan(at, dimension_);
     double distance = 0;
     for (std::size_t j = 0; j < dimension_; ++j) distance += (point[j] - x[j]) * (point[j] - x[j]);
-    if (distance < shortest) shortest = distance, found = point;
+    if (distance < shortest) {
+      shortest = distance;
+      found = point;
+    }
   }
   return found;
 }
@@ -40,7 +43,8 @@ Status continue_to(std::span<const double> good, std::span<const double> failed,
       step /= 2;
       continue;
     }
-    from = between, step = 0.5;
+    from = between;
+    step = 0.5;
     Status status = evaluate(failed);
     if (status.kind() != Status::Kind::failed) return status;
   }

@@ -17,7 +17,8 @@ bool same_kind(std::string_view a, std::string_view b) {
     while (!b.empty() && part_of_number(b.front())) b.remove_prefix(1);
     if (a.empty() || b.empty()) return a.empty() && b.empty();
     if (a.front() != b.front()) return false;
-    a.remove_prefix(1), b.remove_prefix(1);
+    a.remove_prefix(1);
+    b.remove_prefix(1);
   }
 }
 
@@ -34,8 +35,10 @@ void Tally::add_failure(const std::string& reason, std::uint64_t count) {
 }
 
 void Tally::add(const Tally& part) {
-  evaluations += part.evaluations, jacobians += part.jacobians;
-  failures += part.failures, infeasible += part.infeasible;
+  evaluations += part.evaluations;
+  jacobians += part.jacobians;
+  failures += part.failures;
+  infeasible += part.infeasible;
   if (first_failure.empty()) first_failure = part.first_failure;
   for (const FailureKind& kind : part.reasons) add_failure(kind.example, kind.count);
 }
@@ -53,7 +56,9 @@ void Ledger::add(std::span<const double> parameters, double objective, const Sta
     const bool nearer = violation != best_.violation ? violation < best_.violation : objective < best_.objective;
     if (!best_.found() || nearer) {
       best_.parameters.assign(parameters.begin(), parameters.end());
-      best_.objective = objective, best_.index = index, best_.violation = violation;
+      best_.objective = objective;
+      best_.index = index;
+      best_.violation = violation;
       improved_at_ = tally_.evaluations;
     }
   }

@@ -66,12 +66,20 @@ SharedState::SharedState(const assembly::Assembly& assembly_, const CalibrationP
 void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count) {
   calls.push_back({size(), count, jacobian});
   const std::size_t total = size() + count;
-  parameters.resize(total * parameter_count), per_test.resize(total * test_count);
-  objectives.resize(total), seconds.resize(total), statuses.resize(total);
+  parameters.resize(total * parameter_count);
+  per_test.resize(total * test_count);
+  objectives.resize(total);
+  seconds.resize(total);
+  statuses.resize(total);
 }
 
 void Evaluations::clear() {
-  calls.clear(), parameters.clear(), per_test.clear(), objectives.clear(), seconds.clear(), statuses.clear();
+  calls.clear();
+  parameters.clear();
+  per_test.clear();
+  objectives.clear();
+  seconds.clear();
+  statuses.clear();
 }
 
 Oracle::Oracle(SharedState& shared, Ledger ledger_, std::optional<std::uint64_t> replay_from,
@@ -123,7 +131,8 @@ bool Oracle::replay(std::span<const double> x, std::size_t slot) {
   }
   std::copy(entry_.per_test.begin(), entry_.per_test.end(),
             made.per_test.begin() + static_cast<std::ptrdiff_t>(slot * shared_.tests));
-  made.objectives[slot] = entry_.objective, made.statuses[slot] = entry_.status;
+  made.objectives[slot] = entry_.objective;
+  made.statuses[slot] = entry_.status;
   made.seconds[slot] = entry_.seconds;
   shared_.watch.catch_up(entry_.seconds);
   return true;

@@ -58,7 +58,10 @@ bool fill(const assembly::Assembly& assembly, std::span<const double> best, Pool
     const std::span<double> z = std::span(pool.z).subspan(first, count);
     double mean = 0, squares = 0, products = 0;
     for (const double value : z) mean += value / static_cast<double>(count);
-    for (double& value : z) value -= mean, squares += value * value;
+    for (double& value : z) {
+      value -= mean;
+      squares += value * value;
+    }
     for (std::size_t i = 1; i < count; ++i) products += z[i] * z[i - 1];
     const double phi = squares > 0 ? products / squares : 0, size = static_cast<double>(count);
     const double length = std::pow(std::sqrt(6.0) * std::abs(phi) / (1 - phi * phi), 2.0 / 3) * std::cbrt(size);
@@ -103,7 +106,8 @@ Bootstrap bootstrap(const assembly::Assembly& assembly, std::span<const double> 
   result.ci95.resize(best.size());
   Pool pool;
   if (!fill(assembly, best, pool)) return result;
-  result.blocks = pool.blocks, result.correlation = pool.correlation;
+  result.blocks = pool.blocks;
+  result.correlation = pool.correlation;
   Target target;
   target.blocks = assembly.layout().blocks;
   target.residual_count = assembly.layout().residual_count;

@@ -204,8 +204,12 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     found.parameters[j].straight = straightness.holds(at, half_width, times * spectrum.quantile);
     found.parameters[j].ci95 = half_width * assembly.box().slope(j, free[j]);
     std::vector<double> end = unit, mapped(n);
-    end[j] = unit[j] - half_width, assembly.box().from_unit(end, mapped), found.parameters[j].lower = mapped[j];
-    end[j] = unit[j] + half_width, assembly.box().from_unit(end, mapped), found.parameters[j].upper = mapped[j];
+    end[j] = unit[j] - half_width;
+    assembly.box().from_unit(end, mapped);
+    found.parameters[j].lower = mapped[j];
+    end[j] = unit[j] + half_width;
+    assembly.box().from_unit(end, mapped);
+    found.parameters[j].upper = mapped[j];
   }
   for (const Seen seen : {Seen::not_at_all, Seen::weakly}) add_valleys(assembly, free, spectrum, seen, found);
   add_valleys(assembly, free, hardly_seen(spectrum, found), Seen::weakly, found);

@@ -90,7 +90,8 @@ void Walk::cross(double inside, Profile::Point below, double outside, Profile::P
   }
   const double share = (1 - low) / (high - low);
   end.value = below.value + share * (above.value - below.value);
-  points.push_back(std::move(below)), points.push_back(std::move(above));
+  points.push_back(std::move(below));
+  points.push_back(std::move(above));
 }
 
 void Walk::run(const std::function<bool()>& interrupted) {
@@ -119,7 +120,8 @@ void Walk::run(const std::function<bool()>& interrupted) {
     if (here >= 1) return cross(x, last, next, point);
     points.push_back(point);
     if (here - before < wanted_rise / 2) step_ = std::min(2 * step_, largest_step);
-    last = std::move(point), x = next;
+    last = std::move(point);
+    x = next;
     end = {Profile::End::Kind::open, last.value};
   }
   if (x != bound) end.kind = Profile::End::Kind::failed;
@@ -173,8 +175,10 @@ std::vector<Profile> profiles(const assembly::Assembly& assembly, const Likeliho
       const auto& interval = linear.parameters[parameters[k]];
       if (!interval.identified) continue;
       std::vector<double> upper = likelihood.centre.free, lower = upper;
-      upper[parameters[k]] = interval.upper, lower[parameters[k]] = interval.lower;
-      assembly.box().to_unit(upper, unit), assembly.box().to_unit(lower, end);
+      upper[parameters[k]] = interval.upper;
+      lower[parameters[k]] = interval.lower;
+      assembly.box().to_unit(upper, unit);
+      assembly.box().to_unit(lower, end);
       const double half = (unit[parameters[k]] - end[parameters[k]]) / 2;
       steps[k] = std::clamp(wanted_rise * half, 10 * smallest_step, largest_step);
     }
@@ -192,8 +196,10 @@ std::vector<Profile> profiles(const assembly::Assembly& assembly, const Likeliho
     Profile& profile = result.emplace_back();
     profile.parameter = parameters[k];
     profile.threshold = likelihood.quantile * likelihood.quantile;
-    profile.lower = down.end, profile.upper = up.end;
-    profile.evaluations = down.evaluations + up.evaluations, profile.failures = down.failures + up.failures;
+    profile.lower = down.end;
+    profile.upper = up.end;
+    profile.evaluations = down.evaluations + up.evaluations;
+    profile.failures = down.failures + up.failures;
     profile.points = std::move(down.points);
     profile.points.push_back({likelihood.centre.free[parameters[k]], 0, likelihood.centre.free});
     std::move(up.points.begin(), up.points.end(), std::back_inserter(profile.points));

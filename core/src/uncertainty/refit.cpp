@@ -27,7 +27,10 @@ class RefitProblem final : public Problem {
         held_(held) {
     assembly.box().to_unit(start, unit_);
     for (std::size_t j = 0; j < unit_.size(); ++j)
-      if (j != held) moving_.push_back(j), start_.push_back(unit_[j]);
+      if (j != held) {
+        moving_.push_back(j);
+        start_.push_back(unit_[j]);
+      }
   }
 
   [[nodiscard]] const search::Best& best() const { return best_; }
@@ -136,7 +139,8 @@ Refit refit(const assembly::Assembly& assembly, const Target& target, const Loca
     result.status = Status::failed("no point near the optimum could be evaluated");
     return result;
   }
-  result.free = best.parameters, result.objective = best.objective;
+  result.free = best.parameters;
+  result.objective = best.objective;
   result.status =
       best.feasible() ? Status() : Status::infeasible("no point that keeps the constraints was found", best.violation);
   return result;

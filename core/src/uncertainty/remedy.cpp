@@ -47,9 +47,12 @@ bool look(const assembly::Assembly& assembly, std::size_t number, std::span<cons
     C[3 * stretches + i] = (a - b) * c * s;
   }
   MaterialPoints points;
-  points.count = stretches, points.C = C, points.parameters = parameters;
+  points.count = stretches;
+  points.C = C;
+  points.parameters = parameters;
   MaterialResponse response;
-  response.stress = stress, response.stress_dp = by;
+  response.stress = stress;
+  response.stress_dp = by;
   if (!model.evaluate(points, response).ok()) return false;
 
   // In-plane part of S − S_rr C_rr C⁻¹ from six components at point i; det of the in-plane block is 1/C_rr.

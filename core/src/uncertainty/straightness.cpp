@@ -33,7 +33,8 @@ Straightness::Straightness(const assembly::Assembly& assembly, const assembly::W
   assembly.box().to_unit(free, centre_);
   least_ = fit(centre_, {});
   if (!constraints_.empty() || !std::isfinite(linearise(centre_))) return;
-  centre_residuals_ = residuals_, centre_jacobian_ = jacobian_;
+  centre_residuals_ = residuals_;
+  centre_jacobian_ = jacobian_;
 }
 
 /// Along the tangent of the likelihood's valley the others begin where the linear model has its minimum.
@@ -96,8 +97,10 @@ Vector Straightness::step(const std::vector<double>& x, const std::vector<Eigen:
   c.head(m) = Eigen::Map<const Vector>(constraints_.data(), m);
   for (Eigen::Index a = 0; a < k; ++a) {
     const double at = x[static_cast<std::size_t>(moving[static_cast<std::size_t>(a)])];
-    A(m + a, a) = 1, c[m + a] = at - 1;
-    A(m + k + a, a) = -1, c[m + k + a] = -at;
+    A(m + a, a) = 1;
+    c[m + a] = at - 1;
+    A(m + k + a, a) = -1;
+    c[m + k + a] = -at;
   }
   const auto found = search::constrained_step(J(Eigen::all, moving), r, A, c);
   if (!found) return {};
@@ -141,7 +144,8 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     }
     if (!(there < here)) break;
     const double gain = here - there;
-    x = std::move(next), here = there;
+    x = std::move(next);
+    here = there;
     if (gain < enough) break;
   }
   return here;
