@@ -290,7 +290,7 @@ TEST_F(ProblemOnALine, RetriesFromTheNearestGoodPoint) {
   EXPECT_NEAR(recording_.lines[1].parameters[0], 7, 1e-12);
   solved = 100;
   const Status status = problem.evaluate(std::vector<double>{0.9, 0.5, 0.5}, objective);
-  EXPECT_THAT(status.reason(), HasSubstr("also on the way from the nearest good point"));
+  EXPECT_THAT(status.reason(), HasSubstr("steps from the nearest good point"));
   EXPECT_NEAR(recording_.lines[2].parameters[0], 9, 1e-12);
 }
 

@@ -123,18 +123,17 @@ std::string constrained_in_words(bool all_held, const std::vector<ParameterInter
   if (where.empty()) return "";
   if (all_held)
     return fmt::format(
-        "Constraints and bounds hold every parameter, so that the data have no say and there are no intervals. Where "
-        "a constraint touches: {}.",
+        "Constraints and bounds hold every parameter, so the data determine no interval. Active constraint: {}.",
         where);
   std::vector<std::string> held;
   for (const ParameterInterval& parameter : parameters)
     if (parameter.held) held.push_back(parameter.name);
   return fmt::format(
-      "A constraint holds the result, not the data: intervals are those along its border{}. Where it touches: {}.",
-      held.empty()
-          ? ""
-          : fmt::format(", along which {} cannot move (a profile tells how far the data let it leave the border)",
-                        fmt::join(held, ", ")),
+      "A constraint, not the data, holds the result; the intervals are those along its border.{} Active constraint: "
+      "{}.",
+      held.empty() ? ""
+                   : fmt::format(" Along it {} cannot move; a profile shows how far the data would let it leave.",
+                                 fmt::join(held, ", ")),
       where);
 }
 

@@ -107,7 +107,7 @@ std::vector<double> present(const assembly::Assembly& assembly, std::span<const 
 }
 
 const char* const elsewhere =
-    " What would fix it is a value of one of them from elsewhere, or data of another kind: another direction, both "
+    " To fix it, take the value of one of them from elsewhere, or add data of another kind: another direction, both "
     "directions at once, a larger stretch.";
 
 }  // namespace
@@ -134,7 +134,7 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
   }
   const double best = *std::max_element(gains.begin(), gains.end());
   if (best < worth_it)
-    return fmt::format(" No test of a sheet in its plane to stretch {:.3g} would see it {:g} times as well.{}", stretch,
+    return fmt::format(" No in-plane test of a sheet to stretch {:.3g} would see it {:g} times as well.{}", stretch,
                        worth_it, elsewhere);
   const auto chosen = static_cast<std::size_t>(
       std::find_if(gains.begin(), gains.end(), [&](double gain) { return gain >= nearly_best * best; }) -
@@ -145,10 +145,11 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
           ? fmt::format(" of the material '{}' alone", assembly.models().name(chosen / std::size(sheets)))
           : "";
   return fmt::format(
-      " {}{} to stretch {:.3g} would show it {}: its stresses change {} along it, relative to their largest.",
+      " {}{} to stretch {:.3g} would show it {}: relative to their largest value, its stresses change {}.",
       sheets[chosen % std::size(sheets)].words, of_model, stretch, gain > 1e3 ? "at all" : "best",
-      gain > 1e3 ? std::string("where those of the present tests do not")
-                 : fmt::format("{:.{}f} times as much as those of the present tests", gain, gain < 10 ? 1 : 0));
+      gain > 1e3
+          ? std::string("along it, and those of the present tests do not")
+          : fmt::format("{:.{}f} times as much along it as those of the present tests", gain, gain < 10 ? 1 : 0));
 }
 
 }  // namespace tunica::uncertainty
