@@ -7,12 +7,12 @@
 
 using namespace tunica;
 using ::testing::HasSubstr;
-using uncertainty::Target;
+using uncertainty::RefitObjective;
 
 namespace {
 
-Target objective_of(const assembly::Assembly& assembly) {
-  Target target;
+RefitObjective objective_of(const assembly::Assembly& assembly) {
+  RefitObjective target;
   target.blocks = assembly.layout().blocks;
   target.residual_count = assembly.layout().residual_count;
   target.evaluate = [&assembly](std::span<const double> free, double& objective, std::span<double> residuals,

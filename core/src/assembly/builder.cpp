@@ -140,7 +140,7 @@ void Builder::add_test(std::size_t number) {
   test.offset = layout.prediction_count;
   test.own = std::move(vectors_[parts_.models.size() + number]);
   test.costly = test.test->describe().costly;
-  give_models(test, entry, parts_.models);
+  assign_models(test, entry, parts_.models);
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);

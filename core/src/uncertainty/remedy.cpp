@@ -32,8 +32,9 @@ struct SheetChange {
   std::vector<double> change;  ///< by step, of the largest
 };
 
-bool look(const assembly::Assembly& assembly, std::size_t number, std::span<const double> free,
-          const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch, SheetChange& change) {
+bool sheet_change(const assembly::Assembly& assembly, std::size_t number, std::span<const double> free,
+                  const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch,
+                  SheetChange& change) {
   const Model& model = assembly.models().model(number);
   const std::vector<double> parameters = assembly.models().parameters(number, free);
   std::vector<double> C(6 * stretches, 0.0), stress(6 * stretches, 0.0), by(parameters.size() * 6 * stretches, 0.0);
@@ -126,7 +127,7 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
     for (const Sheet& sheet : sheets) {
       SheetChange change;
       double gain = std::numeric_limits<double>::infinity();
-      if (!look(assembly, model, free, steps, sheet, stretch, change)) gain = 0;
+      if (!sheet_change(assembly, model, free, steps, sheet, stretch, change)) gain = 0;
       for (std::size_t k = 0; k < change.change.size() && gain > 0; ++k)
         gain = std::min(gain, change.change[k] / change.largest / std::max(now[k], 1e-9));
       gains.push_back(gain);
