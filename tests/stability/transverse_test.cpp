@@ -9,7 +9,7 @@
 #include "mechanisms/shelf.hpp"
 #include "stability/transverse.hpp"
 
-namespace tunica {
+namespace tunica::transverse_test {
 namespace {
 
 using stability::FreePath;
@@ -245,4 +245,4 @@ TEST(TransverseStability, FailsWithAReasonWhereTheEnergyOverflows) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::transverse_test
