@@ -19,7 +19,9 @@ namespace {
 /// A case as scored: what is hidden, and what was said of it.
 Case single(const std::string& id, double lambda, const std::string& verdict, const std::vector<std::string>& said) {
   Case one;
-  one.truth.set = "singles", one.truth.noise = "white", one.truth.asked = lambda;
+  one.truth.set = "singles";
+  one.truth.noise = "white";
+  one.truth.asked = lambda;
   one.truth.effects = {{.id = id, .target = {}, .amplitude = 2}};
   one.verdict.verdict = verdict;
   if (!said.empty())
@@ -30,7 +32,8 @@ Case single(const std::string& id, double lambda, const std::string& verdict, co
 }
 Case of_set(const std::string& set, const std::string& noise, const std::string& verdict) {
   Case one;
-  one.truth.set = set, one.truth.noise = noise;
+  one.truth.set = set;
+  one.truth.noise = noise;
   one.verdict.verdict = verdict;
   return one;
 }
@@ -184,7 +187,10 @@ TEST(Scorer, ComparesDetectionWithTheOracleOnTheSameCases) {
 TEST(Scorer, WantsEveryEffectNamedInHalfOfItsCases) {
   const auto row = [](double lambda, std::size_t named, std::size_t cases) {
     EffectRow one;
-    one.id = "a", one.lambda = lambda, one.detected = {cases, cases}, one.named_or_look_alike = {named, cases};
+    one.id = "a";
+    one.lambda = lambda;
+    one.detected = {cases, cases};
+    one.named_or_look_alike = {named, cases};
     return one;
   };
   EXPECT_TRUE(unnamed({row(60, 2, 3), row(60, 1, 2), row(60, 0, 0), row(25, 0, 3)}).empty());
@@ -259,7 +265,8 @@ TEST(Scorer, SetsTheOraclesPairBesideThatOfTheVerdict) {
 
 TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
   Case far = single("friction", 60, "unknown", {});
-  far.truth.set = "outside", far.truth.remainder = 40;
+  far.truth.set = "outside";
+  far.truth.remainder = 40;
   Case set = far, name = far;
   set.verdict = single("", 0, "indistinguishable", {"a", "b"}).verdict;
   name.verdict = single("", 0, "named", {"a"}).verdict;
@@ -284,14 +291,19 @@ TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
 
 TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
   Case one = single("a", 25, "named", {"a"});
-  one.truth.effects.front().amplitude = 1.5, one.truth.effects.front().null = 1;
+  one.truth.effects.front().amplitude = 1.5;
+  one.truth.effects.front().null = 1;
   Cause& cause = one.verdict.causes.front();
-  cause.amplitude = 1.6, cause.low = 1.4, cause.high = 1.8;
+  cause.amplitude = 1.6;
+  cause.low = 1.4;
+  cause.high = 1.8;
   Case off = one;
-  off.verdict.causes.front().amplitude = 1.4, off.verdict.causes.front().low = 1.3,
+  off.verdict.causes.front().amplitude = 1.4;
+  off.verdict.causes.front().low = 1.3;
   off.verdict.causes.front().high = 1.45;
   Case elsewhere = one;
-  elsewhere.verdict.causes.front().target.test = "another", elsewhere.verdict.causes.front().amplitude = 100;
+  elsewhere.verdict.causes.front().target.test = "another";
+  elsewhere.verdict.causes.front().amplitude = 100;
   const std::vector<Case> cases{one, off, elsewhere};
   EXPECT_EQ(figure(cases, "amplitude, relative rms at Λ 25").cases, 2U);
   EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").value, 0.2, 1e-12);
@@ -307,7 +319,8 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
 
   Case even = single("m", 60, "named", {"m"});
   even.truth.effects.front().even = true;
-  even.verdict.causes.front().amplitude = -2.2, even.verdict.causes.front().low = -2.5,
+  even.verdict.causes.front().amplitude = -2.2;
+  even.verdict.causes.front().low = -2.5;
   even.verdict.causes.front().high = -1.9;
   EXPECT_NEAR(figure({even}, "amplitude, relative rms at Λ 60").value, 0.1, 1e-12) << "its sign means nothing";
   EXPECT_NEAR(figure({even}, "amplitude, coverage of the 95 % interval").value, 1, 1e-12);
@@ -325,7 +338,8 @@ TEST(Scorer, HoldsStatedProbabilitiesAgainstWhatCameTrue) {
 
 TEST(Scorer, CountsHeldOutBlocksOfTheRightNames) {
   Case right = single("a", 60, "named", {"a"}), wrong = single("a", 60, "named", {"b"});
-  right.verdict.held_out = {0.3, 0.04, 0.9, 0.6}, wrong.verdict.held_out = {0.001};
+  right.verdict.held_out = {0.3, 0.04, 0.9, 0.6};
+  wrong.verdict.held_out = {0.001};
   const Figure blocks = figure({right, wrong}, "held-out predictive p-value above 0.05 with the named mechanism");
   EXPECT_EQ(blocks.cases, 4U);
   EXPECT_NEAR(blocks.value, 0.75, 1e-12);
@@ -360,7 +374,8 @@ TEST(Scorer, OpensATruthOnlyWithItsVerdictAndItsSeal) {
 TEST(Scorer, ReadsWhatAVerdictSays) {
   const Folder folder;
   json truth = null_truth();
-  truth["set"] = "singles", truth["lambda_asked"] = 25;
+  truth["set"] = "singles";
+  truth["lambda_asked"] = 25;
   truth["effects"].push_back({{"id", "outliers"},
                               {"target", {{"test", "t"}, {"channel", "axial_force"}, {"row", 4}}},
                               {"amplitude", 2.0},

@@ -24,9 +24,12 @@ inline std::unique_ptr<Test> make_fe_tube(const std::vector<double>& pressure, c
   const auto& entry = catalogue().tests().at("fe_pressurisation");
   TestSetup setup;
   setup.options = defaults(entry.factory.options);
-  setup.options.set("inner_radius", 3.71), setup.options.set("thickness", 2.06), setup.options.set("length", 14.);
+  setup.options.set("inner_radius", 3.71);
+  setup.options.set("thickness", 2.06);
+  setup.options.set("length", 14.);
   if (tube.axial_stretches.empty()) setup.options.set("axial_stretch", tube.axial_stretch);
-  setup.options.set("element", tube.element), setup.options.set("elements", tube.elements);
+  setup.options.set("element", tube.element);
+  setup.options.set("elements", tube.elements);
   setup.options.set("ends", tube.ends);
   for (const auto& [name, value] : tube.options.values()) setup.options.set(name, value);
   setup.rows.count = pressure.size();

@@ -56,8 +56,10 @@ class Cutter {
       if (delimiter == ' ' && cell.empty() && !more) break;  // white space at the end of the line
       cells.push_back(std::move(cell));
       if (more) ++at_;  // the delimiter
-      if (more && delimiter != ' ' && (at_end() || text_[at_] == '\r' || text_[at_] == '\n'))
-        cells.emplace_back(), more = false;
+      if (more && delimiter != ' ' && (at_end() || text_[at_] == '\r' || text_[at_] == '\n')) {
+        cells.emplace_back();
+        more = false;
+      }
     }
     end_line();
     return cells;
@@ -76,7 +78,10 @@ class Cutter {
   std::string field(char delimiter) {
     std::size_t begin = at_;
     while (begin < text_.size() && text_[begin] == ' ') ++begin;
-    if (begin < text_.size() && text_[begin] == '"') return at_ = begin, quoted(delimiter);
+    if (begin < text_.size() && text_[begin] == '"') {
+      at_ = begin;
+      return quoted(delimiter);
+    }
     const std::size_t start = at_;
     while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter)) ++at_;
     return std::string(trimmed(text_.substr(start, at_ - start)));
@@ -106,7 +111,8 @@ class Cutter {
   void end_line() {
     if (at_end()) return;
     if (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++at_;
-    ++at_, ++line_;
+    ++at_;
+    ++line_;
   }
 
   const std::filesystem::path& file_;
@@ -124,7 +130,9 @@ char sniff_delimiter(std::string_view header) {
     if (quoted) continue;
     bracket += c == '[' ? 1 : c == ']' && bracket > 0 ? -1 : 0;
     if (bracket > 0) continue;
-    tabs += c == '\t', semicolons += c == ';', commas += c == ',';
+    tabs += c == '\t';
+    semicolons += c == ';';
+    commas += c == ',';
   }
   return tabs > 0 ? '\t' : semicolons > 0 ? ';' : commas > 0 ? ',' : ' ';
 }

@@ -132,10 +132,12 @@ struct Analysis {
   std::size_t map_points = 41;             ///< along each
 
   void add_profile(const std::string& name, const std::string& place) {
-    profiles.push_back(name), places.emplace("profiles " + name, place);
+    profiles.push_back(name);
+    places.emplace("profiles " + name, place);
   }
   void add_map(const std::string& name, const std::string& place) {
-    stability_map.push_back(name), places.emplace("map " + name, place);
+    stability_map.push_back(name);
+    places.emplace("map " + name, place);
   }
   [[nodiscard]] std::string place(const std::string& use, const std::string& name) const {
     const auto found = places.find(use + ' ' + name);

@@ -14,9 +14,10 @@ constexpr std::size_t deepest = 64;  // levels of nesting; the experiment file n
 JsonDocument::Place place_of(std::string_view text, std::size_t offset) {
   JsonDocument::Place place{1, 1};
   for (const char c : text.substr(0, offset)) {
-    if (c == '\n')
-      ++place.line, place.column = 1;
-    else if ((static_cast<unsigned char>(c) & 0xC0u) != 0x80u)
+    if (c == '\n') {
+      ++place.line;
+      place.column = 1;
+    } else if ((static_cast<unsigned char>(c) & 0xC0u) != 0x80u)
       ++place.column;
   }
   return place;

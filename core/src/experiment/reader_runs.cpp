@@ -136,7 +136,8 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
     ConstraintEntry constraint;
     constraint.type =
         entry.require("type", "a constraint").one_of({"transverse_stability", "admissible_parameters"}, "constraint");
-    constraint.json = entry.json().dump(), constraint.pointer = entry.place();
+    constraint.json = entry.json().dump();
+    constraint.pointer = entry.place();
     const std::string owner = fmt::format("the constraint '{}'", constraint.type);
     if (constraint.type == "transverse_stability") {
       entry.allow_only({"type", "h", "range", "points", "directions"}, owner);

@@ -112,7 +112,8 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   table["minItems"] = 1;
   h["anyOf"] = Json::array({std::move(factor), std::move(table)});
   Json range = list_schema("Stretches from, to: besides those that were measured.", {{"type", "number"}});
-  range["minItems"] = 2, range["maxItems"] = 2;
+  range["minItems"] = 2;
+  range["maxItems"] = 2;
   Json directions = {{"description", "Strips along which axes (default both)."}};
   directions["anyOf"] = Json::array(
       {{{"enum", {"circumferential", "axial"}}}, list_schema("Several.", {{"enum", {"circumferential", "axial"}}})});
@@ -157,7 +158,8 @@ Json analysis_schema() {
   profiles["anyOf"] = Json::array({choice_schema("Every one.", {"all"}), list_schema("Names.", {{"type", "string"}})});
   Json map =
       list_schema("Two free parameters: where between their bounds is the material stable?", {{"type", "string"}});
-  map["minItems"] = 2, map["maxItems"] = 2;
+  map["minItems"] = 2;
+  map["maxItems"] = 2;
   return object_schema(
       "Uncertainty of every run's best point, beyond the intervals that are always given.",
       {{"profiles", std::move(profiles)},

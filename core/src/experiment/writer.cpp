@@ -150,8 +150,10 @@ Json written(const Analysis& analysis) {
   if (analysis.bootstrap_draws > 0) json["bootstrap"] = {{"draws", analysis.bootstrap_draws}};
   if (!analysis.optimizer.empty()) json["optimizer"] = analysis.optimizer;
   if (analysis.stability_to) json["stability"]["to"] = *analysis.stability_to;
-  if (!analysis.stability_map.empty())
-    json["stability"]["map"] = analysis.stability_map, json["stability"]["points"] = analysis.map_points;
+  if (!analysis.stability_map.empty()) {
+    json["stability"]["map"] = analysis.stability_map;
+    json["stability"]["points"] = analysis.map_points;
+  }
   return json;
 }
 

@@ -71,8 +71,10 @@ DruckerVerdict judge_drucker(const Model& model, std::span<const double> paramet
         if (!verdict.first_lost) verdict.path = path.name;
       }
       if (least > 0) continue;
-      if (!verdict.first_lost || point.along < *verdict.first_lost)
-        verdict.first_lost = point.along, verdict.path = path.name;
+      if (!verdict.first_lost || point.along < *verdict.first_lost) {
+        verdict.first_lost = point.along;
+        verdict.path = path.name;
+      }
       break;
     }
   }

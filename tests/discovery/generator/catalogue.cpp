@@ -56,12 +56,14 @@ std::vector<Effect> of_the_material() {
   return {of_material("fibre_dispersion", "1", 0, 0.3, set_tissue<&Tissue::kappa>),
           of_material("axial_fibres", "kPa", 0, 50,
                       [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.axial_k = hidden.amplitude(), world.tissue.axial_k2 = hidden.nuisance.at("k2");
+                        world.tissue.axial_k = hidden.amplitude();
+                        world.tissue.axial_k2 = hidden.nuisance.at("k2");
                       },
                       {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("circumferential_fibres", "kPa", 0, 50,
                       [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.around_k = hidden.amplitude(), world.tissue.around_k2 = hidden.nuisance.at("k2");
+                        world.tissue.around_k = hidden.amplitude();
+                        world.tissue.around_k2 = hidden.nuisance.at("k2");
                       },
                       {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("matrix_stiffening", "1", 0, 5, set_tissue<&Tissue::stiffening>),
@@ -71,13 +73,14 @@ std::vector<Effect> of_the_material() {
           of_material("active_tone", "kPa", 0, 100, set_tissue<&Tissue::tone>),
           of_material("stress_softening", "1", 0, 0.8,
                       [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.softening = hidden.amplitude(),
+                        world.tissue.softening = hidden.amplitude();
                         world.tissue.softening_width = hidden.nuisance.at("m");
                       },
                       {{"m", 0.2, 1, {0.1, 0.3, 1, 3}}}),
           of_material("viscoelasticity", "1", 0, 3,
                       [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.branch = hidden.amplitude(), world.tissue.relaxation = hidden.nuisance.at("tau");
+                        world.tissue.branch = hidden.amplitude();
+                        world.tissue.relaxation = hidden.nuisance.at("tau");
                       },
                       {{"tau", 2, 60, {0.5, 2, 6, 20, 60, 200}}})};
 }
@@ -103,8 +106,10 @@ std::vector<Effect> of_the_tubes() {
                  .nuisances = {{"interface", 0, 1, {1. / 2, 2. / 3}, {1. / 2, 2. / 3}}},
                  .logarithmic = true,
                  .apply = [](World& world, const Protocol&, const Hidden& hidden) {
-                   for (TubeFaults& tube : world.tubes)
-                     tube.layer_ratio = hidden.amplitude(), tube.interface = hidden.nuisance.at("interface");
+                   for (TubeFaults& tube : world.tubes) {
+                     tube.layer_ratio = hidden.amplitude();
+                     tube.interface = hidden.nuisance.at("interface");
+                   }
                  }});
   return all;
 }

@@ -40,7 +40,10 @@ void list() {
 std::vector<Order> orders(const std::string& set, std::vector<std::string> effects, std::vector<double> lambdas,
                           std::pair<std::size_t, std::size_t> cases, std::uint64_t seed,
                           const std::vector<std::string>& noise) {
-  if (set == "nulls") effects = {""}, lambdas = {0};
+  if (set == "nulls") {
+    effects = {""};
+    lambdas = {0};
+  }
   if (set == "pairs") effects = {""};
   if (effects.empty())
     for (const Effect& effect : set == "outside" ? outsiders() : catalogue()) effects.push_back(effect.id);

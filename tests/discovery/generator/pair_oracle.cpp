@@ -39,7 +39,10 @@ std::pair<std::size_t, std::size_t> likeliest_pair(const std::vector<Signature>&
       const double x = (a - c * b) / left, y = (b - c * a) / left, gain = a * x + b * y;
       if ((all[i].one_sided && x <= 0) || (all[j].one_sided && y <= 0)) continue;
       both.sum += std::exp((gain - whole) / 2) * (all[i].one_sided ? 2 : 1) * (all[j].one_sided ? 2 : 1);
-      if (gain > both.best) both.best = gain, both.where = {i, j};
+      if (gain > both.best) {
+        both.best = gain;
+        both.where = {i, j};
+      }
     }
   const Together* best = nullptr;
   for (const auto& [effects, both] : pairs)

@@ -62,7 +62,10 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
         hidden.distance = (effect.even ? 0.3 : 0.01) * hidden.largest;
         auto y = observe(about.protocol, world_with(about, {hidden}));
         bool good = true;
-        for (std::size_t i = 0; i < y.size(); ++i) y[i] -= bare[i], good &= std::isfinite(y[i]);
+        for (std::size_t i = 0; i < y.size(); ++i) {
+          y[i] -= bare[i];
+          good &= std::isfinite(y[i]);
+        }
         if (good) add(effect, target, std::move(y));
       }
     }

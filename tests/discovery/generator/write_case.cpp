@@ -121,7 +121,8 @@ Json target(const Target& of, const Protocol& protocol) {
   if (of.tube) made["test"] = tube_names()[*of.tube];
   if (of.channel) {
     const Channel channel = channels(protocol)[*of.channel];
-    made["test"] = channel.test, made["channel"] = channel.name;
+    made["test"] = channel.test;
+    made["channel"] = channel.name;
   }
   if (of.row) made["row"] = *of.row;
   return made;
@@ -197,12 +198,16 @@ bool write(const Order& order, const fs::path& folder, bool oracle) {
               {"p_value", verdict.p_value},
               {"first", verdict.first},
               {"likeness", verdict.likeness}};
-    if (!verdict.pair.empty()) text["pair"] = verdict.pair, text["pair_likeness"] = verdict.pair_likeness;
+    if (!verdict.pair.empty()) {
+      text["pair"] = verdict.pair;
+      text["pair_likeness"] = verdict.pair_likeness;
+    }
     write_text(known, text.dump() + "\n");
   }
   if (written) return true;
   const fs::path unfinished = folder / fmt::format(".{}-{}", name, ::getpid());
-  fs::remove_all(unfinished), fs::remove_all(place);
+  fs::remove_all(unfinished);
+  fs::remove_all(place);
   fs::create_directories(unfinished);
   const std::string text = sealed(made, name).dump(1) + "\n";
   write_text(truth, text);

@@ -40,7 +40,10 @@ int main(int count, char** arguments) {
       fmt::print(stderr, "discovery_score: {}: {}\n", unmeasured ? "not measured" : "missed", figure.name);
       ++missed;
     }
-    for (const std::string& words : unnamed(rows)) fmt::print(stderr, "discovery_score: missed: {}\n", words), ++missed;
+    for (const std::string& words : unnamed(rows)) {
+      fmt::print(stderr, "discovery_score: missed: {}\n", words);
+      ++missed;
+    }
     return missed > 0 ? 1 : 0;
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
