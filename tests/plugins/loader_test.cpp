@@ -17,9 +17,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::TemporaryFolder;
 
-std::vector<std::string> names(const std::vector<Loaded>& loaded) {
+std::vector<std::string> names(const std::vector<LoadedPlugin>& loaded) {
   std::vector<std::string> names;
-  for (const Loaded& plugin : loaded) names.push_back(plugin.name);
+  for (const LoadedPlugin& plugin : loaded) names.push_back(plugin.name);
   return names;
 }
 
@@ -27,7 +27,7 @@ TEST(Loader, ReportsNameVersionAndFileOfAPlugin) {
   const TemporaryFolder folder;
   const auto file = copy_plugin("good", folder.path());
   Catalogue catalogue;
-  const Loaded loaded = load_file(file, catalogue);
+  const LoadedPlugin loaded = load_file(file, catalogue);
   EXPECT_EQ(loaded.name, "good");
   EXPECT_EQ(loaded.version, "1.2.3");
   EXPECT_EQ(loaded.file, file);

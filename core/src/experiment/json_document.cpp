@@ -2,6 +2,7 @@
 #include "experiment/json_document.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
@@ -196,7 +197,7 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   Scanner(file_, text_, offsets_).scan();
   try {
-    root_ = Json::parse(text_, nullptr, true, true);
+    root_ = std::make_shared<const Json>(Json::parse(text_, nullptr, true, true));
   } catch (const nlohmann::json::exception& error) {
     const auto* parse_error = dynamic_cast<const nlohmann::json::parse_error*>(&error);
     const auto [line, column] =

@@ -73,11 +73,11 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
     OptimizerEntry optimizer;
     optimizer.name = name;
     optimizer.type = entry.require("type", owner).one_of(names_of(catalogue.optimizers()), "optimizer type");
-    const auto& on_shelf = catalogue.optimizers().find(optimizer.type)->second;
-    optimizer.options = read_options(entry, on_shelf.factory.options, {"type"}, owner);
+    const auto& available = catalogue.optimizers().find(optimizer.type)->second;
+    optimizer.options = read_options(entry, available.factory.options, {"type"}, owner);
     try {
       static_cast<void>(
-          plugins::create(on_shelf, optimizer.options));  // the plugin may know more than its declaration says
+          plugins::create(available, optimizer.options));  // the plugin may know more than its declaration says
     } catch (const InputError& error) {
       entry.fail(fmt::format("{} is refused", owner), error.what());
     }
@@ -107,8 +107,11 @@ void read_analysis(const Node& node, Experiment& experiment) {
       profiles->one_of({"all"}, "set of profiles");
       analysis.all_profiles = true;
     } else {
-      for (const Node& name : profiles->elements("\"all\" or a list of parameter names"))
-        analysis.add_profile(name.text("the name of a parameter, as in results"), name.place());
+      for (const Node& entry : profiles->elements("\"all\" or a list of parameter names")) {
+        const std::string& name = entry.text("the name of a parameter, as in results");
+        analysis.profiles.push_back(name);
+        analysis.profile_places.emplace(name, entry.place());
+      }
     }
   }
   if (const auto bootstrap = node.find("bootstrap")) {
@@ -131,8 +134,11 @@ void read_analysis(const Node& node, Experiment& experiment) {
         to->fail(fmt::format("the stretch is {}", *analysis.stability_to), "Expected a stretch above 1, up to 100.");
     }
     if (const auto map = stability->find("map")) {
-      for (const Node& name : map->elements("two names of parameters, as in results,"))
-        analysis.add_map(name.text("the name of a parameter, as in results"), name.place());
+      for (const Node& entry : map->elements("two names of parameters, as in results,")) {
+        const std::string& name = entry.text("the name of a parameter, as in results");
+        analysis.stability_map.push_back(name);
+        analysis.map_places.emplace(name, entry.place());
+      }
       if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
     }
     if (const auto points = stability->find("points"))

@@ -150,12 +150,12 @@ data::DataRequest read_data(const Node& block, const std::vector<Observable>& ob
   if (data.files.empty()) files->fail("the list of files is empty");
   read_columns(block, observables, owner, data);
   if (const auto node = block.find("stress_measure"))
-    data.stress_measure = node->one_of(stress_measure_names(), "stress measure");
+    data.stress_measure = node->one_of(data::stress_measures(), "stress measure");
   if (const auto node = block.find("rows")) data.rows = read_row_range(*node);
   if (const auto node = block.find("where"))
     for (const auto& [column, value] : node->members("an object of column names and values")) {
       if (!value.is_text() && !value.is_number()) value.fail_expected("the text or number to look for in the column");
-      data.where.emplace_back(column, value.is_text() ? value.text("") : value.json().dump());
+      data.where.emplace_back(column, value.is_text() ? value.text("") : value.dumped());
     }
   if (const auto node = block.find("time_from")) read_time_from(*node, observables, data);
   if (const auto node = block.find("noise")) read_noise(*node, observables, data);
@@ -250,7 +250,7 @@ data::RowRange read_row_range(const Node& node) {
 
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
                     const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
-                    std::vector<Shared>& shared) {
+                    std::vector<SharedParameter>& shared) {
   entry.expect_object("a test, {\"type\": …},");
   entry.check_name(name, "test");
   const std::string owner = fmt::format("test '{}'", name);

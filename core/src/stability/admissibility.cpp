@@ -47,10 +47,10 @@ std::string words(const TransverseVerdict& verdict, const Domain& domain) {
 
 /// "up to stretch 1.5 in strips, equibiaxial extension and pure shear", or path by path where one ends before; empty
 /// where none could be followed at all.
-std::string followed_in_words(const std::vector<Followed>& followed, double limit) {
+std::string followed_in_words(const std::vector<PathReach>& followed, double limit) {
   std::vector<std::string> words;
   bool any = false, all = true;
-  for (const Followed& path : followed) {
+  for (const PathReach& path : followed) {
     any = any || path.to > 1;
     all = all && path.to > limit * (1 - 1e-9);
     words.push_back(path.to > 1 ? fmt::format("{} to {:.4g}", path.path, path.to)
@@ -103,13 +103,14 @@ std::vector<std::string> Admissibility::sentences() const {
   return all;
 }
 
-Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain) {
+Admissibility judge_admissibility(const Model& model, std::span<const double> parameters, const Domain& domain) {
   Admissibility found;
   found.domain = domain;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     std::vector<double> judged = domain.strips[axis];
     judged.insert(judged.end(), domain.asked[axis].begin(), domain.asked[axis].end());
-    found.transverse.push_back(judge(model, parameters, axis, judged, std::max(domain.beyond, domain.largest)));
+    found.transverse.push_back(
+        judge_transverse(model, parameters, axis, judged, std::max(domain.beyond, domain.largest)));
   }
   const auto paths = homogeneous_paths(model, parameters, domain.largest);
   found.ellipticity = judge_ellipticity(model, parameters, paths);

@@ -49,7 +49,7 @@ DruckerVerdict judge_drucker(const Model& model, std::span<const double> paramet
   DruckerVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
-    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
+    PathReach& followed = verdict.followed.emplace_back(PathReach{path.name});
     for (const Deformation& point : path.points) {
       AtPoint at;
       if (!evaluate(view, parameters, point.stretch, at)) break;

@@ -114,7 +114,7 @@ EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double>
   EllipticityVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
-    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
+    PathReach& followed = verdict.followed.emplace_back(PathReach{path.name});
     for (const Deformation& at : path.points) {
       const std::optional<Weakest> here = weakest_at(model, parameters, at);
       if (!here) break;

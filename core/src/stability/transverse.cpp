@@ -188,8 +188,8 @@ std::optional<bool> stable_at(const Model& model, std::span<const double> parame
 
 }  // namespace
 
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
-                        const std::vector<double>& judged, double limit) {
+TransverseVerdict judge_transverse(const Model& model, std::span<const double> parameters, std::size_t axis,
+                                   const std::vector<double>& judged, double limit) {
   TransverseVerdict verdict;
   verdict.axis = axis;
   for (const double stretch : judged) {
