@@ -67,7 +67,7 @@ TEST(Checks, WarnOfRepeatedRows) {
 
 TEST(Checks, WarnOfTwoResultsAtOneAbscissa) {
   EXPECT_NE(only_warning("stretch,stress [kPa]\n1,0\n1.1,1\n1.1,1.5\n1.2,2\n")
-                .find("strip.csv, line 4, column 1 ('stretch'): this abscissa occurs before with another result"),
+                .find("strip.csv, line 4, column 1 ('stretch'): an earlier row has this abscissa and another result"),
             std::string::npos);
 }
 

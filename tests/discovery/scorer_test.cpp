@@ -2,17 +2,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "execution/folder.hpp"
 #include "scorer/table.hpp"
-#include "seal.hpp"
 
 using namespace blind::score;
-using nlohmann::json;
 using ::testing::HasSubstr;
-using tunica::trial::Folder;
-using tunica::trial::message_of;
 
 namespace {
 
@@ -37,6 +32,13 @@ Case of_set(const std::string& set, const std::string& noise, const std::string&
   one.verdict.verdict = verdict;
   return one;
 }
+/// The amplitude of the first cause and its interval.
+void state_amplitude(Case& one, double amplitude, double low, double high) {
+  Cause& cause = one.verdict.causes.front();
+  cause.amplitude = amplitude;
+  cause.low = low;
+  cause.high = high;
+}
 std::vector<Case> times(std::size_t count, const Case& one) { return std::vector<Case>(count, one); }
 std::vector<Case> together(std::initializer_list<std::vector<Case>> parts) {
   std::vector<Case> all;
@@ -48,23 +50,6 @@ Figure figure(const std::vector<Case>& cases, const std::string& name, const Loo
   for (const Figure& one : figures(cases, look_alikes))
     if (one.name == name) return one;
   throw std::runtime_error("no figure " + name);
-}
-
-/// Writes one case and its sealed truth; a verdict unless empty.
-void write_case(const Folder& folder, const std::string& name, const json& truth, const json& diagnosis) {
-  std::filesystem::create_directories(folder.path() / name);
-  std::filesystem::create_directories(folder.path() / "sealed");
-  const std::string text = truth.dump();
-  folder.write("sealed/" + name + ".json", text);
-  folder.write(name + "/truth.sha256", blind::sha256(text) + "\n");
-  if (!diagnosis.is_null()) folder.write(name + "/result.json", json{{"diagnosis", diagnosis}}.dump());
-}
-json null_truth() {
-  return {{"set", "nulls"},
-          {"noise", {{"kind", "white"}}},
-          {"lambda_asked", 0},
-          {"gross_errors", json::array()},
-          {"effects", json::array()}};
 }
 
 }  // namespace
@@ -293,14 +278,9 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
   Case one = single("a", 25, "named", {"a"});
   one.truth.effects.front().amplitude = 1.5;
   one.truth.effects.front().null = 1;
-  Cause& cause = one.verdict.causes.front();
-  cause.amplitude = 1.6;
-  cause.low = 1.4;
-  cause.high = 1.8;
+  state_amplitude(one, 1.6, 1.4, 1.8);
   Case off = one;
-  off.verdict.causes.front().amplitude = 1.4;
-  off.verdict.causes.front().low = 1.3;
-  off.verdict.causes.front().high = 1.45;
+  state_amplitude(off, 1.4, 1.3, 1.45);
   Case elsewhere = one;
   elsewhere.verdict.causes.front().target.test = "another";
   elsewhere.verdict.causes.front().amplitude = 100;
@@ -319,9 +299,7 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
 
   Case even = single("m", 60, "named", {"m"});
   even.truth.effects.front().even = true;
-  even.verdict.causes.front().amplitude = -2.2;
-  even.verdict.causes.front().low = -2.5;
-  even.verdict.causes.front().high = -1.9;
+  state_amplitude(even, -2.2, -2.5, -1.9);
   EXPECT_NEAR(figure({even}, "amplitude, relative rms at Λ 60").value, 0.1, 1e-12) << "its sign means nothing";
   EXPECT_NEAR(figure({even}, "amplitude, coverage of the 95 % interval").value, 1, 1e-12);
 }
@@ -343,68 +321,4 @@ TEST(Scorer, CountsHeldOutBlocksOfTheRightNames) {
   const Figure blocks = figure({right, wrong}, "held-out predictive p-value above 0.05 with the named mechanism");
   EXPECT_EQ(blocks.cases, 4U);
   EXPECT_NEAR(blocks.value, 0.75, 1e-12);
-}
-
-TEST(Scorer, OpensATruthOnlyWithItsVerdictAndItsSeal) {
-  const Folder folder;
-  const auto open = [&](bool partial) {
-    return message_of<InputError>([&] { (void)open_cases(folder.path(), folder.path(), partial); });
-  };
-  EXPECT_THAT(open(false), HasSubstr("holds no case"));
-  const json verdict{{"verdict", "nothing_detected"}};
-  write_case(folder, "case-1", null_truth(), verdict);
-  write_case(folder, "case-2", null_truth(), {});
-  EXPECT_THAT(open(false), HasSubstr("1 of 2 cases have no verdict, the first being case-2"));
-  EXPECT_EQ(open(true), "");
-  EXPECT_EQ(open_cases(folder.path(), folder.path(), true).sealed, 1U);
-  folder.write("case-2/result.json", "{\"runs\": []}");
-  EXPECT_THAT(open(false), HasSubstr("there is no object 'diagnosis'"));
-  folder.write("case-2/result.json", json{{"diagnosis", {{"verdict", "maybe"}}}}.dump());
-  EXPECT_THAT(open(false), HasSubstr("found the verdict 'maybe', expected one of nothing_detected"));
-  folder.write("case-2/result.json", json{{"diagnosis", verdict}}.dump());
-  EXPECT_EQ(open_cases(folder.path(), folder.path(), false).cases.size(), 2U);
-  json changed = null_truth();
-  changed["lambda_asked"] = 60;
-  folder.write("sealed/case-1.json", changed.dump());
-  EXPECT_THAT(open(false), HasSubstr("the truth was changed after the data were written"));
-  EXPECT_THAT(message_of<InputError>([&] { (void)open_cases(folder.path() / "nowhere", folder.path(), false); }),
-              HasSubstr("is no folder of cases"));
-}
-
-TEST(Scorer, ReadsWhatAVerdictSays) {
-  const Folder folder;
-  json truth = null_truth();
-  truth["set"] = "singles";
-  truth["lambda_asked"] = 25;
-  truth["effects"].push_back({{"id", "outliers"},
-                              {"target", {{"test", "t"}, {"channel", "axial_force"}, {"row", 4}}},
-                              {"amplitude", 2.0},
-                              {"null", 0},
-                              {"even", false},
-                              {"reached", true}});
-  const json diagnosis = json::parse(R"({"verdict": "indistinguishable", "ambiguity_set": ["outliers", "b"],
-    "causes": [{"id": "outliers", "target": {"test": "t", "channel": "axial_force", "row": 4}, "probability": 0.7,
-                "amplitude": {"value": 2.2, "unit": "mN", "ci95": [1.5, 2.9]}, "explanation": "consistent with"}],
-    "confusable": [{"id": "outliers", "with": "b", "correlation": 0.97}],
-    "gain": {"held_out": [{"block": "t", "p_value": 0.4}, {"block": "u", "p_value": null}]}})");
-  write_case(folder, "case-1", truth, diagnosis);
-  folder.write("case-1/oracle.json", R"({"detected": true, "first": "outliers", "pair": ["outliers", "b"],
-                                           "pair_likeness": [{}, {"c": 0.93}]})");
-  const Case one = open_cases(folder.path(), folder.path(), false).cases.at(0);
-  const Cause& cause = one.verdict.causes.at(0);
-  EXPECT_TRUE(one.truth.effects.at(0).target.met_by(cause.target));
-  EXPECT_FALSE(one.truth.effects.at(0).target.met_by({"t", "axial_force", 5}));
-  EXPECT_TRUE(cause.hedged);
-  EXPECT_EQ(cause.low, 1.5);
-  EXPECT_EQ(one.verdict.held_out, std::vector<double>{0.4});
-  EXPECT_EQ(one.verdict.confusable.at({"b", "outliers"}), 0.97);
-  EXPECT_EQ(one.oracle->first, "outliers");
-  ASSERT_EQ(one.oracle->pair.size(), 2U);
-  EXPECT_EQ(one.oracle->pair[0].id, "outliers");
-  EXPECT_EQ(one.oracle->pair[1].likeness.at("c"), 0.93);
-  folder.write("alike.json", R"({"a": ["b"]})");
-  EXPECT_EQ(read_look_alikes(folder.path() / "alike.json").at("a"), std::vector<std::string>{"b"});
-  folder.write("alike.json", R"(["b"])");
-  EXPECT_THAT(message_of<InputError>([&] { (void)read_look_alikes(folder.path() / "alike.json"); }),
-              HasSubstr("expected {\"id\": [\"look-alike\""));
 }

@@ -46,7 +46,7 @@ TEST(Catalogue, RefusesATakenNameAndNamesItsOwner) {
   second.add(model("hgo"));
   second.add(model("gho"));
   EXPECT_EQ(refusal(catalogue, std::move(second), "copycat 9.9"),
-            "the model 'gho' is already provided by plugin 'gho 0.1.0', and a name can be taken once; rename it, or "
+            "the model 'gho' is already provided by plugin 'gho 0.1.0', and names must be unique; rename it, or "
             "leave one of the two plugins out of the plugin path");
   EXPECT_EQ(catalogue.models().count("hgo"), 0u) << "all or nothing";
 }
@@ -85,7 +85,7 @@ TEST(Catalogue, RefusesNamesThatAreNoPlainIdentifiers) {
     stage.add(model(name));
     EXPECT_EQ(refusal(catalogue, std::move(stage), "x 1"),
               std::string("the model name '") + name +
-                  "' is no plain identifier; expected letters, digits and underscores, with a letter first");
+                  "' is not a plain identifier; expected letters, digits and underscores, with a letter first");
   }
 }
 

@@ -52,7 +52,7 @@ TEST(Loader, LoadsTheGoodOnesOfAFolderFullOfBadOnes) {
   EXPECT_THAT(reasons.at("a_text.so"), HasSubstr("not a shared library"));
   EXPECT_EQ(reasons.at("zz_duplicate_name.so"),
             "plugin 'duplicate_name 0.1.0': the optimiser 'does_nothing' is already provided by plugin 'good 1.2.3', "
-            "and a name can be taken once; rename it, or leave one of the two plugins out of the plugin path");
+            "and names must be unique; rename it, or leave one of the two plugins out of the plugin path");
   // Nothing of a refused plugin stays, neither the half-registered nor the one with one name taken.
   EXPECT_EQ(catalogue.optimizers().size(), 1u);
   EXPECT_EQ(catalogue.models().size(), 2u);

@@ -124,7 +124,8 @@ TEST(Admissibility, SaysWhatIsLostAndWhere) {
   // Measured only where it is still stable: said, and no verdict of instability.
   const auto short_of_it = stability::judge_admissibility(*gho, set_u, strips_to(1.1));
   EXPECT_EQ(short_of_it.transversely_stable(), true);
-  EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond that domain (measured to 1.1)"));
+  EXPECT_THAT(short_of_it.sentences().front(),
+              HasSubstr("stable (measured to 1.1); beyond that domain the transverse stretch"));
 }
 
 TEST(Admissibility, IsNotCertifiedWhereNothingWasMeasured) {

@@ -100,7 +100,7 @@ class Cutter {
       cell += text_[at_];
     }
     if (at_end())
-      throw InputError(fmt::format("{}, line {}: a quoted field is opened here and never closed. Close it with \".",
+      throw InputError(fmt::format("{}, line {}: a quoted field opens here and never closes. Close it with \".",
                                    file_.string(), opened));
     ++at_;
     while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter))
@@ -170,7 +170,7 @@ void refuse_encodings(const std::filesystem::path& file, std::string_view text) 
   const std::size_t zero = text.find('\0');
   if (zero != std::string_view::npos)
     throw InputError(fmt::format(
-        "{}, line {}: found a zero byte, so this is no text file. Expected CSV: a header line "
+        "{}, line {}: found a zero byte, so this is not a text file. Expected CSV: a header line "
         "`name [unit]` and rows of numbers.",
         file.string(), 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n')));
 }
@@ -185,7 +185,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error))
     throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
   if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(fmt::format("{}: this is no regular file. Name a text file.", file.string()));
+    throw InputError(fmt::format("{}: this is not a regular file. Name a text file.", file.string()));
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
   if (stream) bytes << stream.rdbuf();

@@ -156,7 +156,7 @@ void Node::check_name(const std::string& name, std::string_view noun) const {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
   };
   if (name.find('.') != std::string::npos)
-    fail(fmt::format("the {} name '{}' has a dot", noun, excerpt(name)),
+    fail(fmt::format("the {} name '{}' contains a dot", noun, excerpt(name)),
          "Dots join the parts of parameter names, as in viscoelasticity.tau; use '_' or '-' instead.");
   if (name.empty() || name.size() > 100 || name.front() == '-' || !std::all_of(name.begin(), name.end(), usual))
     fail(fmt::format("the {} name '{}' cannot be part of file and parameter names", noun, excerpt(name)),

@@ -33,7 +33,7 @@ std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string
     const MechanismFactory& factory = catalogue.mechanisms().find(type)->second.factory;
     suits(node, factory);
     if (std::any_of(mechanisms.begin(), mechanisms.end(), [&](const MechanismEntry& m) { return m.type == type; }))
-      node.fail(fmt::format("the mechanism '{}' stands twice in {}", type, owner),
+      node.fail(fmt::format("the mechanism '{}' appears twice in {}", type, owner),
                 "Its parameters would share their names; remove one.");
     const std::string name = fmt::format("mechanism '{}'", type);
     MechanismEntry mechanism{type, read_options(node, factory.options, {"type", "parameters"}, name), {}};

@@ -27,7 +27,7 @@ OptimizerEntry read_stages(const std::string& name, const Node& entry, const std
       stage.optimizer = node.one_of(names, "optimizer");
     }
     if (stage.optimizer == name)
-      node.fail(fmt::format("the stages of the optimizer '{}' name itself", name),
+      node.fail(fmt::format("the optimizer '{}' names itself as a stage", name),
                 "A stage is another entry of \"optimizers\".");
     optimizer.stages.push_back(std::move(stage));
   }
@@ -93,7 +93,7 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
         node.require(optimizer.name, "")
             .require("stages", "")
             .element(i)
-            .fail(fmt::format("the stage '{}' of '{}' is staged itself", stage, optimizer.name),
+            .fail(fmt::format("the stage '{}' of '{}' has stages itself", stage, optimizer.name),
                   "Name the optimizers one by one.");
     }
   return optimizers;

@@ -45,7 +45,7 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
     std::string others;
     for (const auto& [key, child] : node.members("an object"))
       if (key != "fixed") others += (others.empty() ? "'" : ", '") + key + "'";
-    node.fail(fmt::format("{} is fixed and has {} too", what, others),
+    node.fail(fmt::format("{} is fixed but has {} as well", what, others),
               "A fixed parameter is held at its value, so the other keys mean nothing: remove them, or \"fixed\".");
   }
   return setting;

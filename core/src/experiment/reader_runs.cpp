@@ -71,7 +71,7 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
     for (const auto& [name, entry] : node.members("")) {
       const auto known = entry_names(experiment.tests);
       if (std::find(known.begin(), known.end(), name) != known.end())
-        entry.fail(fmt::format("the test '{}' is defined before", name),
+        entry.fail(fmt::format("the test '{}' is already defined", name),
                    "Results carry the names of tests, so a test that differs needs another name; to use the same test, "
                    "list its name.");
       experiment.tests.push_back(read_test(name, entry, folder, entry_names(experiment.models), catalogue, shared));
@@ -81,7 +81,7 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
     for (const Node& child : node.elements("a list of test names, or an object of tests,")) {
       names.push_back(child.one_of(entry_names(experiment.tests), "test"));
       if (std::count(names.begin(), names.end(), names.back()) > 1)
-        child.fail(fmt::format("the test '{}' stands twice in the list", names.back()),
+        child.fail(fmt::format("the test '{}' appears twice in the list", names.back()),
                    "To count it twice, give it \"weight\": 2.");
     }
   }
@@ -192,7 +192,7 @@ DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, co
     if (!(*diagnosis.alpha >= 0.0001 && *diagnosis.alpha <= 0.5))
       child->fail(
           fmt::format("the significance level is {}", *diagnosis.alpha),
-          "Expected a number from 0.0001, below which the draws of noise tell nothing, to 0.5; for example 0.05.");
+          "Expected a number from 0.0001 to 0.5, for example 0.05. The draws of noise are too few for a smaller one.");
   }
   const auto child = node.find("mechanisms");
   if (!child) return diagnosis;

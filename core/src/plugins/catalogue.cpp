@@ -39,8 +39,8 @@ void check_callable(const MechanismFactory& factory, std::string_view kind) {
   if (!factory.native.empty()) {
     if (!on_model && !factory.wrap_model && !factory.wrap_test && factory.parameters.size() == 1) return;
     throw std::invalid_argument(
-        fmt::format("the {} '{}' stands for a test's own parameter '{}', and then acts at stage 'test', wraps nothing "
-                    "and has that one parameter; mend its factory before registering",
+        fmt::format("the {} '{}' stands for a test's own parameter '{}'; such a mechanism acts at stage 'test', wraps "
+                    "nothing and has that one parameter; correct its factory before registering",
                     kind, factory.id, factory.native));
   }
   if (on_model ? !factory.wrap_model : !factory.wrap_test) {
@@ -60,14 +60,14 @@ Catalogue::Entries<Factory> checked_entries(std::vector<Factory>&& factories, co
     const std::string name = name_of(factory);
     if (!is_plain_identifier(name)) {
       throw std::invalid_argument(fmt::format(
-          "the {} name '{}' is no plain identifier; expected letters, digits and underscores, with a letter first",
+          "the {} name '{}' is not a plain identifier; expected letters, digits and underscores, with a letter first",
           kind, name));
     }
     check_callable(factory, kind);
     if (const auto found = taken.find(name); found != taken.end()) {
       throw std::invalid_argument(
-          fmt::format("the {} '{}' is already provided by plugin '{}', and a name can be taken "
-                      "once; rename it, or leave one of the two plugins out of the plugin path",
+          fmt::format("the {} '{}' is already provided by plugin '{}', and names must be "
+                      "unique; rename it, or leave one of the two plugins out of the plugin path",
                       kind, name, found->second.plugin));
     }
     if (!entries.emplace(name, Catalogue::Entry<Factory>{std::move(factory), plugin}).second) {

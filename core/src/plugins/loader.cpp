@@ -50,7 +50,7 @@ auto shielded(std::string_view doing, const Call& call) {
                                     doing, problem.what()));
   } catch (...) {
     throw PluginRefusal(
-        fmt::format("{} threw something that is no std::exception; expected it to return normally; nothing "
+        fmt::format("{} threw something that is not a std::exception; expected it to return normally; nothing "
                     "of the plugin was taken",
                     doing));
   }
@@ -89,11 +89,10 @@ SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
   boost::dll::fs::error_code unknown;
   const fs::path program = boost::dll::program_location(unknown).string();
   if (unknown && path.folders.empty())
-    throw InputError(
-        fmt::format("where this program is cannot be found out ({}), and so neither where its plugins are; mount "
-                    "/proc, or name their "
-                    "folder in TUNICA_PLUGIN_PATH or with --plugin-path",
-                    unknown.message()));
+    throw InputError(fmt::format(
+        "cannot find out where this program is ({}), and so not where its plugins are; mount /proc, or name "
+        "their folder in TUNICA_PLUGIN_PATH or with --plugin-path",
+        unknown.message()));
   if (unknown) return path;
   const fs::path installed = program.parent_path() / TUNICA_PLUGINS_FROM_BIN;
   if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
@@ -131,7 +130,7 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
     throw PluginRefusal(
-        fmt::format("a shared library, but no plugin: found no exported symbol '{}'; define the plugin with "
+        fmt::format("a shared library, but not a plugin: it exports no symbol '{}'; define the plugin with "
                     "TUNICA_PLUGIN(), or take the file out of the plugin path",
                     entry_symbol));
   }

@@ -20,15 +20,20 @@ std::string reach(const TransverseVerdict& verdict, const Domain& domain) {
                                  : fmt::format("{} to {:.4g}", how, verdict.judged_to);
 }
 
+std::string onset_of(double stretch) {
+  return stretch > 1 ? fmt::format("from stretch {:.4g}", stretch) : "from the start";
+}
+
 std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   const std::string name = fmt::format("{} strip: ", direction(verdict.axis)), range = reach(verdict, domain);
   if (verdict.checked_from == 1 && verdict.checked_to == 1)
     return fmt::format("{}NOT ASSESSED, the response cannot be followed from rest ({})", name, range);
   const bool pulled = verdict.first_unstable.has_value(), pressed = verdict.first_unstable_pressed.has_value();
   const std::string until = verdict.stable_again ? fmt::format(" to {:.4g}", *verdict.stable_again) : " on";
+  const std::string growth =
+      pulled ? fmt::format("the transverse stretch λ3 grows {}{}", onset_of(*verdict.first_unstable), until) : "";
   if (verdict.stable == false && pulled && *verdict.first_unstable < verdict.judged_to)
-    return fmt::format("{}UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
-                       *verdict.first_unstable, until, range);
+    return fmt::format("{}UNSTABLE, {} ({})", name, growth, range);
   if (verdict.stable == false)
     return fmt::format("{}UNSTABLE, the transverse stretch λ3 falls as the strip is pressed{} ({})", name,
                        pressed ? fmt::format(" below stretch {:.4g}", *verdict.first_unstable_pressed) : "", range);
@@ -40,9 +45,8 @@ std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   if (*verdict.first_unstable < verdict.judged_to)
     return fmt::format("{}stable at every measured stretch ({}); between them λ3 grows from stretch {:.5g}{}", name,
                        range, *verdict.first_unstable, until);
-  return fmt::format(
-      "{}the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that domain ({})", name,
-      *verdict.first_unstable, until, range);
+  if (!verdict.asked()) return fmt::format("{}{} ({})", name, growth, range);
+  return fmt::format("{}stable ({}); beyond that domain {}", name, range, growth);
 }
 
 /// "up to stretch 1.5 in strips, equibiaxial extension and pure shear", or path by path where one ends before; empty
