@@ -44,7 +44,7 @@ struct OnTheBench {
     if (!fs::exists(file)) throw InputError(fmt::format("{}: no such file; expected a plugin to check", file.string()));
     try {
       loaded = plugins::load_file(file, catalogue, trusting);
-    } catch (const plugins::PluginRefusal& refused) {
+    } catch (const plugins::LoadError& refused) {
       throw PluginRefused(fmt::format("{}: {}", file.string(), refused.what()));
     }
     contents = conformance::contents_of(catalogue);
@@ -64,7 +64,7 @@ struct OnTheBench {
   void load_partner(const fs::path& path, bool trusting) {
     try {
       plugins::load_file(path, catalogue, trusting);
-    } catch (const plugins::PluginRefusal& refused) {
+    } catch (const plugins::LoadError& refused) {
       warn(path, refused.what());
     }
   }

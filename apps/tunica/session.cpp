@@ -48,7 +48,7 @@ Session::Session(const GlobalOptions& options) {
     }
     try {
       loaded_.push_back(plugins::load_file(path, catalogue_, options.allow_world_writable_plugins));
-    } catch (const plugins::PluginRefusal& refused) {
+    } catch (const plugins::LoadError& refused) {
       throw PluginRefused(fmt::format("--plugin-path {}: {}", path.string(), refused.what()));
     }
   }

@@ -18,7 +18,7 @@ std::string reason_for(const fs::path& file, bool allow_world_writable = false) 
   Catalogue catalogue;
   try {
     load_file(file, catalogue, allow_world_writable);
-  } catch (const PluginRefusal& refusal) {
+  } catch (const LoadError& refusal) {
     EXPECT_TRUE(catalogue.optimizers().empty()) << "nothing of a refused plugin is taken";
     return refusal.what();
   }

@@ -35,21 +35,21 @@ const boost::dll::shared_library& map_for_good(const fs::path& file) {
   if (error) {
     // Boost says "Bad file descriptor" whatever happened; the linker's own text names the reason.
     const char* text = dlerror();
-    throw PluginRefusal(explain_load_failure(file, text == nullptr ? error.message() : text));
+    throw LoadError(explain_load_failure(file, text == nullptr ? error.message() : text));
   }
   return mapped.emplace_back(std::move(library));
 }
 
-/// Runs a piece of the plugin and turns whatever it throws into PluginRefusal.
+/// Runs a piece of the plugin and turns whatever it throws into LoadError.
 template <class Call>
 auto shielded(std::string_view doing, const Call& call) {
   try {
     return call();
   } catch (const std::exception& problem) {
-    throw PluginRefusal(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken",
-                                    doing, problem.what()));
+    throw LoadError(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
+                                problem.what()));
   } catch (...) {
-    throw PluginRefusal(
+    throw LoadError(
         fmt::format("{} threw something that is not a std::exception; expected it to return normally; nothing "
                     "of the plugin was taken",
                     doing));
@@ -113,7 +113,7 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
       for (const fs::path& file : plugins_in(folder)) {
         try {
           report.loaded.push_back(load_file(file, catalogue, path.allow_world_writable));
-        } catch (const PluginRefusal& refusal) {
+        } catch (const LoadError& refusal) {
           report.refused.push_back({file, refusal.what()});
         }
       }
@@ -126,17 +126,17 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
 }
 
 LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
-  if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw PluginRefusal(reason);
+  if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
-    throw PluginRefusal(
+    throw LoadError(
         fmt::format("a shared library, but not a plugin: it exports no symbol '{}'; define the plugin with "
                     "TUNICA_PLUGIN(), or take the file out of the plugin path",
                     entry_symbol));
   }
   const auto entry = library.get<const PluginHeader*()>(entry_symbol);
   const PluginHeader* header = shielded("tunica_plugin()", [&] { return entry(); });
-  if (const std::string reason = refuse_header(header); !reason.empty()) throw PluginRefusal(reason);
+  if (const std::string reason = refuse_header(header); !reason.empty()) throw LoadError(reason);
 
   const std::string plugin = fmt::format("{} {}", header->name, header->version);
   Catalogue::Registration registration;
@@ -144,7 +144,7 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
   try {
     catalogue.commit(std::move(registration), plugin);
   } catch (const std::invalid_argument& problem) {
-    throw PluginRefusal(fmt::format("plugin '{}': {}", plugin, problem.what()));
+    throw LoadError(fmt::format("plugin '{}': {}", plugin, problem.what()));
   }
   return {header->name, header->version, file};
 }

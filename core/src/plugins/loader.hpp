@@ -38,8 +38,8 @@ SearchPath default_search_path(const std::vector<std::filesystem::path>& from_co
 /// reason while the others load. Libraries stay mapped for the life of the process.
 LoadReport load_all(const SearchPath& path, Catalogue& catalogue);
 
-/// Loads one file; returns its name and version, or throws PluginRefusal.
-struct PluginRefusal : std::runtime_error {
+/// Loads one file; returns its name and version, or throws LoadError.
+struct LoadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 LoadedPlugin load_file(const std::filesystem::path& file, Catalogue& catalogue, bool allow_world_writable = false);
