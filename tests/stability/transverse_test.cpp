@@ -13,7 +13,7 @@ namespace tunica {
 namespace {
 
 using stability::FreePath;
-using stability::judge;
+using stability::judge_transverse;
 
 // Canales et al. 2023, Table 6: with (S) and without (U) stabilisation. Order mu, kappa, k1, k2, theta.
 const std::vector<double> set_s{18.668, 0.1367, 24.905, 0.2912, 46.44};
