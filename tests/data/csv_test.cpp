@@ -179,7 +179,7 @@ TEST(Csv, SaysWhyAFileCannotBeRead) {
             std::string::npos);
   EXPECT_NE(testing::message_of<InputError>([&] { read_bytes(folder.path()); }).find("this is a folder"),
             std::string::npos);
-  EXPECT_NE(testing::message_of<InputError>([&] { read_bytes("/dev/null"); }).find("no regular file"),
+  EXPECT_NE(testing::message_of<InputError>([&] { read_bytes("/dev/null"); }).find("not a regular file"),
             std::string::npos);
 }
 
