@@ -47,7 +47,7 @@ TEST(Loader, LoadsTheGoodOnesOfAFolderFullOfBadOnes) {
   const LoadReport report = load_all({{folder.path()}}, catalogue);
   EXPECT_THAT(names(report.loaded), ElementsAre("good"));
   std::map<std::string, std::string> reasons;
-  for (const Refusal& refusal : report.refused) reasons[refusal.file.filename()] = refusal.reason;
+  for (const RefusedPlugin& refusal : report.refused) reasons[refusal.file.filename()] = refusal.reason;
   EXPECT_EQ(reasons.size(), 12u) << "each with a reason";
   EXPECT_THAT(reasons.at("a_text.so"), HasSubstr("not a shared library"));
   EXPECT_EQ(reasons.at("zz_duplicate_name.so"),
@@ -87,7 +87,7 @@ TEST(Loader, ReportsFoldersThatAreMissingOrNoFolders) {
 TEST(Loader, TakesEveryPluginOfTheBuild) {
   Catalogue catalogue;
   const LoadReport report = load_all({{TUNICA_PLUGIN_DIR}, true}, catalogue);
-  for (const Refusal& refusal : report.refused) ADD_FAILURE() << refusal.file << ": " << refusal.reason;
+  for (const RefusedPlugin& refusal : report.refused) ADD_FAILURE() << refusal.file << ": " << refusal.reason;
   EXPECT_FALSE(report.loaded.empty());
 }
 

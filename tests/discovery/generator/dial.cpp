@@ -6,7 +6,7 @@
 
 namespace blind {
 
-Refit refit_with(const Specimen& specimen, const NoiseModel& noise, const std::vector<Hidden>& hidden,
+Refit refit_with(const Specimen& specimen, const NoiseModel& noise, const std::vector<HiddenEffect>& hidden,
                  const Tissue& start) {
   const auto y = observe(specimen.protocol, world_with(specimen, hidden));
   for (const double value : y) {
@@ -21,12 +21,12 @@ Refit refit_with(const Specimen& specimen, const NoiseModel& noise, const std::v
 
 /// √Λ is a power of the distance from the null: the first at small distances, the second for even effects. The power is
 /// read off the last two trials; a bracket keeps the trials in order.
-Dialled dial(const Specimen& specimen, const NoiseModel& noise, Hidden hidden, double lambda) {
+ScaledEffect dial(const Specimen& specimen, const NoiseModel& noise, HiddenEffect hidden, double lambda) {
   constexpr double tolerance = 0.01;
   double low = 0, high = hidden.largest, power = hidden.effect->even ? 2 : 1;
   double before = 0, root_before = 0;
   bool bounded = false;  // the upper end of the bracket is known to show too much
-  Dialled best{hidden, 0, true};
+  ScaledEffect best{hidden, 0, true};
   hidden.distance = 0.01 * hidden.largest;
   for (int trial = 0; trial < 30; ++trial) {
     const double found = refit_with(specimen, noise, {hidden}, specimen.tissue).misfit;

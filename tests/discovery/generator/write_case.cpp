@@ -132,7 +132,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
   const Tissue& base = made.specimen.tissue;
   const auto layout = channels(made.specimen.protocol);
   Json effects = Json::array();
-  for (const Dialled& one : made.hidden) {
+  for (const ScaledEffect& one : made.hidden) {
     const Effect& effect = *one.hidden.effect;
     const std::string unit = one.hidden.target.channel ? layout[*one.hidden.target.channel].unit : effect.unit;
     const bool listed = made.order.set != "outside";
@@ -155,7 +155,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
                                  {"relative", made.noise.relative[k]},
                                  {"step", made.noise.step[k]}});
   Json gross = Json::array();
-  for (const Shift& shift : made.records.gross)
+  for (const GrossError& shift : made.records.gross)
     gross.push_back({{"test", layout[shift.channel].test},
                      {"channel", layout[shift.channel].name},
                      {"row", shift.row},
@@ -184,7 +184,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
 
 }  // namespace
 
-bool write(const Order& order, const fs::path& folder, bool oracle) {
+bool write(const CaseOrder& order, const fs::path& folder, bool oracle) {
   const std::string name = order.name();
   const fs::path place = folder / name, truth = folder / "sealed" / (name + ".json"),
                  known = folder / "sealed" / (name + ".oracle.json");

@@ -141,7 +141,7 @@ Truth unseal(const fs::path& file, const fs::path& seal) {
 
 }  // namespace
 
-Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) {
+OpenedCases open_cases(const fs::path& cases, const fs::path& results, bool partial) {
   std::vector<std::string> names;
   if (!fs::is_directory(cases)) throw InputError(cases.string() + ": is no folder of cases");
   for (const auto& entry : fs::directory_iterator(cases))
@@ -153,7 +153,7 @@ Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) 
                      ": holds no case, a folder with truth.sha256; give the folder that "
                      "discovery_generator wrote");
   std::vector<std::string> missing;
-  Opened opened;
+  OpenedCases opened;
   for (const std::string& name : names) {
     const fs::path result = results / name / "result.json";
     if (!fs::exists(result)) {

@@ -24,7 +24,7 @@ int main(int count, char** arguments) {
                "few cases: a figure is missed where its whole 95 % interval misses, and may be unmeasured");
   try {
     app.parse(count, arguments);
-    const Opened opened = open_cases(cases, results.empty() ? cases : results, partial);
+    const OpenedCases opened = open_cases(cases, results.empty() ? cases : results, partial);
     const LookAlikes declared = look_alikes.empty() ? LookAlikes{} : read_look_alikes(look_alikes);
     const auto table = figures(opened.cases, declared);
     const auto rows = effects(opened.cases, declared);
