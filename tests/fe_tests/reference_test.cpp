@@ -7,7 +7,7 @@
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::reference_test {
 namespace {
 
 constexpr double most = 22.66474;  // kPa, 170 mmHg
@@ -127,4 +127,4 @@ TEST(FiniteElementReference, EndsHeldAfterStretchingLieBetweenFreeAndClamped) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::reference_test

@@ -9,7 +9,7 @@
 #include "mechanisms/shelf.hpp"
 #include "stability/transverse.hpp"
 
-namespace tunica {
+namespace tunica::transverse_test {
 namespace {
 
 using stability::FreePath;
@@ -246,4 +246,4 @@ TEST(TransverseStability, FailsWithAReasonWhereTheEnergyOverflows) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::transverse_test
