@@ -11,8 +11,8 @@
 
 #include "support/sheet.hpp"
 #include "support/strip.hpp"
-#include "tunica/arterial_fibres.hpp"
-#include "tunica/rubber_laws.hpp"
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/models/rubber_laws.hpp"
 
 namespace tunica::testing {
 namespace {

@@ -10,7 +10,7 @@
 #include "conformance/differences.hpp"
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
-#include "tunica/hyperelastic_tensor.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
 
 namespace tunica::conformance {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace tunica::conformance {
 namespace {
@@ -28,7 +28,7 @@ std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
   Options options;
   options.set("fibre_switch", fibre_switch);
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(isotropic::neo_hookean<parameter_count>(mu));
   parts.push_back(arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options));
   return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
 }
@@ -40,7 +40,7 @@ std::unique_ptr<Model> rubber() {
   description.type = "rubber";
   description.parameters = {arterial::mu()};
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<1>(mu));
+  parts.push_back(isotropic::neo_hookean<1>(mu));
   return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
 }
 std::unique_ptr<Model> fibrous() { return with_fibres("none"); }

@@ -2,8 +2,8 @@
 // Demiray (1972), J. Biomech. 5:309–311, doi 10.1016/0021-9290(72)90047-4: soft tissue without a direction,
 //
 //   W = a/(2b) (e^{b (I1 − 3)} − 1),   shear modulus a.
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 // consumed, ∫ D'(b) b db, so that S stays its derivative, on loading and unloading alike.
 #include <cmath>
 
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace {
 
@@ -58,7 +58,7 @@ Hyperelastic sum(Part... part) {
 class FibreDamage final : public Model {
  public:
   explicit FibreDamage(const Options& options)
-      : matrix_(sum(arterial::matrix<parameter_count>(mu))),
+      : matrix_(sum(isotropic::neo_hookean<parameter_count>(mu))),
         fibres_(sum(arterial::fibres<Fibres, parameter_count>({theta}, {k1, k2}, options))),
         description_(::description()) {
     description_.history_size = 1;

@@ -3,7 +3,7 @@
 // matrix, and an exponential of Fung's type in the Green–Lagrange strains of the wall,
 //
 //   W = μ/2 (I1 − 3) + c/2 (e^Q − 1),   Q = a_t E_t² + a_z E_z² + 2 a_tz E_t E_z.
-#include "tunica/joint_energy.hpp"
+#include "tunica/models/joint_energy.hpp"
 
 namespace {
 

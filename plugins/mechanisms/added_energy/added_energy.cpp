@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "beside.hpp"
-#include "tunica/arterial_fibres.hpp"
-#include "tunica/decorated_model.hpp"
-#include "tunica/rubber_laws.hpp"
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/models/decorated_model.hpp"
+#include "tunica/models/rubber_laws.hpp"
 
 namespace {
 

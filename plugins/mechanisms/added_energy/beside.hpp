@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/forwarded_part.hpp"
-#include "tunica/hyperelastic.hpp"
+#include "tunica/models/forwarded_part.hpp"
+#include "tunica/models/hyperelastic.hpp"
 
 namespace tunica::added_energy {
 

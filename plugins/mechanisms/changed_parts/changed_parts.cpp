@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "tunica/decorated_model.hpp"
-#include "tunica/laws.hpp"
+#include "tunica/models/decorated_model.hpp"
+#include "tunica/models/laws.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/decorated_model.hpp"
+#include "tunica/models/decorated_model.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 //   W = μ/2 (I1 − 3) + k1/(2 k2) Σ_{i=4,6} [exp(k2 E_i²) − 1] + Σ_{a=z,t} k1_a/(2 k2_a) [exp(k2_a E_a²) − 1],
 //
 // E_i = I_i − 1, E_z = C_zz − 1, E_t = C_tt − 1.
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace {
 
@@ -42,7 +42,7 @@ std::unique_ptr<Model> create(const Options& options) {
                             of_family(arterial::k1(), "circumferential"),
                             of_family(arterial::k2(), "circumferential")};
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(isotropic::neo_hookean<parameter_count>(mu));
   parts.push_back(arterial::fibres<Fibres, parameter_count>({theta}, {k1, k2}, options));
   parts.push_back(arterial::single_fibres<0, parameter_count>("axial_fibres", {k1_axial, k2_axial}, options));
   parts.push_back(arterial::single_fibres<90, parameter_count>("circumferential_fibres",

@@ -2,10 +2,10 @@
 // Gent (1996), Rubber Chem. Technol. 69:59–61, doi 10.5254/1.3538357:
 //
 //   W = −(μ Jm/2) ln(1 − (I1 − 3)/Jm),   defined while I1 − 3 < Jm.
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace {
 

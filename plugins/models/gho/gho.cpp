@@ -2,7 +2,7 @@
 // Gasser, Ogden, Holzapfel (2006), J. R. Soc. Interface 3:15–35, doi 10.1098/rsif.2005.0073:
 //
 //   W = μ/2 (I1 − 3) + k1/(2 k2) Σ_{i=4,6} [exp(k2 E_i²) − 1],   E_i = κ I1 + (1 − 3κ) I_i − 1.
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace {
 
@@ -32,7 +32,7 @@ std::unique_ptr<Model> create(const Options& options) {
       arterial::k2(),
       arterial::theta()};
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(isotropic::neo_hookean<parameter_count>(mu));
   parts.push_back(arterial::fibres<Fibres, parameter_count>({kappa, theta}, {k1, k2}, options));
   return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
 }

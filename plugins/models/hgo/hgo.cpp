@@ -2,7 +2,7 @@
 // Holzapfel, Gasser, Ogden (2000), J. Elasticity 61:1–48, doi 10.1023/A:1010835316564:
 //
 //   W = μ/2 (I1 − 3) + k1/(2 k2) Σ_{i=4,6} [exp(k2 E_i²) − 1],   E_i = I_i − 1.
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace {
 
@@ -25,7 +25,7 @@ std::unique_ptr<Model> create(const Options& options) {
   description.type = "hgo";
   description.parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()};
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(isotropic::neo_hookean<parameter_count>(mu));
   parts.push_back(arterial::fibres<Fibres, parameter_count>({theta}, {k1, k2}, options));
   return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
 }

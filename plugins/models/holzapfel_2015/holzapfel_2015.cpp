@@ -5,7 +5,7 @@
 //   W = μ/2 (I1 − 3) + k1/(2 k2) Σ_{i=4,6} [exp(k2 E_i²) − 1],   E_i = A I1 + B I_i + (1 − 3A − B) I_n − 1,
 //
 // I_n = C_rr in a planar wall. A = κ, B = 1 − 3κ is the `gho`.
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace {
 
@@ -58,7 +58,7 @@ std::unique_ptr<Model> create(const Options& options) {
   description.combinations = combinations();
   description.admissible = admissible();
   std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
+  parts.push_back(isotropic::neo_hookean<parameter_count>(mu));
   parts.push_back(arterial::fibres<Fibres, parameter_count>({A, B, theta}, {k1, k2}, options));
   return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
 }

@@ -2,10 +2,10 @@
 // Mooney (1940), J. Appl. Phys. 11:582–592; Rivlin (1948), Phil. Trans. R. Soc. A 241:379–397:
 //
 //   W = c10 (I1 − 3) + c01 (I2 − 3),   shear modulus 2 (c10 + c01).
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace {
 

@@ -4,9 +4,9 @@
 //   W = Σ_i (μ_i/α_i) (λ1^α_i + λ2^α_i + λ3^α_i − 3),   shear modulus ½ Σ_i μ_i α_i.
 //
 // Finite-element codes often write 2 μ_i/α_i² instead of μ_i/α_i; their μ_i is ½ μ_i α_i here.
+#include "tunica/models/principal_stretches.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/principal_stretches.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace {
 

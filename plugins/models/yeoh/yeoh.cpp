@@ -2,10 +2,10 @@
 // Yeoh (1993), Rubber Chem. Technol. 66:754–771, doi 10.5254/1.3538343:
 //
 //   W = c10 (I1 − 3) + c20 (I1 − 3)² + c30 (I1 − 3)³,   shear modulus 2 c10.
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -50,15 +50,15 @@ std::size_t finer(std::span<const Rule> all, std::size_t k, double error) {
 
 /// One row alone, inside a bracket around its start.
 bool rescue(Row& row, Sections& sections, const Wall& wall) {
-  return free_strip::safeguarded_newton(
+  return detail::safeguarded_newton(
       [&](double y) {
         const Section section{row.axial_stretch, y};
         if (!sections.evaluate({&section, 1}, false).ok())
-          return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+          return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
         Row trial = row;
         trial.y = y;
         take(trial, sections.forces(0), wall);
-        return free_strip::Residual{-trial.step * trial.forces.p_y, trial.forces.p_y};
+        return detail::Residual{-trial.step * trial.forces.p_y, trial.forces.p_y};
       },
       row.y);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -19,15 +19,15 @@ bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall)
   };
   const auto residual = [&](double y) {
     if (!evaluate(y, {memory.time_step, memory.old_state, {}}))
-      return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+      return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
     double p = row.forces.p, p_y = row.forces.p_y;
     if (row.support_free > 0) {
       p += support(wall, y, row.axial_stretch, row.support_free);
       p_y += support_slope(wall, y, row.axial_stretch);
     }
-    return free_strip::Residual{p - row.pressure, p_y};
+    return detail::Residual{p - row.pressure, p_y};
   };
-  return free_strip::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
+  return detail::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::uniaxial {
 namespace {
@@ -82,7 +82,7 @@ class Row {
     total(c1_ * (contract(e11_, dS) + turn) - c3_ * dS[2], u_ * (contract(e22_, dS) - turn) - c3_ * dS[2], stress, y);
   }
 
-  [[nodiscard]] free_strip::Residual residual() const { return {residual_, slope_}; }
+  [[nodiscard]] detail::Residual residual() const { return {residual_, slope_}; }
   [[nodiscard]] double stress() const { return stress11_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
@@ -141,23 +141,23 @@ Status predict_on_tensors(const Strip& strip, const TestInput& input, double mis
     // Start: the last row's λ1 u carried over. Where that fails, in small stretch steps from it.
     const auto at = [&](double trial) {
       return row.evaluate(trial, false, {}) ? row.residual()
-                                            : free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+                                            : detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
     };
     double guess = y + std::log(previous / stretch[i]);
-    bool found = free_strip::safeguarded_newton(at, guess);
+    bool found = detail::safeguarded_newton(at, guess);
     for (int parts = 4; !found && history == 0 && parts <= 256; parts *= 4) {
       guess = y, found = true;
       for (int k = 1; k <= parts && found; ++k) {
         row.set(previous * std::pow(stretch[i] / previous, double(k) / parts), {}, {});
         guess += std::log(previous / stretch[i]) / parts;
-        found = free_strip::safeguarded_newton(at, guess);
+        found = detail::safeguarded_newton(at, guess);
       }
     }
     // Last, from λ2² = 1/λ1, where I1 is least: an energy with a limit of I1 is defined there if anywhere.
     if (!found) {
       set_row();
       guess = -std::log(stretch[i]);
-      found = free_strip::safeguarded_newton(at, guess);
+      found = detail::safeguarded_newton(at, guess);
     }
     if (!found)
       return Status::failed("uniaxial: no lateral equilibrium at " + row_name(strip, stretch, i) +

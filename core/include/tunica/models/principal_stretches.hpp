@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
-#include "tunica/autodiff.hpp"
 #include "tunica/model.hpp"
+#include "tunica/models/autodiff.hpp"
 
 /// What PrincipalStretches needs of tensors.
 namespace tunica::principal_stretches {

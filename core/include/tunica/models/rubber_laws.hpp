@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "tunica/laws.hpp"
+#include "tunica/models/laws.hpp"
 
 /// Responses of rubber; what a law is: laws.hpp.
 namespace tunica::laws {
@@ -103,7 +103,7 @@ struct Ogden {
       for (std::size_t k = 0; k < terms; ++k) {
         const double mu = p[2 * k], alpha = p[2 * k + 1];
         for (std::size_t i = 0; i < m; ++i) e[i] = alpha * l[i];
-        exponential(e.data(), e.data(), m);
+        detail::exponential(e.data(), e.data(), m);
         // w' = Σ μ λ^(α−1),  w'' = Σ μ (α − 1) λ^(α−2)
         for (std::size_t i = 0; !b.first.empty() && i < m; ++i) b.first[begin + i] += mu * e[i] * inverse[i];
         for (std::size_t i = 0; !b.second.empty() && i < m; ++i)

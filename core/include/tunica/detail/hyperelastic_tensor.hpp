@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tunica/hyperelastic_part_batch.hpp"
+#include "tunica/detail/hyperelastic_part_batch.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica::hyperelastic {

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "tunica/detail/safeguarded_newton.hpp"
 #include "tunica/model.hpp"
-#include "tunica/safeguarded_newton.hpp"
 
 /// The incompressible strip pulled along a material axis with free lateral faces: its equilibrium path, all rows at
 /// once, for models with a principal-axes path.
@@ -40,18 +40,20 @@ struct Pull {
   [[nodiscard]] std::size_t transverse() const { return 1 - loaded; }  ///< the free axis in the plane
 };
 
-/// Scratch of one thread; it grows to the largest batch seen and then allocates nothing.
+/// Scratch for one call at a time: callers keep one a thread. It grows to the largest batch seen and then allocates
+/// nothing.
 struct Scratch {
-  std::vector<double> c,  ///< squared stretches, as AxisPoints::c
-      gradient,           ///< as in AxisResponse
-      hessian,            ///< as in AxisResponse
-      gradient_dp,        ///< as in AxisResponse
-      u,                  ///< λ2²
-      step,               ///< of Newton in y = ln u
-      stress,             ///< σ11, kPa
-      slope,              ///< ½ ∂r/∂y
-      stress_by_y,        ///< ∂σ11/∂y
-      ratio;              ///< stress_by_y/slope
+  std::vector<double> c,          ///< squared stretches, as AxisPoints::c
+      gradient,                   ///< as in AxisResponse
+      hessian,                    ///< as in AxisResponse
+      gradient_dp,                ///< as in AxisResponse
+      u,                          ///< λ2²
+      step,                       ///< of Newton in y = ln u
+      stress,                     ///< σ11, kPa
+      slope,                      ///< ½ ∂r/∂y
+      stress_by_y,                ///< ∂σ11/∂y
+      ratio;                      ///< stress_by_y/slope
+  std::vector<std::size_t> open;  ///< rows that the batch iteration left unsolved
   /// Room for n rows and that many parameters; never shrinks.
   void reserve(std::size_t n, std::size_t parameters) {
     if (step.size() < n) {
@@ -61,11 +63,6 @@ struct Scratch {
     if (gradient_dp.size() < 3 * n * parameters) gradient_dp.resize(3 * n * parameters);
   }
 };
-/// The scratch of the calling thread.
-inline Scratch& scratch() {
-  thread_local Scratch instance;
-  return instance;
-}
 
 /// One batch of squared stretches through the model: lateral residual, its slope and the Newton step in y = ln u.
 class Batch {
@@ -157,7 +154,7 @@ class Batch {
   }
 
   /// ½ r and its slope, of a batch of one.
-  Residual residual() const { return {-s_.step[0] * s_.slope[0], s_.slope[0]}; }
+  detail::Residual residual() const { return {-s_.step[0] * s_.slope[0], s_.slope[0]}; }
   Scratch& scratch_of() { return s_; }  ///< where the values of the rows are
 
  private:
@@ -182,10 +179,10 @@ inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, 
     const std::span<const double> one(&lambda, 1);
     Batch batch(pull, one, scratch);
     double trial_y = y;
-    const bool found = safeguarded_newton(
+    const bool found = detail::safeguarded_newton(
         [&](double at) {
           const double u_at = std::exp(at);
-          if (!batch.evaluate(&u_at, false).ok()) return Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+          if (!batch.evaluate(&u_at, false).ok()) return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
           return batch.residual();
         },
         trial_y);
@@ -225,7 +222,7 @@ inline Status iterate(const Pull& pull, std::span<const double> stretch, double 
       if (slope[i] > 0 && std::abs(step[i]) < 1e10) u[i] *= 1 + std::clamp(step[i], -0.6, 1.5);
   }
   // What the batch left: row by row. The scratch of the batch is overwritten, so find the rows first.
-  static thread_local std::vector<std::size_t> open;
+  std::vector<std::size_t>& open = batch.scratch_of().open;
   open.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const double step = batch.scratch_of().step[i], slope = batch.scratch_of().slope[i];

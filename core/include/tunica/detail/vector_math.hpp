@@ -12,7 +12,7 @@ extern "C" __m128d _ZGVbN2v_exp(__m128d);  // NOLINT(bugprone-reserved-identifie
 #define TUNICA_LIBMVEC_ 1
 #endif
 
-namespace tunica {
+namespace tunica::detail {
 
 /// y_i = exp(x_i), i < n; x and y may be the same. A value does not depend on its place in the batch.
 inline void exponential(const double* x, double* y, std::size_t n) {
@@ -25,4 +25,4 @@ inline void exponential(const double* x, double* y, std::size_t n) {
 #endif
 }
 
-}  // namespace tunica
+}  // namespace tunica::detail

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "tunica/autodiff.hpp"
-#include "tunica/hyperelastic_tensor.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
+#include "tunica/models/autodiff.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica {

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace tunica::free_strip {
+/// Kernels that several plugins share: numerics without mechanics.
+namespace tunica::detail {
 
 /// r and its derivative at some y.
 struct Residual {
@@ -52,4 +53,4 @@ bool safeguarded_newton(const Function& function, double& y, double tolerance = 
   return high - low <= 1e-10;
 }
 
-}  // namespace tunica::free_strip
+}  // namespace tunica::detail

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
-#include "tunica/law_part.hpp"
-#include "tunica/laws.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/law_part.hpp"
+#include "tunica/models/laws.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica {
@@ -61,12 +61,6 @@ inline EnergyPart::Active active(const Options& options) {
   return value == "strain"    ? EnergyPart::Active::argument_positive
          : value == "stretch" ? EnergyPart::Active::fibre_stretched
                               : EnergyPart::Active::always;
-}
-
-/// ψ = μ/2 (I1 − 3), linear in the invariant
-template <std::size_t model_parameters>
-std::unique_ptr<EnergyPart> matrix(std::size_t mu) {
-  return isotropic::part<laws::Linear, isotropic::FirstInvariant, model_parameters>("matrix", {mu}, true);
 }
 
 /// ψ = k1/(2 k2) [exp(k2 E²) − 1] for the families at ±theta, E as Geometry says.

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/hyperelastic_axes.hpp"
-#include "tunica/hyperelastic_tensor.hpp"
+#include "tunica/detail/hyperelastic_axes.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica {

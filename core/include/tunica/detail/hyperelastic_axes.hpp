@@ -3,7 +3,7 @@
 
 #include <bitset>
 
-#include "tunica/hyperelastic_part_batch.hpp"
+#include "tunica/detail/hyperelastic_part_batch.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica::hyperelastic {

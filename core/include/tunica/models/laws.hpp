@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "tunica/detail/vector_math.hpp"
 #include "tunica/energy_part.hpp"
-#include "tunica/vector_math.hpp"
 
 /// Responses ψ(x; p) that many models share. A law is a type with
 ///
@@ -79,7 +79,7 @@ struct Exponential {
       const std::size_t m = n - begin < chunk ? n - begin : chunk;
       const double* const x = b.x.data() + begin;
       for (std::size_t i = 0; i < m; ++i) e[i] = k2 * x[i] * x[i];
-      exponential(e.data(), e.data(), m);
+      detail::exponential(e.data(), e.data(), m);
       // ψ' = k1 x e^{k2 x²},  ψ'' = k1 (1 + 2 k2 x²) e^{k2 x²}
       if (!b.first.empty()) {
         double* const first = b.first.data() + begin;

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "tunica/autodiff.hpp"
 #include "tunica/energy_part.hpp"
+#include "tunica/models/autodiff.hpp"
 
 namespace tunica {
 
