@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "tunica/detail/hyperelastic_axes.hpp"
 #include "tunica/detail/hyperelastic_tensor.hpp"
 #include "tunica/model.hpp"
+#include "tunica/plugin.hpp"
 
 namespace tunica {
 
-/// A hyperelastic model from its parts, W(C; p) = Σ_k ψ_k(x_k), x_k an invariant of C (energy_part.hpp): energy,
-/// stress, tangent, parameter derivatives and the principal-axes path follow. A model plugin is a parameter table
-/// and its parts.
+/// The parts of an energy, in the order in which they are added up.
+using EnergyParts = std::vector<std::unique_ptr<EnergyPart>>;
+
+/// A hyperelastic model as the sum of its parts, W(C; p) = Σ_k ψ_k(x_k).
+///
+/// Each x_k is an invariant of C, see EnergyPart. Energy, stress, tangent, parameter derivatives and the principal-axes
+/// path follow from the parts. Most plugins do not name this class: hyperelastic_factory() makes it from a parameter
+/// table and the parts.
+///
+/// Limits: 64 parameters a model, 16 a part. Threads: as Model. Kernels: tunica/detail/hyperelastic_*.hpp.
 class Hyperelastic : public Model {
  public:
-  /// `description.principal_axes` is set here; throws std::invalid_argument where a part names a parameter that the
-  /// description does not have.
-  Hyperelastic(ModelDescription description, std::vector<std::unique_ptr<EnergyPart>> parts)
+  /// Sets `description.principal_axes`. Throws std::invalid_argument if there is no part, or if a part names a
+  /// parameter that the description does not have.
+  Hyperelastic(ModelDescription description, EnergyParts parts)
       : description_(std::move(description)), parts_(std::move(parts)) {
     description_.principal_axes = true;
     if (description_.parameters.size() > hyperelastic::max_model_parameters)
@@ -53,7 +64,27 @@ class Hyperelastic : public Model {
   }
 
   ModelDescription description_;
-  std::vector<std::unique_ptr<EnergyPart>> parts_;
+  EnergyParts parts_;
 };
+
+/// Lists parts: energy_parts(isotropic::neo_hookean<4>(mu), arterial::fibres<…>(…)).
+template <class... Part>
+EnergyParts energy_parts(Part... part) {
+  EnergyParts parts;
+  (parts.push_back(std::move(part)), ...);
+  return parts;
+}
+
+/// What a plugin registers for a sum of parts. `parts` is called with checked options, once for each model that the
+/// host makes; the name of the model is description.type.
+inline ModelFactory hyperelastic_factory(ModelDescription description, std::string doc, std::string reference,
+                                         std::function<EnergyParts(const Options&)> parts,
+                                         std::vector<Option> options = {}) {
+  std::string type = description.type;
+  return {std::move(type), std::move(doc), std::move(reference), std::move(options),
+          [description = std::move(description), parts = std::move(parts)](const Options& given) {
+            return std::make_unique<Hyperelastic>(description, parts(given));
+          }};
+}
 
 }  // namespace tunica
