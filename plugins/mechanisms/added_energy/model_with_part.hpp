@@ -13,13 +13,13 @@ namespace tunica::added_energy {
 /// A base model whose energy exposes no parts, and a part beside it: W + ψ, each evaluated by itself and added up. The
 /// mechanism's parameters stand behind those of the base, its amplitude first; at the null 0 the base answers alone,
 /// bit for bit, unless derivatives by parameters are wanted. History is the base's.
-class Beside final : public Model {
+class ModelWithPart final : public Model {
  public:
-  Beside(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, std::unique_ptr<EnergyPart> part)
+  ModelWithPart(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, std::unique_ptr<EnergyPart> part)
       : base_(std::move(base)),
         count_(base_->describe().parameters.size()),
         description_(described(*base_, own)),
-        part_(description_, only(count_, std::move(part))) {}
+        part_(description_, energy_parts(std::make_unique<AddedPart>(count_, std::move(part)))) {}
 
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
 
@@ -37,7 +37,10 @@ class Beside final : public Model {
     if (Status status = part_.evaluate(elastic, {energy, stress, tangent, stress_dp, {}}); !status.ok()) return status;
     if (!out.stress_dp.empty())
       std::fill(out.stress_dp.begin() + static_cast<std::ptrdiff_t>(by_base), out.stress_dp.end(), 0.0);
-    add(energy, out.energy), add(stress, out.stress), add(tangent, out.tangent), add(stress_dp, out.stress_dp);
+    add(energy, out.energy);
+    add(stress, out.stress);
+    add(tangent, out.tangent);
+    add(stress_dp, out.stress_dp);
     return {};
   }
 
@@ -54,7 +57,10 @@ class Beside final : public Model {
       return status;
     if (!out.gradient_dp.empty())
       std::fill(out.gradient_dp.begin() + static_cast<std::ptrdiff_t>(by_base), out.gradient_dp.end(), 0.0);
-    add(energy, out.energy), add(gradient, out.gradient), add(hessian, out.hessian), add(gradient_dp, out.gradient_dp);
+    add(energy, out.energy);
+    add(gradient, out.gradient);
+    add(hessian, out.hessian);
+    add(gradient_dp, out.gradient_dp);
     return {};
   }
 
@@ -63,11 +69,6 @@ class Beside final : public Model {
     ModelDescription description = base.describe();
     description.parameters.insert(description.parameters.end(), own.begin(), own.end());
     return description;
-  }
-  static std::vector<std::unique_ptr<EnergyPart>> only(std::size_t base_count, std::unique_ptr<EnergyPart> part) {
-    std::vector<std::unique_ptr<EnergyPart>> parts;
-    parts.push_back(std::make_unique<AddedPart>(base_count, std::move(part)));
-    return parts;
   }
   static void add(const std::vector<double>& more, std::span<double> onto) {
     for (std::size_t i = 0; i < more.size(); ++i) onto[i] += more[i];
