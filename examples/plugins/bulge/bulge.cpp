@@ -11,14 +11,14 @@
 
 using namespace tunica;
 
-struct Bulge {
+struct BulgeGeometry {
   static constexpr auto type = "bulge", doc = "A circular membrane, clamped at its rim and blown up to a cap.",
                         reference = "Reuge, Schmidt, Le Maoult, Rachik, Abbé, Polym. Eng. Sci. 41:522 (2001)",
                         admitted = "a height above 0; leave the flat membrane out";
   static constexpr std::array diagnostics{Quantity{"pole_stretch", "1"}};
   double radius, thickness;  // mm
 
-  explicit Bulge(const TestSetup& setup)
+  explicit BulgeGeometry(const TestSetup& setup)
       : radius(setup.options.number("radius")), thickness(setup.options.number("thickness")) {}
   static std::vector<Option> options() {
     return {Option::quantity("radius", "mm", 1e-6, "Radius of the membrane inside its clamp."),
@@ -59,4 +59,4 @@ struct Bulge {
   }
 };
 
-TUNICA_PLUGIN("bulge", "1.0.0") { registry.add(point_test_factory<Bulge>()); }
+TUNICA_PLUGIN("bulge", "1.0.0") { registry.add(point_test_factory<BulgeGeometry>()); }

@@ -44,8 +44,10 @@ class PatternSearchOptimizer final : public Optimizer {
   bool descend(Problem& problem, std::vector<double> x, std::string& last_failure) const {
     const std::size_t n = x.size();
     double here = 0;
-    if (const Status status = problem.evaluate(x, here); !status.ok())
-      here = std::numeric_limits<double>::infinity(), last_failure = status.reason();
+    if (const Status status = problem.evaluate(x, here); !status.ok()) {
+      here = std::numeric_limits<double>::infinity();
+      last_failure = status.reason();
+    }
     std::vector<double> around(2 * n * n), objectives(2 * n);
     std::vector<Status> statuses(2 * n);
     for (double step = n == 0 ? 0 : first_step_; step > last_step_ && !problem.should_stop();) {
@@ -59,7 +61,10 @@ class PatternSearchOptimizer final : public Optimizer {
       std::size_t best = count;
       for (std::size_t k = 0; k < count; ++k) {
         if (!statuses[k].ok()) last_failure = statuses[k].reason();
-        if (statuses[k].ok() && objectives[k] < here) here = objectives[k], best = k;
+        if (statuses[k].ok() && objectives[k] < here) {
+          here = objectives[k];
+          best = k;
+        }
       }
       if (best == count) {
         step /= 2;
