@@ -72,8 +72,14 @@ TEST_P(FiniteElementAssembly, TheMatrixIsTheDerivativeOfTheForce) {
   for (std::size_t i = 0; i < state.x.size(); ++i) direction.x[i] -= solver.rest().x[i];
   assembly->pressures(system, direction.x, {}, direction.q);
   constexpr double h = 1e-7;
-  for (std::size_t i = 0; i < state.x.size(); ++i) up.x[i] += h * direction.x[i], down.x[i] -= h * direction.x[i];
-  for (std::size_t i = 0; i < state.q.size(); ++i) up.q[i] += h * direction.q[i], down.q[i] -= h * direction.q[i];
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    up.x[i] += h * direction.x[i];
+    down.x[i] -= h * direction.x[i];
+  }
+  for (std::size_t i = 0; i < state.q.size(); ++i) {
+    up.q[i] += h * direction.q[i];
+    down.q[i] -= h * direction.q[i];
+  }
   const fe::System above = assembled(up, pressure, *assembly), below = assembled(down, pressure, *assembly);
   std::vector<double> product(state.x.size());
   system.matrix.multiply(direction.x, product);
@@ -90,7 +96,8 @@ TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferenc
   std::uniform_real_distribution<double> any(-1, 1);
   std::vector<fe::Weights> weights(2);
   for (fe::Weights& weight : weights) {
-    weight.right.resize(state.x.size()), weight.dilation.resize(state.q.size());
+    weight.right.resize(state.x.size());
+    weight.dilation.resize(state.q.size());
     for (double& value : weight.right) value = any(generator);
     for (double& value : weight.dilation) value = any(generator);
   }
@@ -153,7 +160,8 @@ TEST_P(FiniteElementAssembly, ATurnedSectionCarriesTurnedForces) {
   const auto turn = [&](std::vector<double> x, double centre) {
     for (std::size_t i = 0; i < x.size(); i += 2) {
       const double r = x[i] - centre, z = x[i + 1];
-      x[i] = centre + std::cos(angle) * r - std::sin(angle) * z, x[i + 1] = std::sin(angle) * r + std::cos(angle) * z;
+      x[i] = centre + std::cos(angle) * r - std::sin(angle) * z;
+      x[i + 1] = std::sin(angle) * r + std::cos(angle) * z;
     }
     return x;
   };

@@ -84,7 +84,9 @@ TEST_P(BandedMatrix, FixesARowAndItsColumn) {
   Pair pair(is, dominant(is), 6);
   pair.banded.fix(fixed, 2.5);
   const auto at = static_cast<Eigen::Index>(fixed);
-  pair.dense.row(at).setZero(), pair.dense.col(at).setZero(), pair.dense(at, at) = 2.5;
+  pair.dense.row(at).setZero();
+  pair.dense.col(at).setZero();
+  pair.dense(at, at) = 2.5;
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(pair.dense.rows(), -1, 2), expected = pair.dense * x;
   std::vector<double> y(is.size);
   pair.banded.multiply({x.data(), is.size}, y);

@@ -25,7 +25,9 @@ TYPED_TEST(FiniteElement, ReproducesPolynomialsOfItsOrder) {
         double value = 0, by_xi = 0, by_eta = 0;
         for (std::size_t k = 0; k < TypeParam::nodes; ++k) {
           const double at = power(node(k % TypeParam::side), a) * power(node(k / TypeParam::side), b);
-          value += element.shape[g][k] * at, by_xi += element.by_xi[g][k] * at, by_eta += element.by_eta[g][k] * at;
+          value += element.shape[g][k] * at;
+          by_xi += element.by_xi[g][k] * at;
+          by_eta += element.by_eta[g][k] * at;
         }
         const double x = element.xi[g], y = element.eta[g];
         EXPECT_NEAR(value, power(x, a) * power(y, b), 1e-14);

@@ -20,8 +20,10 @@ std::vector<double> states(std::uint64_t seed) {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<double> C(4 * n);
   for (std::size_t i = 0; i < n; ++i) {
-    C[i] = 1.5 + 0.4 * unit(engine), C[n + i] = 1.5 + 0.4 * unit(engine);
-    C[2 * n + i] = 0.8 + 0.3 * unit(engine), C[3 * n + i] = 0.3 * unit(engine);
+    C[i] = 1.5 + 0.4 * unit(engine);
+    C[n + i] = 1.5 + 0.4 * unit(engine);
+    C[2 * n + i] = 0.8 + 0.3 * unit(engine);
+    C[3 * n + i] = 0.3 * unit(engine);
   }
   return C;
 }
@@ -34,7 +36,10 @@ void expect_consistent(const fe::Material& material) {
   constexpr double h = 1e-5;
   for (std::size_t a = 0; a < (material.sees_shear() ? 4 : 3); ++a) {
     std::vector<double> up = C, down = C, above(n), below(n), first_above(4 * n), first_below(4 * n);
-    for (std::size_t i = 0; i < n; ++i) up[a * n + i] += h, down[a * n + i] -= h;
+    for (std::size_t i = 0; i < n; ++i) {
+      up[a * n + i] += h;
+      down[a * n + i] -= h;
+    }
     ASSERT_TRUE(material.energy(n, up, above).ok() && material.energy(n, down, below).ok());
     ASSERT_TRUE(material.evaluate(n, up, first_above, {}, {}).ok());
     ASSERT_TRUE(material.evaluate(n, down, first_below, {}, {}).ok());
@@ -67,7 +72,9 @@ TEST(FiniteElementMaterial, TensorsGiveWhatTheAxesGive) {
   const std::vector<double> C = states(2);
   std::vector<double> first[2], second[2], by[2];
   for (const std::size_t k : {0u, 1u}) {
-    first[k].resize(4 * n), second[k].resize(10 * n), by[k].resize(5 * 4 * n);
+    first[k].resize(4 * n);
+    second[k].resize(10 * n);
+    by[k].resize(5 * 4 * n);
     ASSERT_TRUE((k == 0 ? by_axes : by_tensors).evaluate(n, C, first[k], second[k], by[k]).ok());
   }
   for (std::size_t i = 0; i < 3 * n; ++i) EXPECT_NEAR(first[0][i], first[1][i], 1e-11 * (1 + std::abs(first[0][i])));

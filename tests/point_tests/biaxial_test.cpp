@@ -121,7 +121,9 @@ TEST(Biaxial, TensorsGiveWhatTheAxesGive) {
       make_sheet("general", both(evenly(1, 1.6, 12), evenly(0.9, 1.2, 12)), {.measure = "first_piola_kirchhoff"});
   std::vector<double> values[2], jacobian[2], derivative[2];
   for (const std::size_t k : {0u, 1u}) {
-    values[k].resize(24), jacobian[k].resize(5 * 24), derivative[k].resize(2 * 24);
+    values[k].resize(24);
+    jacobian[k].resize(5 * 24);
+    derivative[k].resize(2 * 24);
     const Model& either = k == 0 ? *model : static_cast<const Model&>(tensors);
     ASSERT_TRUE(sheet->predict({either, set_s, {}}, {values[k], jacobian[k], derivative[k], {}}).ok());
   }

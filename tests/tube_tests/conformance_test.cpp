@@ -117,7 +117,9 @@ TEST(Tube, TensorsGiveWhatTheAxesGive) {
   const auto tube = make_tube(evenly(0, 22, 9), {.channels = all_channels});
   std::vector<double> values[2], jacobian[2], derivative[2];
   for (const std::size_t k : {0u, 1u}) {
-    values[k].resize(45), jacobian[k].resize(10 * 45), derivative[k].resize(45);
+    values[k].resize(45);
+    jacobian[k].resize(10 * 45);
+    derivative[k].resize(45);
     const Model& either = k == 0 ? *model : static_cast<const Model&>(tensors);
     const Status status =
         tube->predict({either, set_s, {{40, 0.01, 2, 0.05, 1.5}}}, {values[k], jacobian[k], derivative[k], {}});

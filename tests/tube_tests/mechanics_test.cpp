@@ -96,8 +96,10 @@ TEST(Tube, PressureDoesTheWorkThatTheWallStores) {
   std::vector<double> pressure, weight;
   constexpr int parts = 20;
   for (int k = 0; k < parts; ++k)
-    for (int m = 0; m < 5; ++m)
-      pressure.push_back(20. / parts * (k + gauss_node[m])), weight.push_back(20. / parts * gauss_weight[m]);
+    for (int m = 0; m < 5; ++m) {
+      pressure.push_back(20. / parts * (k + gauss_node[m]));
+      weight.push_back(20. / parts * gauss_weight[m]);
+    }
   pressure.insert(pressure.end(), {0, 20});
   const Inflated out =
       inflate(*make_tube(pressure, {.channels = {"inner_diameter", "outer_diameter_stretch"}}), *model, set_s);
@@ -116,8 +118,10 @@ TEST(Tube, PressureAndAxialForceTogetherDoTheWorkThatTheWallStores) {
   const auto model = make_model("gho");
   std::vector<double> stretch, weight;
   for (int k = 0; k < 10; ++k)
-    for (int m = 0; m < 5; ++m)
-      stretch.push_back(1.05 + 0.025 * (k + gauss_node[m])), weight.push_back(0.025 * gauss_weight[m]);
+    for (int m = 0; m < 5; ++m) {
+      stretch.push_back(1.05 + 0.025 * (k + gauss_node[m]));
+      weight.push_back(0.025 * gauss_weight[m]);
+    }
   stretch.insert(stretch.end(), {1.05, 1.3});
   const std::size_t n = stretch.size();
   const Inflated out = inflate(
@@ -181,7 +185,8 @@ TEST(Tube, MeanStressesAreTheIntegralsOverTheWall) {
     ASSERT_TRUE(model->evaluate_axes({1, c, set_s}, {{}, g, {}, {}}).ok());
     const double hoop = 2 * (c[0] * g[0] - c[2] * g[2]), axial = 2 * (c[1] * g[1] - c[2] * g[2]);
     const double middle = radial + 0.5 * hoop / r * dr;
-    hoop_sum += (hoop + middle) * dr, axial_sum += (axial + middle) * 2 * r * dr;
+    hoop_sum += (hoop + middle) * dr;
+    axial_sum += (axial + middle) * 2 * r * dr;
     radial += hoop / r * dr;
   }
   EXPECT_NEAR(out.diagnostics[1], hoop_sum / (ro - ri), 1e-6 * hoop_sum);

@@ -19,7 +19,9 @@ std::string refusal(const std::vector<double>& pressure, const TubeSetup& setup)
 }
 Options lengths(double inner, double outer, double thickness) {
   Options options;
-  options.set("inner_radius", inner), options.set("outer_radius", outer), options.set("thickness", thickness);
+  options.set("inner_radius", inner);
+  options.set("outer_radius", outer);
+  options.set("thickness", thickness);
   return options;
 }
 #define EXPECT_SAYS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << (text)
@@ -52,7 +54,8 @@ TEST(TubeMessages, RowsThatCannotBeSimulatedAreRefused) {
   EXPECT_SAYS(refusal({1, 2, 3}, {.time = {0, 2, 1}}), "time runs backwards at row 3");
   TestSetup no_pressure;
   no_pressure.options = defaults(catalogue().tests().at("thick_wall_pressurisation").factory.options);
-  no_pressure.options.set("inner_radius", 3.), no_pressure.options.set("thickness", 1.);
+  no_pressure.options.set("inner_radius", 3.);
+  no_pressure.options.set("thickness", 1.);
   try {
     plugins::create(catalogue().tests().at("thick_wall_pressurisation"), no_pressure);
     FAIL() << "a tube without pressure was accepted";

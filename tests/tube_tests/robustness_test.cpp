@@ -42,7 +42,8 @@ TEST(TubeRobustness, ATubeThatSnapsToAWiderStateFailsAtTheLimitPressure) {
     std::vector<double> c(3 * n), g(3 * n);
     for (int k = 0; k < n; ++k) {
       c[k] = 1 / lz + a * std::exp(-2 * (std::log(3.) + std::log(4. / 3) * k / (n - 1)));
-      c[n + k] = lz * lz, c[2 * n + k] = 1 / (c[k] * c[n + k]);
+      c[n + k] = lz * lz;
+      c[2 * n + k] = 1 / (c[k] * c[n + k]);
     }
     EXPECT_TRUE(model->evaluate_axes({n, c, p}, {{}, g, {}, {}}).ok());
     double sum = 0;
@@ -125,7 +126,10 @@ TEST(TubeRobustness, AnyTubeOfDispersedFibresConverges) {
     const double rounding = 4e-16 * out.values[n - 1] * carried.slope + 1e-13 * carried.magnitude;
     const double residual = std::abs(carried.pressure - pressure);
     const double stretch_error = residual / carried.slope;
-    if (rounding < 1e-11 * pressure) worst = std::max(worst, stretch_error), ++sharp;
+    if (rounding < 1e-11 * pressure) {
+      worst = std::max(worst, stretch_error);
+      ++sharp;
+    }
     EXPECT_LT(stretch_error, 1e-9 + rounding / carried.slope) << "draw " << draw;
   }
   EXPECT_LT(worst, 1e-9);

@@ -19,7 +19,10 @@ enum Own : std::size_t { axial_stretch_error, thickness_error, own_count };
 void set_elements(const std::string& text, Tube& tube) {
   const nlohmann::json given = nlohmann::json::parse(text, nullptr, false);
   if (given.is_null()) {
-    if (tube.order == 2) tube.radial = 12, tube.axial = 25;
+    if (tube.order == 2) {
+      tube.radial = 12;
+      tube.axial = 25;
+    }
     return;
   }
   const bool pair = given.is_array() && given.size() == 2 && given[0].is_number_unsigned() &&
@@ -29,7 +32,8 @@ void set_elements(const std::string& text, Tube& tube) {
     throw InputError("fe_pressurisation: \"elements\" is " + text +
                      "; give two numbers, [radial, axial over half the length], for example [25, 100]; at most "
                      "[200, 2000]");
-  tube.radial = given[0], tube.axial = given[1];
+  tube.radial = given[0];
+  tube.axial = given[1];
 }
 
 /// A tube of finite length under inner pressure: see assembly.hpp for the discrete potential, solver.hpp for Newton's
@@ -40,19 +44,23 @@ class FePressurisation final : public Test {
     const Options& given = setup.options;
     plan_.order = given.text("element") == "quadrilateral_4" ? 1 : 2;
     set_elements(given.text("elements"), plan_);
-    plan_.inner = tube_.inner_radius, plan_.outer = tube_.outer_radius;
-    plan_.length = given.number("length"), plan_.grading = given.number("grading");
+    plan_.inner = tube_.inner_radius;
+    plan_.outer = tube_.outer_radius;
+    plan_.length = given.number("length");
+    plan_.grading = given.number("grading");
     if (!(plan_.length > 0))
       throw InputError(
           "fe_pressurisation: \"length\" is 0; give the unloaded length between the ends, for example \"14 mm\"");
     const std::string& ends = given.text("ends");
     plan_.ends = ends == "clamped" ? Ends::clamped : ends == "sliding" ? Ends::sliding : Ends::clamped_after_stretch;
-    plan_.tolerance = given.number("tolerance"), plan_.time_limit = given.number("time_limit");
+    plan_.tolerance = given.number("tolerance");
+    plan_.time_limit = given.number("time_limit");
     plan_.steps = static_cast<std::size_t>(given.integer("max_steps"));
     if (!tube_.time.empty()) tube_.time.clear();  // elastic: time does not matter
     description_.parameters = {axial_stretch_error_parameter(), thickness_error_parameter()};
     description_.nulls = {0, 0};
-    description_.diagnostics = {"inner_radius_stretch"}, description_.diagnostic_units = {"1"};
+    description_.diagnostics = {"inner_radius_stretch"};
+    description_.diagnostic_units = {"1"};
     description_.costly = true;
     rows_.count = tube_.count();
     for (std::size_t k = 0; k < tube_.columns.size(); ++k)

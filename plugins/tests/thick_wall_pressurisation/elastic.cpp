@@ -76,7 +76,10 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
   const auto done = [](const Row& row) { return row.forces.p_y > 0 && small(row.step, row.pressure, row.forces.p_y); };
   for (int iteration = 0; iteration < newton_iterations; ++iteration) {
     if (Status status = evaluate(rows, false, sections, wall); !status.ok()) return status;
-    if (std::all_of(rows.begin(), rows.end(), done)) return note_error(rows, sections, error), Status();
+    if (std::all_of(rows.begin(), rows.end(), done)) {
+      note_error(rows, sections, error);
+      return Status();
+    }
     for (Row& row : rows)
       if (std::abs(row.step) < 1) row.y += std::clamp(row.step, -0.05, 0.05);
   }
@@ -102,7 +105,9 @@ Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
                   Sections& sections, const Wall& wall, Solution& solution) {
   const bool supported = wall.tether != 0;
-  solution.rows.clear(), solution.free_rows.clear(), solution.error = 0;
+  solution.rows.clear();
+  solution.free_rows.clear();
+  solution.error = 0;
   Path path(sections, wall);
   Equilibrium free, at;  // the unpressurised state, and the one of the row
   Status status = path.begin(free);

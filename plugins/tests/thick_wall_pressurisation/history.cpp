@@ -50,7 +50,8 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
   for (std::size_t i = 0; i < n; ++i) {
     Row& row = rows[i];
     const double before = i == 0 ? 1 : axial_stretch[i - 1];
-    row.axial_stretch = axial_stretch[i], row.pressure = pressure[i];
+    row.axial_stretch = axial_stretch[i];
+    row.pressure = pressure[i];
     row.y = y - 0.5 * std::log(row.axial_stretch / before);  // the bulk of the wall goes with 1/√λz
     if (wall.tether != 0) {
       free.y -= 0.5 * std::log(row.axial_stretch / before);

@@ -77,8 +77,14 @@ TubeRows::TubeRows(const TestSetup& setup, std::string name) : test(std::move(na
   set_radii(setup.options, setup.layers, *this);
   bool pressure = false;
   for (const TestRows::Column& column : setup.rows.abscissae) {
-    if (column.observable == "pressure") pressure = true, pressure_column = columns.size();
-    if (column.observable == "axial_stretch") stretch_varies = true, stretch_column = columns.size();
+    if (column.observable == "pressure") {
+      pressure = true;
+      pressure_column = columns.size();
+    }
+    if (column.observable == "axial_stretch") {
+      stretch_varies = true;
+      stretch_column = columns.size();
+    }
     names.push_back(column.observable);
     columns.emplace_back(column.values.begin(), column.values.end());
   }

@@ -58,7 +58,9 @@ struct Scratch {
   void reserve(std::size_t n, std::size_t parameters) {
     if (step.size() < n) {
       for (auto* v : {&u, &step, &stress, &slope, &stress_by_y, &ratio}) v->resize(n);
-      c.resize(3 * n), gradient.resize(3 * n), hessian.resize(6 * n);
+      c.resize(3 * n);
+      gradient.resize(3 * n);
+      hessian.resize(6 * n);
     }
     if (gradient_dp.size() < 3 * n * parameters) gradient_dp.resize(3 * n * parameters);
   }
@@ -187,7 +189,8 @@ inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, 
         },
         trial_y);
     if (found) {
-      l = next, y = trial_y;
+      l = next;
+      y = trial_y;
       if (l == target) {
         u = std::exp(y);
         return true;

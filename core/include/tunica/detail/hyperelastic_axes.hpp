@@ -88,7 +88,9 @@ class AxesPart {
     diagonal_ = {a_.tt, a_.zz, a_.rr};
     // x = A : C + i2 I2 + offset
     double* __restrict x = batch_.x.data();
-    const double* __restrict ct = c_[0], * __restrict cz = c_[1], * __restrict cr = c_[2];
+    const double* __restrict ct = c_[0];
+    const double* __restrict cz = c_[1];
+    const double* __restrict cr = c_[2];
     for (std::size_t i = 0; i < m_; ++i) x[i] = a_.tt * ct[i] + a_.zz * cz[i] + a_.rr * cr[i] + a_.offset;
     if (a_.i2 != 0)
       for (std::size_t i = 0; i < m_; ++i) x[i] += a_.i2 * second_invariant(i);

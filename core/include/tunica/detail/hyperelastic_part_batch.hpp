@@ -30,7 +30,10 @@ struct Direction {
   double s = 0, c = 1;
   Direction() = default;
   Direction(const Invariant& v, double side) {
-    if (v.angle != 0) s = side * std::sin(v.angle), c = std::cos(v.angle);
+    if (v.angle != 0) {
+      s = side * std::sin(v.angle);
+      c = std::cos(v.angle);
+    }
     if (std::abs(c) < 1e-15) c = 0;  // 90 degrees: what rounding leaves would be multiplied by exponentials
   }
 };

@@ -92,8 +92,10 @@ class JointEnergy final : public Model {
     Frame(std::span<const double> p, bool derivatives) {
       const auto values = Energy::template invariants<double>(p);
       std::array<hyperelastic::Direction, m> direction;
-      for (std::size_t k = 0; k < m; ++k)
-        direction[k] = {values[k], 1}, x[k] = hyperelastic::structure(values[k], direction[k]);
+      for (std::size_t k = 0; k < m; ++k) {
+        direction[k] = {values[k], 1};
+        x[k] = hyperelastic::structure(values[k], direction[k]);
+      }
       if (!derivatives) return;
       using Jet = ceres::Jet<double, static_cast<int>(parameters)>;
       std::array<Jet, parameters> jets;
@@ -152,7 +154,10 @@ class JointEnergy final : public Model {
       using Outer = ceres::Jet<Inner, static_cast<int>(m)>;
       std::array<Outer, m> xs;
       std::array<Outer, parameters> ps;
-      for (std::size_t k = 0; k < m; ++k) xs[k] = Outer(Inner(x[k], static_cast<int>(k))), xs[k].v[k] = Inner(1.0);
+      for (std::size_t k = 0; k < m; ++k) {
+        xs[k] = Outer(Inner(x[k], static_cast<int>(k)));
+        xs[k].v[k] = Inner(1.0);
+      }
       for (std::size_t j = 0; j < parameters; ++j)
         ps[j] = Outer(width > m ? Inner(p[j], static_cast<int>(m + j)) : Inner(p[j]));
       const Outer w = Energy::template energy<Outer>(std::span<const Outer>(xs), std::span<const Outer>(ps));

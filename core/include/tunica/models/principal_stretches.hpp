@@ -44,7 +44,10 @@ struct Spectrum {
       return;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-    for (int a = 0; a < 3; ++a) c[a] = solver.eigenvalues()[a], n[a] = solver.eigenvectors().col(a);
+    for (int a = 0; a < 3; ++a) {
+      c[a] = solver.eigenvalues()[a];
+      n[a] = solver.eigenvectors().col(a);
+    }
   }
 };
 
@@ -89,7 +92,10 @@ class PrincipalStretches : public Model {
         for (std::size_t i = 0; i < m; ++i) {
           const std::size_t k = a * m + i, place = a * n + begin + i;
           if (!out.gradient.empty()) out.gradient[place] = s.f(k);
-          if (!out.hessian.empty()) out.hessian[place] = s.f_prime(k), out.hessian[place + 3 * n] = 0;
+          if (!out.hessian.empty()) {
+            out.hessian[place] = s.f_prime(k);
+            out.hessian[place + 3 * n] = 0;
+          }
           for (std::size_t j = 0; !out.gradient_dp.empty() && j < parameter_count; ++j)
             out.gradient_dp[3 * j * n + place] = s.f_dp(j, k, 3 * m);
         }

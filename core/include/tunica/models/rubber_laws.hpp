@@ -98,8 +98,13 @@ struct Ogden {
       const auto clear = [begin, m](std::span<double> row) {
         for (std::size_t i = 0; !row.empty() && i < m; ++i) row[begin + i] = 0;
       };
-      clear(b.value), clear(b.first), clear(b.second);
-      for (std::size_t i = 0; i < m; ++i) l[i] = std::log(b.x[begin + i]), inverse[i] = 1 / b.x[begin + i];
+      clear(b.value);
+      clear(b.first);
+      clear(b.second);
+      for (std::size_t i = 0; i < m; ++i) {
+        l[i] = std::log(b.x[begin + i]);
+        inverse[i] = 1 / b.x[begin + i];
+      }
       for (std::size_t k = 0; k < terms; ++k) {
         const double mu = p[2 * k], alpha = p[2 * k + 1];
         for (std::size_t i = 0; i < m; ++i) e[i] = alpha * l[i];

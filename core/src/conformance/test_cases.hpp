@@ -17,7 +17,7 @@
 namespace tunica::conformance {
 
 /// What a test was made from, owned: rows made up from what the type declares, or those of an experiment.
-struct MadeUp {
+struct OwnedSetup {
   Options options;
   std::string stress_measure = "cauchy";
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;
@@ -31,11 +31,11 @@ struct MadeUp {
   [[nodiscard]] std::string words() const;
 };
 
-/// A test on the bench, at parameters of its own at which it is simulated.
-struct Benched {
+/// A test on the test_case, at parameters of its own at which it is simulated.
+struct TestCase {
   std::string name;  ///< of the test in the experiment; empty = made up
   std::shared_ptr<Test> test;
-  std::optional<MadeUp> from;
+  std::optional<OwnedSetup> from;
   std::vector<double> own;  ///< its parameters: nulls of imperfections, initial values of the others
   Material material;
   std::vector<std::shared_ptr<const Model>> layers = {};  ///< of a wall with several; their parameters in `material`
@@ -47,10 +47,10 @@ std::vector<double> own_values(const TestDescription& description);
 /// A test of the type with rows made up from its observables, such that the test is made and predicts. Seeded search
 /// among what a person might map and give: which observables, options at their defaults and near 1. Throws
 /// std::runtime_error with what the type answered last where none of that suits it.
-Benched make_up(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed);
+TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed);
 
 /// The tests of these types as they stand in an experiment, each with the model of the first run that has it.
-std::vector<Benched> from_experiment(const experiment::Experiment& experiment, const std::vector<std::string>& types,
+std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,
                                      const plugins::Catalogue& catalogue);
 /// The models of an experiment, at the initial values of their parameters.
 std::vector<Material> models_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);

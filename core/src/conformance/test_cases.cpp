@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "conformance/test_bench.hpp"
+#include "conformance/test_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +36,9 @@ class Guesses {
  public:
   Guesses(const TestFactory& factory, std::uint64_t seed) : factory_(factory), engine_(seed) {}
 
-  MadeUp next() {
+  OwnedSetup next() {
     const std::size_t attempt = attempt_++;
-    MadeUp guess;
+    OwnedSetup guess;
     guess.options = plausible_options(factory_.options);
     const bool plain = attempt < 16;  // first with options as they are
     for (const Option& option : factory_.options) {
@@ -83,8 +83,8 @@ class Guesses {
 };
 
 /// Why the test cannot be made or cannot predict; empty = it does.
-std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const MadeUp& guess, const Material& material,
-                    std::shared_ptr<Test>& made) {
+std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
+                    const Material& material, std::shared_ptr<Test>& made) {
   try {
     made = plugins::create(entry, guess.setup());
     const std::vector<double> own = own_values(made->describe());
@@ -101,7 +101,7 @@ std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const M
 
 }  // namespace
 
-TestSetup MadeUp::setup() const {
+TestSetup OwnedSetup::setup() const {
   TestSetup made;
   made.options = options;
   made.stress_measure = stress_measure;
@@ -112,7 +112,7 @@ TestSetup MadeUp::setup() const {
   return made;
 }
 
-std::string MadeUp::words() const {
+std::string OwnedSetup::words() const {
   std::vector<std::string> prescribed;
   for (const auto& [name, values] : abscissae)
     prescribed.push_back(fmt::format("{} from {:.3g} to {:.3g}", name, values.front(), values.back()));
@@ -126,13 +126,13 @@ std::vector<double> own_values(const TestDescription& description) {
   return own;
 }
 
-Benched make_up(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
+TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
   constexpr int patience = 4000;
   const Material material = materials().front();
   Guesses guesses(entry.factory, seed);
   std::string last = "it declares no channel";
   for (int attempt = 0; attempt < patience; ++attempt) {
-    MadeUp guess = guesses.next();
+    OwnedSetup guess = guesses.next();
     if (guess.channels.empty()) continue;
     std::shared_ptr<Test> test;
     if (std::string reason = refused(entry, guess, material, test); !reason.empty()) {
@@ -144,10 +144,13 @@ Benched make_up(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64
       const auto& have = guess.channels;
       if (observable.role != Role::channel || std::find(have.begin(), have.end(), observable.name) != have.end())
         continue;
-      MadeUp more = guess;
+      OwnedSetup more = guess;
       more.channels.push_back(observable.name);
       std::shared_ptr<Test> larger;
-      if (refused(entry, more, material, larger).empty()) guess = more, test = larger;
+      if (refused(entry, more, material, larger).empty()) {
+        guess = more;
+        test = larger;
+      }
     }
     std::vector<double> own = own_values(test->describe());
     return {"", std::move(test), std::move(guess), std::move(own), material};

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "calibration/composition.hpp"
-#include "conformance/test_bench.hpp"
+#include "conformance/test_cases.hpp"
 
 namespace tunica::conformance {
 namespace {
@@ -44,26 +44,26 @@ std::vector<Material> models_of(const experiment::Experiment& experiment, const 
   return all;
 }
 
-std::vector<Benched> from_experiment(const experiment::Experiment& experiment, const std::vector<std::string>& types,
+std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,
                                      const plugins::Catalogue& catalogue) {
-  std::vector<Benched> all;
+  std::vector<TestCase> all;
   for (const experiment::TestEntry& entry : experiment.tests) {
     if (std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
     calibration::ComposedTest made = calibration::compose_test(entry, catalogue);
-    Benched bench{entry.name, std::move(made.test), {}, {}, {}, {}};
-    bench.own = values_of(made.slots, own_values(bench.test->describe()));
+    TestCase test_case{entry.name, std::move(made.test), {}, {}, {}, {}};
+    test_case.own = values_of(made.slots, own_values(test_case.test->describe()));
     if (entry.layers.empty()) {
-      bench.material = composed(experiment.model(model_for(experiment, entry.name)), catalogue);
+      test_case.material = composed(experiment.model(model_for(experiment, entry.name)), catalogue);
     } else {
       for (const experiment::LayerEntry& layer : entry.layers) {
         Material one = composed(experiment.model(layer.model), catalogue);
-        bench.layers.push_back(one.model);
-        if (!bench.material.model) bench.material.model = one.model;
-        bench.material.name += (bench.material.name.empty() ? "" : "+") + one.name;
-        bench.material.parameters.insert(bench.material.parameters.end(), one.parameters.begin(), one.parameters.end());
+        test_case.layers.push_back(one.model);
+        if (!test_case.material.model) test_case.material.model = one.model;
+        test_case.material.name += (test_case.material.name.empty() ? "" : "+") + one.name;
+        test_case.material.parameters.insert(test_case.material.parameters.end(), one.parameters.begin(), one.parameters.end());
       }
     }
-    all.push_back(std::move(bench));
+    all.push_back(std::move(test_case));
   }
   return all;
 }
