@@ -61,7 +61,9 @@ struct Option {
   /// Choice: the words that are allowed.
   std::vector<std::string> choices = {};
 
-  /// A whole number with a default.
+  /// A whole number with a default. Read it with Options::integer(), or with Options::count() if it is a size.
+  ///
+  /// In all five functions `doc` is one sentence, with a capital letter and a full stop.
   static Option integer(std::string name, std::int64_t fallback, Range range, std::string doc) {
     return {std::move(name), Kind::integer, fallback, std::move(doc), {}, range.least, range.largest};
   }
@@ -69,11 +71,13 @@ struct Option {
   static Option number(std::string name, double fallback, Range range, std::string doc) {
     return {std::move(name), Kind::number, fallback, std::move(doc), {}, range.least, range.largest};
   }
-  /// A number with a unit that the user must give, `least` or more.
+  /// A number with a unit that the user must give. The file may say "25 mm" or "1 in"; the plugin reads base units.
+  /// The value is `least` or more.
   static Option quantity(std::string name, std::string unit, double least, std::string doc) {
     return {std::move(name), Kind::quantity, {}, std::move(doc), std::move(unit), least};
   }
-  /// One of several words. Without a default the user must choose.
+  /// One of several words. Without a default the user must choose. Read it with Options::text(), and compare it with
+  /// the same words: no other word arrives.
   static Option choice(std::string name, std::vector<std::string> choices, std::optional<std::string> fallback,
                        std::string doc) {
     Option option{std::move(name), Kind::choice, {}, std::move(doc)};
@@ -81,7 +85,7 @@ struct Option {
     option.choices = std::move(choices);
     return option;
   }
-  /// Any text, with a default.
+  /// Any text, with a default. The plugin checks it and throws InputError.
   static Option text(std::string name, std::string fallback, std::string doc) {
     return {std::move(name), Kind::text, std::move(fallback), std::move(doc)};
   }
@@ -89,17 +93,20 @@ struct Option {
 
 /// The options of one object, checked: every declared option has a value of the declared kind, within its bounds.
 ///
-/// A factory receives this and reads each option by its name. Options of the kind json arrive as JSON text, so that no
-/// JSON type crosses the plugin boundary.
+/// A factory receives this and reads each option by its name. Defaults are filled in, so that no getter has one.
+/// Options of the kind json arrive as JSON text, so that no JSON type crosses the plugin boundary.
+///
+///     starts_ = options.count("starts");
 ///
 /// Errors: a getter throws InputError for a name that was not declared, and for an option of another kind. Both are
 /// mistakes in the plugin, which `tunica plugin check` finds.
 /// Threads: reading is safe from any thread.
+/// Ownership: the object belongs to the host; a plugin copies the values that it keeps.
 class Options {
  public:
-  /// Sets a value and replaces an earlier one. Hosts and tests use it; a plugin only reads.
+  /// Sets a value and replaces an earlier one; it is not checked. Hosts and tests use it; a plugin only reads.
   void set(std::string name, Option::Value value) { values_.insert_or_assign(std::move(name), std::move(value)); }
-  /// Whether an option of this name was declared.
+  /// Whether an option of this name was declared. Mechanisms ask it, which share options with the tests that they wrap.
   [[nodiscard]] bool has(std::string_view name) const { return values_.find(name) != values_.end(); }
   /// The value of a flag.
   [[nodiscard]] bool flag(std::string_view name) const { return get<bool>(name); }

@@ -92,8 +92,10 @@ struct OptimizerFactory {
   std::function<std::unique_ptr<Optimizer>(const Options&)> create;
 };
 
-/// Receives the factories of a plugin. Nothing counts unless the registration returns normally.
+/// Receives the factories of a plugin, any number of each kind. Nothing counts unless the registration returns
+/// normally.
 ///
+/// Names are lower case, with digits and underscores, for example "fibre_damage".
 /// The host checks names after that: a name that is taken already, or that breaks the rules, refuses the whole plugin.
 class Registry {
  public:
@@ -127,8 +129,13 @@ struct PluginHeader {
 
 }  // namespace tunica
 
-/// Defines the exported symbol of a plugin. The body that follows registers what the plugin provides; the host runs it
-/// once, when it loads the plugin.
+/// Defines the exported symbol of a plugin.
+///
+/// It stands once in a plugin, at global scope, in one of its source files.
+/// cmake/tunica_plugin.map hides every other symbol.
+///
+/// The first argument is the name of the plugin in messages and results, the second its version. The body that follows
+/// registers what the plugin provides; the host runs it once, when it loads the plugin.
 ///
 ///     TUNICA_PLUGIN("gho", "0.1.0") { registry.add(tunica::ModelFactory{…}); }
 #define TUNICA_PLUGIN(plugin_name, plugin_version)                                                \

@@ -134,18 +134,16 @@ struct Agreement {
 struct Snapshot {
   /// One scalar, vector or tensor over the body.
   struct Field {
-    std::string name,  ///< for example "cauchy_stress"
-                       /// Base unit.
-        unit;
+    std::string name;            ///< for example "cauchy_stress"
+    std::string unit;            ///< base unit
     std::size_t components = 1;  ///< 1, 3 or 6, in the order of VTK
     bool of_cells = false;       ///< whether values belong to cells instead of points
     std::vector<double> values;  ///< all components of the first point, then of the second, …
   };
   /// One column of the table along a line.
   struct Column {
-    std::string name,  ///< heading
-                       /// Base unit.
-        unit;
+    std::string name;            ///< heading
+    std::string unit;            ///< base unit
     std::vector<double> values;  ///< one a point of the line
   };
   std::size_t row = 0;             ///< the row of the test, from 0

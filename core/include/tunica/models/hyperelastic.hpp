@@ -67,7 +67,9 @@ class Hyperelastic : public Model {
   EnergyParts parts_;
 };
 
-/// Lists parts: energy_parts(isotropic::neo_hookean<4>(mu), arterial::fibres<…>(…)).
+/// Lists parts:
+///
+///     energy_parts(isotropic::neo_hookean<4>(mu), arterial::fibres<Fibres, 4>({theta}, {k1, k2}, options))
 template <class... Part>
 EnergyParts energy_parts(Part... part) {
   EnergyParts parts;

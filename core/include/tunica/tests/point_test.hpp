@@ -48,7 +48,8 @@ class PointTest final : public Test {
       if (observable.role == Observable::Role::abscissa) abscissa_ = observable;
       if (observable.role == Observable::Role::channel) names.push_back(observable.name);
     }
-    if (setup.rows.abscissae.empty()) throw InputError(begin() + "map a column to '" + abscissa_.name + "'");
+    if (setup.rows.abscissae.empty())
+      throw InputError(begin() + "no column is mapped to '" + abscissa_.name + "'; map one in \"columns\"");
     const auto given = setup.rows.abscissae.front().values;
     x_.assign(given.begin(), given.end());
     for (std::size_t i = 0; i < x_.size(); ++i)
@@ -72,9 +73,12 @@ class PointTest final : public Test {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
-    if (model.history_size > 0) return Status::failed(begin() + "takes no model that remembers its history");
+    if (model.history_size > 0)
+      return Status::failed(
+          begin() +
+          "the model remembers its history, and this test simulates rows apart; choose a model without history");
     if (!output.jacobian.empty() && !model.parameter_derivatives)
-      return Status::failed(begin() + "the model has no parameter derivatives");
+      return Status::failed(begin() + "the model has no parameter derivatives; difference the whole prediction");
     const std::span<const double> x = input.abscissae.empty() ? std::span<const double>(x_) : input.abscissae.front();
     const std::size_t n = rows_.count, parameters = input.model_parameters.size(), size = channels_.size() * n;
     std::vector<double> C(6 * n), S(6 * n), A(output.abscissa_derivative.empty() ? 0 : 36 * n),
@@ -92,7 +96,9 @@ class PointTest final : public Test {
       for (std::size_t k = 0; k < channels_.size(); ++k) {
         const std::size_t at = k * n + i;
         const double y = geometry_.template channel<double>(channels_[k], x[i], tensor(S, i));
-        if (!std::isfinite(y)) return Status::failed(begin() + "the energy overflows, " + place(i, x[i]));
+        if (!std::isfinite(y))
+          return Status::failed(begin() + place(i, x[i]) +
+                                ", where the energy overflows; narrow the bounds of the model's parameters");
         if (!output.values.empty()) output.values[at] = y;
         for (std::size_t j = 0; !output.jacobian.empty() && j < parameters; ++j) {
           const std::span<const double> by_p = std::span<const double>(S_dp).subspan(6 * j * n, 6 * n);
