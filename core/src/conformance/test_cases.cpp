@@ -32,9 +32,9 @@ std::vector<double> rising(const Observable& observable, std::size_t rows, doubl
 }
 
 /// The setups of a search, the most likely first.
-class Guesses {
+class SetupSampler {
  public:
-  Guesses(const TestFactory& factory, std::uint64_t seed) : factory_(factory), engine_(seed) {}
+  SetupSampler(const TestFactory& factory, std::uint64_t seed) : factory_(factory), engine_(seed) {}
 
   OwnedSetup next() {
     const std::size_t attempt = attempt_++;
@@ -129,7 +129,7 @@ std::vector<double> own_values(const TestDescription& description) {
 TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
   constexpr int patience = 4000;
   const Material material = materials().front();
-  Guesses guesses(entry.factory, seed);
+  SetupSampler guesses(entry.factory, seed);
   std::string last = "it declares no channel";
   for (int attempt = 0; attempt < patience; ++attempt) {
     OwnedSetup guess = guesses.next();

@@ -9,7 +9,7 @@
 
 #include "tunica/energy_part.hpp"
 
-/// Plain numbers beside jets of jets, as formulas have them; Ceres defines these for the jet's own scalar only.
+/// Operators between plain numbers and jets of jets. Ceres defines them only for the jet's own scalar.
 namespace ceres {
 template <int N, int M>
 using NestedJet = Jet<Jet<double, N>, M>;
@@ -36,8 +36,10 @@ TUNICA_NESTED_(>, bool)
 
 namespace tunica {
 
-/// ψ, ψ', ψ'' and their parameter derivatives of a law (laws.hpp) from its formula alone: one jet over (x; p) inside
-/// a jet over x, n = number of parameters. Same sizes and meaning as ResponseBatch.
+/// Evaluates ψ, ψ', ψ'' and their parameter derivatives from the formula of a law (laws.hpp) alone.
+///
+/// Sizes and meaning are those of ResponseBatch. Method: a jet over (x; p) inside a jet over x. It costs several times
+/// as much as derivatives by hand. Thread-safe; allocates nothing.
 template <class Law>
 void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   constexpr int n = static_cast<int>(Law::parameter_count);
@@ -60,7 +62,7 @@ void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   }
 }
 
-/// The law's own response where it has one written by hand, else from its formula.
+/// Evaluates a law by its own respond() if it has one, else from its formula.
 template <class Law>
 void respond(std::span<const double> p, const ResponseBatch& batch) {
   if constexpr (requires { Law::respond(p, batch); }) {

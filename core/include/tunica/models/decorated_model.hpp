@@ -10,13 +10,17 @@
 
 namespace tunica {
 
-/// A base model whose energy parts a mechanism has changed or added to. The mechanism's parameters stand behind those
-/// of the base, its amplitude first; where that is at its null it is the base itself that answers, bit for bit, unless
-/// derivatives by parameters are wanted.
+/// A base model in which a mechanism changes parts of the energy or adds one.
+///
+/// The mechanism's parameters come after those of the base, the amplitude first. While the amplitude is at its null,
+/// the base itself answers, bit for bit; only if parameter derivatives are wanted, the changed energy does.
+///
+/// Parts of the base that stay as they are become ForwardedPart, changed ones a subclass of it, new ones AddedPart.
+/// Threads and failure: as Model. Ownership: shares the base with its forwarded parts.
 class DecoratedModel final : public Hyperelastic {
  public:
-  /// `own`: the mechanism's parameters, the amplitude first; `null`: of the amplitude; `parts`: of the whole changed
-  /// energy, with parameters of base and mechanism in that order.
+  /// `own` are the mechanism's parameters, the amplitude first, and `null` is the null of the amplitude. `parts` make
+  /// up the whole changed energy; they count the parameters of the base, then those of the mechanism.
   DecoratedModel(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, double null,
                  std::vector<std::unique_ptr<EnergyPart>> parts)
       : Hyperelastic(described(*base, own), std::move(parts)),

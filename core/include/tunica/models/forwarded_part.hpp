@@ -9,8 +9,11 @@
 
 namespace tunica {
 
-/// A part of a base model within a mechanism's model, which keeps the base alive. The base's parameters come first, so
-/// that the indices of the part stay valid.
+/// A part of a base model, as a part of the mechanism's model.
+///
+/// It keeps the base alive. The base's parameters come first, so that the indices of the part stay valid. A mechanism
+/// that changes the part derives from it and overrides invariant() or respond(); base_count() is then the index of its
+/// amplitude. Threads and failure: as EnergyPart.
 class ForwardedPart : public EnergyPart {
  public:
   /// `part` is one of base->parts().
@@ -35,10 +38,10 @@ class ForwardedPart : public EnergyPart {
   Description description_;            ///< a copy, which a mechanism may change in its constructor
 };
 
-/// A part of the mechanism's own, with parameters of its own that stand behind those of the base.
+/// A new part of the mechanism's model, with parameters of its own that come after those of the base.
 class AddedPart final : public EnergyPart {
  public:
-  /// `part` counts parameters from the mechanism's own first one; `base_count` is added to its indices.
+  /// `part` counts parameters from the first one of the mechanism; this class adds `base_count` to its indices.
   AddedPart(std::size_t base_count, std::unique_ptr<EnergyPart> part)
       : base_count_(base_count), part_(std::move(part)), description_(part_->describe()) {
     for (auto* indices : {&description_.invariant_parameters, &description_.response_parameters})

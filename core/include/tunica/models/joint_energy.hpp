@@ -12,10 +12,12 @@
 
 namespace tunica {
 
-/// A model whose energy is one function of several invariants together, W(C; p) = Ψ(x_1, …, x_m; p), x_k(C; p) as in
-/// energy_part.hpp, from that function alone. Where W is a sum of functions of one invariant each, Hyperelastic is
-/// faster, and its parts can be transformed by mechanisms; this one exposes none, and takes what is added to an energy
-/// or remembers its history. An Energy is a type with
+/// A model whose energy is one function of several invariants together, W(C; p) = Ψ(x_1, …, x_m; p), with x_k(C; p) as
+/// in InvariantOf. Only that function has to be written.
+///
+/// If W is a sum of functions of one invariant each, take Hyperelastic: it is faster, and mechanisms can change its
+/// parts. This class exposes no parts; mechanisms that add energy or memory apply to it all the same. An Energy is a
+/// type with
 ///
 ///     static constexpr const char *type, *doc, *reference;
 ///     static constexpr std::size_t parameter_count, invariant_count;
@@ -24,8 +26,9 @@ namespace tunica {
 ///     template <class T> static T energy(std::span<const T> x, std::span<const T> p);
 ///     static std::vector<Combination> admissible();                        // optional, as in ModelDescription
 ///
-/// Mathematics: with G_k = ∂x_k/∂C, S = 2 Σ_k Ψ_k G_k and 2 ∂S/∂C = 4 Σ_kl Ψ_kl G_k ⊗ G_l + 4 Σ_k Ψ_k i2_k (1⊗1 − 𝕀);
-/// derivatives of Ψ by automatic differentiation over (x; p), no more of them than are asked for.
+/// Threads and failure: as Model. Mathematics: with G_k = ∂x_k/∂C, S = 2 Σ_k Ψ_k G_k and 2 ∂S/∂C = 4 Σ_kl Ψ_kl G_k ⊗
+/// G_l + 4 Σ_k Ψ_k i2_k (1⊗1 − 𝕀); derivatives of Ψ come from automatic differentiation over (x; p), and only those
+/// that are wanted.
 template <class Energy>
 class JointEnergy final : public Model {
  public:

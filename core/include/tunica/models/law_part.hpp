@@ -14,12 +14,13 @@ namespace tunica {
 ///
 ///     struct Geometry { template <class T> static InvariantOf<T> invariant(std::span<const T> parameters); };
 ///
-/// with the whole model's parameters, angles in degrees as declared. Derivatives follow by automatic
-/// differentiation, by hand where the law says so.
+/// `parameters` are those of the whole model in its order; angles are in degrees, as declared. Derivatives follow by
+/// automatic differentiation, unless the law has its own. `model_parameters` is the number of the model's parameters.
+/// Threads and failure: as EnergyPart.
 template <class Law, class Geometry, std::size_t model_parameters>
 class LawPart final : public EnergyPart {
  public:
-  /// description.response_parameters are the p of the law, in its order.
+  /// `description.response_parameters` are the indices of the p of the law, in its order.
   explicit LawPart(Description description) : description_(std::move(description)) {}
 
   [[nodiscard]] const Description& describe() const override { return description_; }

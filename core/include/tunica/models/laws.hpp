@@ -9,14 +9,16 @@
 #include "tunica/detail/vector_math.hpp"
 #include "tunica/energy_part.hpp"
 
-/// Responses ψ(x; p) that many models share. A law is a type with
+/// Responses ψ(x; p) that many models share.
+///
+/// A law is a type with
 ///
 ///     static constexpr std::size_t parameter_count;
 ///     template <class T> static T energy(const T& x, std::span<const T> p);     // the formula
 ///     static void respond(std::span<const double> p, const ResponseBatch&);      // optional: by hand, for speed
 ///
-/// Without `respond` the derivatives come from the formula by automatic differentiation (autodiff.hpp); with it,
-/// the tests hold the two against each other.
+/// Without `respond`, derivatives come from the formula by automatic differentiation (autodiff.hpp). With it, compare
+/// the two in a test. All functions are thread-safe; overflow yields inf.
 namespace tunica::laws {
 
 /// ψ = (a/2) x: a neo-Hookean matrix with x = I1 − 3 and shear modulus a = μ.
@@ -43,7 +45,7 @@ struct Linear {
 struct Exponential {
   static constexpr std::size_t parameter_count = 2;  ///< k1 in kPa, k2
 
-  /// ψ for any scalar type; 0/0 at k2 = 0, which respond() takes in its stride.
+  /// ψ for any scalar type; 0/0 at k2 = 0, where respond() has the limit.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
     using std::exp;

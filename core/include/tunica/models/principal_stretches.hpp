@@ -14,7 +14,7 @@
 #include "tunica/model.hpp"
 #include "tunica/models/autodiff.hpp"
 
-/// What PrincipalStretches needs of tensors.
+/// Tensors for PrincipalStretches.
 namespace tunica::principal_stretches {
 
 using Tensor = std::array<double, 6>;  ///< tt, zz, rr, tz, zr, tr
@@ -55,8 +55,9 @@ struct Spectrum {
 
 namespace tunica {
 
-/// A model whose energy is a sum over the principal stretches, W(C; p) = Σ_a w(λ_a; p) (Valanis, Landel 1967), from
-/// its one function w. A model plugin is a parameter table and a law (laws.hpp) with x = λ:
+/// A model whose energy is a sum over the principal stretches, W(C; p) = Σ_a w(λ_a; p) (Valanis, Landel 1967).
+///
+/// A plugin is a parameter table and one law (laws.hpp) with x = λ:
 ///
 ///     PrincipalStretches<laws::Ogden<3>>(description)
 ///
@@ -66,12 +67,14 @@ namespace tunica {
 ///     2 ∂S/∂C = 4 Σ_ab f[c_a, c_b] sym(n_a⊗n_b) ⊗ sym(n_a⊗n_b)
 ///
 /// with the divided difference f[x, y] = (f(y) − f(x))/(y − x), f[x, x] = f'(x) (Daletskii, Krein 1951; Ogden 1984,
-/// Non-Linear Elastic Deformations, §6.1.4). No limit has to be told apart: where two stretches come together, f[x, y]
-/// is taken as the mean of f' between them, which is what it is, without the cancellation.
+/// Non-Linear Elastic Deformations, §6.1.4). Where two stretches come together, the quotient would cancel. There f[x,
+/// y] is the mean of f' between them, which is the same number.
+///
+/// Threads and failure: as Model. Mechanisms cannot change this energy, because it has no parts.
 template <class Law>
 class PrincipalStretches : public Model {
  public:
-  /// `description.principal_axes` is set here; the parameters are those of the law.
+  /// Sets `description.principal_axes`. The parameters are those of the law, in its order.
   explicit PrincipalStretches(ModelDescription description) : description_(std::move(description)) {
     description_.principal_axes = true;
   }

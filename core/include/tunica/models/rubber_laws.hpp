@@ -8,7 +8,7 @@
 
 #include "tunica/models/laws.hpp"
 
-/// Responses of rubber; what a law is: laws.hpp.
+/// Responses of rubber. laws.hpp defines what a law is.
 namespace tunica::laws {
 
 /// ψ = c x: a term of Mooney's energy, x = I1 − 3 or I2 − 3 (Mooney 1940; Rivlin 1948).
@@ -33,9 +33,9 @@ struct Cubic {
   }
 };
 
-/// ψ = −(μ Jm/2) ln(1 − x/Jm), x = I1 − 3 (Gent 1996). From x = Jm on, where the chains are at their full
-/// length, there is no energy: every number is infinite. Automatic differentiation would go on beyond the limit, where
-/// ln is not a number but its derivative is an ordinary one; hence by hand.
+/// ψ = −(μ Jm/2) ln(1 − x/Jm), x = I1 − 3 (Gent 1996). At x = Jm the chains reach their full length; from there on
+/// every number is infinite. Derivatives are by hand: beyond the limit ln is not a number, but its derivative would be
+/// one.
 struct Gent {
   static constexpr std::size_t parameter_count = 2;  ///< μ in kPa, Jm
 

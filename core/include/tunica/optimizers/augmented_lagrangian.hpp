@@ -10,19 +10,19 @@
 
 namespace tunica {
 
-/// A constrained problem as an unconstrained one, for optimisers that know bounds alone:
+/// A constrained problem as an unconstrained one, for optimizers that handle bounds alone:
 ///
 ///     L(x) = f(x) + (ρ/2) Σ max(0, c_i(x) + λ_i/ρ)²,
 ///
 /// the augmented Lagrangian of Powell, Hestenes and Rockafellar without its constant. The penalty is one more residual
 /// block, √(ρ/2) max(0, c + λ/ρ), so that least-squares methods see it and its Jacobian.
 ///
-/// A search is a sequence of minimisations of L from point(), with update() in between, until update() says so. The
-/// constraints are tightened by half of Problem::constraint_tolerance, so that the end is feasible and not on the edge.
-/// While nothing is evaluated, ρ is unset; the first evaluation makes penalty and objective comparable.
+/// Use: minimise L from point(), call update(), and repeat while it returns Progress::going_on. Constraints are
+/// tightened by half of Problem::constraint_tolerance, so that the end is feasible and not on the edge. The first
+/// evaluation sets ρ, so that penalty and objective are comparable.
 ///
-/// Every point that can be evaluated is `ok` here, feasible or not; best() knows the difference. Not thread-safe, as
-/// every Problem. Costs one constraints() an evaluation. The problem must outlive it.
+/// Status: every point that can be evaluated is `ok` here, feasible or not; best() knows the difference. Threads: not
+/// thread-safe, as every Problem. Cost: one constraints() an evaluation. Ownership: the problem must outlive it.
 ///
 /// Source: E. G. Birgin, J. M. Martínez, Practical Augmented Lagrangian Methods for Constrained Optimization, SIAM
 /// (2014), algorithm 4.1 and section 12.4; J. Nocedal, S. J. Wright, Numerical Optimization (2006), chapter 17.
