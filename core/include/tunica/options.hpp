@@ -67,14 +67,19 @@ struct Option {
   static Option integer(std::string name, std::int64_t fallback, Range range, std::string doc) {
     return {std::move(name), Kind::integer, fallback, std::move(doc), {}, range.least, range.largest};
   }
-  /// A number without a unit, with a default.
+  /// A number without a unit, with a default. Read it with Options::number().
   static Option number(std::string name, double fallback, Range range, std::string doc) {
     return {std::move(name), Kind::number, fallback, std::move(doc), {}, range.least, range.largest};
   }
-  /// A number with a unit that the user must give. The file may say "25 mm" or "1 in"; the plugin reads base units.
-  /// The value is `least` or more.
-  static Option quantity(std::string name, std::string unit, double least, std::string doc) {
-    return {std::move(name), Kind::quantity, {}, std::move(doc), std::move(unit), least};
+  /// A number with a unit, `least` or more; without a default the user must give one.
+  ///
+  /// The file may say "25 mm" or "1 in". Options::number() returns the value in the base unit `unit`, and `least` and
+  /// `fallback` are in it as well.
+  static Option quantity(std::string name, std::string unit, double least, std::string doc,
+                         std::optional<double> fallback = {}) {
+    Option option{std::move(name), Kind::quantity, {}, std::move(doc), std::move(unit), least};
+    if (fallback) option.fallback = *fallback;
+    return option;
   }
   /// One of several words. Without a default the user must choose. Read it with Options::text(), and compare it with
   /// the same words: no other word arrives.

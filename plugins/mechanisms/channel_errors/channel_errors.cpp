@@ -39,8 +39,7 @@ MechanismFactory described(std::string id, std::vector<std::string> tests, Param
           .plausible_max = plausible,
           .look_alikes = std::move(texts.look_alikes),
           .isolated_by = std::move(texts.isolated_by),
-          .reference = std::move(texts.reference),
-          .options = {}};
+          .reference = std::move(texts.reference)};
 }
 
 /// Misreads those of the channels that the test has.

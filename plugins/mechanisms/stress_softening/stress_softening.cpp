@@ -119,7 +119,6 @@ MechanismFactory factory() {
       .id = "stress_softening",
       .cause = "The tissue is softer where it has been loaded further before: it unloads along another curve.",
       .stage = tunica::Stage::history,
-      .applies_to = {},
       .parameters = own_parameters(),
       .null = 0,
       .side = MechanismFactory::Side::positive,
@@ -128,7 +127,6 @@ MechanismFactory factory() {
       .look_alikes = {"viscoelasticity", "signal_drift"},
       .isolated_by = "a second loading to the same stretch, and one beyond it",
       .reference = "Ogden, Roxburgh, Proc. R. Soc. A 455:2861 (1999)",
-      .options = {},
       .scan = {{{"m", 0.1}}, {{"m", 0.5}}, {{"m", 2}}}};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     return std::make_unique<SoftenedModel>(std::move(base));

@@ -118,7 +118,6 @@ MechanismFactory factory() {
       .id = "viscoelasticity",
       .cause = "Part of the stress relaxes with time: the tissue was pulled faster than it comes to equilibrium.",
       .stage = tunica::Stage::history,
-      .applies_to = {},
       .parameters = own_parameters(),
       .null = 0,
       .side = MechanismFactory::Side::positive,
@@ -128,8 +127,7 @@ MechanismFactory factory() {
       .isolated_by = "a hold at constant stretch, or a second rate",
       .reference =
           "Simo, Comput. Methods Appl. Mech. Eng. 60:153 (1987); Holzapfel, Nonlinear Solid Mechanics (2000), "
-          "section 6.10",
-      .options = {}};
+          "section 6.10"};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     return std::make_unique<ViscoelasticModel>(std::move(base));
   };

@@ -190,54 +190,27 @@ class FePressurisation final : public Test {
 std::vector<Option> options() {
   std::vector<Option> all = tube_options();
   const std::vector<Option> own = {
-      {.name = "length",
-       .kind = Option::Kind::quantity,
-       .fallback = {},
-       .doc = "Unloaded length between the ends.",
-       .unit = "mm",
-       .min = 0.0},
-      {.name = "ends",
-       .kind = Option::Kind::choice,
-       .fallback = std::string("clamped"),
-       .doc =
-           "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
-           "not at all (sliding: then the tube is a long one, until it bulges or buckles).",
-       .choices = {"clamped", "clamped_after_stretch", "sliding"}},
-      {.name = "element",
-       .kind = Option::Kind::choice,
-       .fallback = std::string("quadrilateral_4"),
-       .doc = "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure.",
-       .choices = {"quadrilateral_4", "quadrilateral_9"}},
+      Option::quantity("length", "mm", 0.0, "Unloaded length between the ends."),
+      Option::choice(
+          "ends", {"clamped", "clamped_after_stretch", "sliding"}, "clamped",
+          "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
+          "not at all (sliding: then the tube is a long one, until it bulges or buckles)."),
+      Option::choice("element", {"quadrilateral_4", "quadrilateral_9"}, "quadrilateral_4",
+                     "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure."),
       {.name = "elements",
        .kind = Option::Kind::json,
        .fallback = std::string("null"),
        .doc = "Numbers of elements, [radial, axial over half the length]; null means [25, 100], or [12, 25] of nine "
               "nodes."},
-      {.name = "grading",
-       .kind = Option::Kind::number,
-       .fallback = 1.5,
-       .doc = "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "
-              "length.",
-       .min = 1.0,
-       .max = 4.0},
-      {.name = "tolerance",
-       .kind = Option::Kind::number,
-       .fallback = 1e-6,
-       .doc = "Of the curve between the pressures that are solved, over the outer radius and the largest force.",
-       .min = 1e-10,
-       .max = 1e-2},
-      {.name = "max_steps",
-       .kind = Option::Kind::integer,
-       .fallback = std::int64_t{1000},
-       .doc = "Load steps at most, in one simulation.",
-       .min = 1,
-       .max = 1e6},
-      {.name = "time_limit",
-       .kind = Option::Kind::quantity,
-       .fallback = 60.0,
-       .doc = "A simulation that takes longer fails.",
-       .unit = "s",
-       .min = 0.001}};
+      Option::number(
+          "grading", 1.5, {1.0, 4.0},
+          "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "
+          "length."),
+      Option::number(
+          "tolerance", 1e-6, {1e-10, 1e-2},
+          "Of the curve between the pressures that are solved, over the outer radius and the largest force."),
+      Option::integer("max_steps", 1000, {1, 1e6}, "Load steps at most, in one simulation."),
+      Option::quantity("time_limit", "s", 0.001, "A simulation that takes longer fails.", 60.0)};
   all.insert(all.end(), own.begin(), own.end());
   return all;
 }

@@ -24,8 +24,7 @@ double contract(const Tensor& a, const Tensor& b) {
 /// One row: the model at (λ1, y = ln u) with a fixed old state.
 class Row {
  public:
-  Row(const Strip& strip, const TestInput& input, double misalignment)
-      : input_(input) {
+  Row(const Strip& strip, const TestInput& input, double misalignment) : input_(input) {
     const double c = std::cos(misalignment), s = std::sin(misalignment);
     const std::array<double, 2> along = strip.loaded == 0 ? std::array{c, s} : std::array{s, c};
     const std::array<double, 2> across = strip.loaded == 0 ? std::array{-s, c} : std::array{c, -s};
