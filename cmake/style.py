@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the sources that need no compiler: style.py ROOT lines|licence|format CLANG_FORMAT."""
+"""Checks of the sources that need no compiler: style.py ROOT lines|licence|comments|format CLANG_FORMAT."""
 import pathlib
 import subprocess
 import sys
@@ -8,6 +8,7 @@ import sys
 CODE = {".cpp", ".hpp"}
 SCRIPTS = {".py", ".cmake", ".sh"}
 LONGEST = 400
+COMMENTS = 40  # per cent of the lines of a public header
 
 
 def sources(root):
@@ -58,6 +59,18 @@ def check_licence(root):
     return problems
 
 
+def check_comments(root):
+    """The contracts of the SDK: lines that are comment, of all that are not blank, without the licence."""
+    problems = []
+    for path in sorted((root / "core/include/tunica").glob("*.hpp")):
+        lines = [line.strip() for line in path.read_text().splitlines()[1:] if line.strip()]
+        share = 100 * sum(line.startswith("//") for line in lines) / len(lines)
+        if share < COMMENTS:
+            problems.append(f"{path.relative_to(root)}: {share:.0f} % of the lines are comment, expected at least "
+                            f"{COMMENTS} %; say what an author of plugins asks: shapes, units, failure, threads, source")
+    return problems
+
+
 def check_format(root, clang_format):
     files = [str(path) for path in sources(root) if path.suffix in CODE]
     result = subprocess.run([clang_format, "--dry-run", "-Werror", *files], capture_output=True, text=True)
@@ -69,7 +82,7 @@ def check_format(root, clang_format):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    checks = {"lines": check_lines, "licence": check_licence}
+    checks = {"lines": check_lines, "licence": check_licence, "comments": check_comments}
     check = sys.argv[2]
     problems = check_format(root, sys.argv[3]) if check == "format" else checks[check](root)
     for problem in problems:
