@@ -34,8 +34,9 @@ struct Summarised {
     result.best.parameters = at;
     result.best.index = 10 * number;
     std::vector<double> per_test(1);
-    auto workspace = plan->runs[0].assembly->make_workspace();
-    static_cast<void>(plan->runs[0].assembly->evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
+    auto workspace = plan->runs[0].assembly->evaluator().make_workspace();
+    static_cast<void>(
+        plan->runs[0].assembly->evaluator().evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
     result.trace = {{2, 1e6}, {result.best.index + 1, result.best.objective}};
     result.tally = {100, 20, 4, 0, "row 2: overflow"};
     result.seconds = 0.5;

@@ -22,13 +22,13 @@ std::string fresh_words(const Certificate& certificate) {
   if (fresh.around.status.kind() == Status::Kind::failed)
     return fmt::format("it FAILED in a fresh process: {}", fresh.around.status.reason());
   if (fresh.identical) return "re-evaluated identically in a fresh process";
-  const bool rounding = calibration::same_objective(fresh.around.objective, fresh.around.objective - fresh.difference);
+  const bool rounding = search::same_objective(fresh.around.objective, fresh.around.objective - fresh.difference);
   return fmt::format("re-evaluated in a fresh process, {} by {:.2g}",
                      rounding ? "equal to rounding: the objective differs" : "where THE OBJECTIVE DIFFERS",
                      fresh.difference);
 }
 
-std::string neighbour_words(const calibration::Neighbourhood& around, bool ended_at_target) {
+std::string neighbour_words(const search::Neighbourhood& around, bool ended_at_target) {
   if (!around.lowest) return "no neighbour could be compared";
   if (!around.better) return "no better neighbour";
   const double drop = around.objective - around.lowest->objective;
@@ -50,9 +50,9 @@ std::string spread_words(const Certificate& certificate) {
 
 }  // namespace
 
-void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
+void add_agreement(const assembly::Assembly& assembly, const execution::RunResult& result, double best,
                    std::optional<double> target, Certificate& certificate) {
-  const auto& parameters = assembly.parameters();
+  const auto& parameters = assembly.layout().parameters;
   double threshold = success_threshold({}, best);
   if (target && best <= *target) threshold = std::max(threshold, *target);
   std::vector<double> low, high, unit(parameters.size()), unit_low, unit_high;
@@ -60,7 +60,7 @@ void add_agreement(const calibration::Assembly& assembly, const execution::RunRe
   for (const auto& realisation : result.realisations) {
     if (!realisation.best.feasible() || realisation.best.objective > threshold) continue;
     const auto& values = realisation.best.parameters;
-    assembly.to_unit(values, unit);
+    assembly.box().to_unit(values, unit);
     if (certificate.agreeing++ == 0) low = high = values, unit_low = unit_high = unit;
     for (std::size_t j = 0; j < values.size(); ++j) {
       low[j] = std::min(low[j], values[j]), high[j] = std::max(high[j], values[j]);
@@ -75,7 +75,7 @@ bool alarming(const Certificate& certificate) {
   if (!certificate.fresh) return false;
   const auto& around = certificate.fresh->around;
   if (around.status.kind() == Status::Kind::failed) return true;
-  if (!calibration::same_objective(around.objective, around.objective - certificate.fresh->difference)) return true;
+  if (!search::same_objective(around.objective, around.objective - certificate.fresh->difference)) return true;
   return !certificate.ended_at_target && around.better &&
          around.objective - around.lowest->objective > not_an_optimum * std::abs(around.objective);
 }

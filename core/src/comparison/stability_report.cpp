@@ -113,13 +113,13 @@ std::optional<bool> StabilitySummary::transversely_stable() const {
   return all.transversely_stable();
 }
 
-stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model) {
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model) {
   stability::Domain domain;
-  for (const auto& strip : assembly.strips()) {
+  for (const auto& strip : assembly.models().strips()) {
     if (strip.model != model) continue;
     domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
   }
-  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
+  if (assembly.models().largest_stretch() > 1) domain.largest = assembly.models().largest_stretch();
   return domain;
 }
 
@@ -130,14 +130,15 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     if (!entry.has_result) continue;
     const auto& assembly = *plan.runs[run].assembly;
     StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}};
-    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-      const auto parameters = assembly.model_parameters(m, values_of(entry));
+    for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+      const auto parameters = assembly.models().parameters(m, values_of(entry));
       auto domain = domain_of(assembly, m);
       add_asked(*plan.runs[run].entry, domain);
       domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-      found.models.push_back(
-          {assembly.model_name(m), stability::judge_admissibility(assembly.model(m), parameters, domain), {}});
-      for (const auto& inequality : assembly.model(m).describe().admissible) {
+      found.models.push_back({assembly.models().name(m),
+                              stability::judge_admissibility(assembly.models().model(m), parameters, domain),
+                              {}});
+      for (const auto& inequality : assembly.models().model(m).describe().admissible) {
         const double value = inequality.value(parameters);
         if (value < -1e-9)
           found.models.back().inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));

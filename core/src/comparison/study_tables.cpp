@@ -125,11 +125,9 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
 std::string realisations_csv(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
                              const Summary& summary) {
   std::vector<std::string> columns;
-  const auto column = [](const calibration::FreeParameter& p) {
-    return csv_cell(fmt::format("{} [{}]", p.name, p.unit));
-  };
+  const auto column = [](const assembly::FreeParameter& p) { return csv_cell(fmt::format("{} [{}]", p.name, p.unit)); };
   for (const auto& run : plan.runs)
-    for (const auto& parameter : run.assembly->parameters())
+    for (const auto& parameter : run.assembly->layout().parameters)
       if (std::find(columns.begin(), columns.end(), column(parameter)) == columns.end())
         columns.push_back(column(parameter));
   std::vector<std::string> header{"run", "realisation", "objective"};
@@ -138,7 +136,7 @@ std::string realisations_csv(const execution::Plan& plan, const std::vector<exec
     header.emplace_back(name);
   std::string text = line(header);
   for (std::size_t run = 0; run < plan.runs.size(); ++run) {
-    const auto& parameters = plan.runs[run].assembly->parameters();
+    const auto& parameters = plan.runs[run].assembly->layout().parameters;
     for (const auto& realisation : results[run].realisations) {
       const auto& best = realisation.best;
       std::vector<std::string> cells{csv_cell(summary.runs[run].label), fmt::format("{}", realisation.realisation),

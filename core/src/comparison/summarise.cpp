@@ -37,7 +37,7 @@ bool one_course(const execution::RunResult& result) {
 
 void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::vector<double> objectives;
-  calibration::Tally total;
+  search::Tally total;
   for (const auto& realisation : result.realisations) {
     total.add(realisation.tally);
     summary.seconds += realisation.seconds;
@@ -65,7 +65,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.tests = run.entry->tests;
   summary.group = group_of(*run.entry);
   summary.target = run.entry->stop.target;
-  summary.fixed = run.assembly->fixed_parameters();
+  summary.fixed = run.assembly->layout().fixed_parameters;
   add_counts(result, summary);
   const auto* best = best_of(result);
   const auto* told = best ? best : result.realisations.empty() ? nullptr : &result.realisations.front();
@@ -132,7 +132,7 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   for (const auto& warning : warnings) add(warning);
   for (const auto& warning : plan.warnings) add(warning);
   for (const auto& run : plan.runs)
-    for (const auto& warning : run.assembly->warnings()) add(warning);
+    for (const auto& warning : run.assembly->layout().warnings) add(warning);
   return summary;
 }
 

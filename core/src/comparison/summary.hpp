@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/calibration_problem.hpp"
-#include "calibration/quality.hpp"
+#include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/information.hpp"
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
 #include "execution/results.hpp"
+#include "search/calibration_problem.hpp"
 #include "stability/admissibility.hpp"
 
 namespace tunica::comparison {
@@ -43,7 +43,7 @@ struct Estimate {
 struct Quality {
   std::string test, channel, unit;
   bool held_out = false;
-  calibration::Agreement agreement;
+  assembly::Agreement agreement;
 };
 
 /// Whether the best point behaves as a material, see stability_report.hpp.
@@ -71,7 +71,7 @@ struct RunSummary {
   double objective = 0;  ///< of the best evaluated point
   std::vector<double> per_test;
   std::vector<Estimate> parameters;
-  std::vector<calibration::FixedParameter> fixed;
+  std::vector<assembly::FixedParameter> fixed;
   std::vector<Quality> quality;
   /// Of all predictions of the best point, by Assembly::channels(): half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
@@ -98,9 +98,9 @@ struct RunSummary {
   std::string first_failure;
   std::uint64_t faults = 0;  ///< realisations that ended because the optimiser threw
   std::string first_fault;
-  bool one_course = false;                                ///< all of several realisations improved by the same steps
-  std::vector<calibration::FailureKind> failure_reasons;  ///< most frequent first
-  std::uint64_t given_up = 0;                             ///< realisations that the failure policy ended
+  bool one_course = false;                           ///< all of several realisations improved by the same steps
+  std::vector<search::FailureKind> failure_reasons;  ///< most frequent first
+  std::uint64_t given_up = 0;                        ///< realisations that the failure policy ended
   bool converged = false;  ///< the search that found the best point had, in the optimiser's own word; what ended
                            ///< the whole stands in stop_reason
   std::string reason, stop_reason;

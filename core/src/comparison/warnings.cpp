@@ -133,7 +133,7 @@ std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vec
           fmt::format("{}: max_time is set: where it ends a search the result depends on the speed of the "
                       "machine, and a repetition may differ",
                       runs[run].label));
-    const auto& parameters = plan.runs[run].assembly->parameters();
+    const auto& parameters = plan.runs[run].assembly->layout().parameters;
     const auto priors =
         std::count_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.prior.has_value(); });
     if (priors > 0)

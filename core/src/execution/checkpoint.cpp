@@ -110,7 +110,7 @@ Facts facts_of(const Plan& plan) {
   facts["the experiment file"] = data::sha256(without_analysis(experiment.input_json));
   facts["the seed"] = fmt::format("{}", experiment.seed);
   for (const auto& run : plan.runs) {
-    for (const auto& hash : run.assembly->data_hashes()) {
+    for (const auto& hash : run.assembly->layout().data_hashes) {
       const auto space = hash.rfind(' ');
       auto& known = facts["the data " + hash.substr(0, space)];
       const std::string digest = space == std::string::npos ? hash : hash.substr(space + 1);

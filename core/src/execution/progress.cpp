@@ -26,7 +26,7 @@ std::string rate_text(double rate) {
 
 Meter::Meter() : best(std::numeric_limits<double>::infinity()) {}
 
-void Meter::count(const calibration::Record& record) {
+void Meter::count(const search::Record& record) {
   evaluations.store(record.index + 1, std::memory_order_relaxed);
   if (record.status.ok() && record.objective < best.load(std::memory_order_relaxed))
     best.store(record.objective, std::memory_order_relaxed);

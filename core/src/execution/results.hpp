@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_problem.hpp"
+#include "search/calibration_problem.hpp"
 
 namespace tunica::execution {
 
@@ -22,9 +22,9 @@ constexpr const char* optimizer_failure = "failure of the optimiser";
 struct RealisationResult {
   std::uint64_t realisation = 1;
   bool finished = false;           ///< false: interrupted
-  calibration::Best best;          ///< parameters are empty when no evaluation succeeded
+  search::Best best;               ///< parameters are empty when no evaluation succeeded
   std::vector<Improvement> trace;  ///< every improvement, in order; the convergence of this realisation
-  calibration::Tally tally;
+  search::Tally tally;
   bool converged = false;   ///< the optimiser's own word
   std::string reason;       ///< the optimiser's reason for coming back
   std::string stop_reason;  ///< what of the stop block or the failure policy ended it, or empty

@@ -137,11 +137,11 @@ void Run::run_task(std::size_t task) {
   meter.running = true;
   log_->info("{}, realisation {}: begins", run.label, realisation);
   Surroundings surroundings;
-  surroundings.record = [&](const calibration::Record& record) {
+  surroundings.record = [&](const search::Record& record) {
     journal_->record(task, record);
     meter.count(record);
   };
-  surroundings.replay = [&](std::uint64_t index, calibration::Replayed& entry) {
+  surroundings.replay = [&](std::uint64_t index, search::JournalEntry& entry) {
     return stored_[task].get(index, entry);
   };
   surroundings.interrupted = [this] { return stopping(); };
