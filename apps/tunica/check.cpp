@@ -12,22 +12,23 @@
 #include "calibration/identifiability.hpp"
 #include "check.hpp"
 #include "comparison/ranking.hpp"
-#include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
+#include "text/lists.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
 namespace {
 
-using comparison::columns;
-using comparison::counted;
-using comparison::hanging;
-using comparison::pad;
+using text::columns;
+using text::counted;
+using text::hanging;
+using text::pad;
 
 void print_tests(const calibration::Assembly& assembly) {
   for (const auto& channel : assembly.channels()) {

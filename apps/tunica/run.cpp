@@ -19,7 +19,6 @@
 #include "comparison/stability_report.hpp"
 #include "comparison/study_tables.hpp"
 #include "comparison/summary.hpp"
-#include "comparison/text.hpp"
 #include "comparison/uncertainty.hpp"
 #include "comparison/wall_tables.hpp"
 #include "data/nearest.hpp"
@@ -32,6 +31,8 @@
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "verbs.hpp"
+#include "text/lists.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -149,9 +150,9 @@ int run(const GlobalOptions& global, const RunOptions& options) {
                                         : execution::RunDirectory::create(requested, experiment.name);
   if (!global.quiet)
     fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", directory.path().string(),
-               comparison::counted(plan.runs.size(), "run", "runs"),
-               comparison::counted(plan.tasks.size(), "search", "searches"),
-               comparison::counted(options.threads, "thread", "threads"));
+               text::counted(plan.runs.size(), "run", "runs"),
+               text::counted(plan.tasks.size(), "search", "searches"),
+               text::counted(options.threads, "thread", "threads"));
 
   execution::RunSettings settings;
   settings.directory = directory.path();
@@ -204,7 +205,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
     say_error(fmt::format("no evaluation succeeded; the first reason: {}", summary.runs.front().status.reason()));
   const auto result = directory.path() / "result.json";
   fmt::print("\nReport:  {}\nResults: {}\n{}\n", page.string(), result.string(),
-             comparison::hanging("Next:    ", next_step(summary, options.file, result)));
+             text::hanging("Next:    ", next_step(summary, options.file, result)));
   return code;
 }
 

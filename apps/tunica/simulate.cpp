@@ -10,12 +10,12 @@
 #include "comparison/simulation.hpp"
 #include "comparison/simulation_record.hpp"
 #include "comparison/snapshots.hpp"
-#include "comparison/text.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "verbs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -38,7 +38,7 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   request.seed = options.seed.value_or(experiment.seed);
   request.run = options.run;
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
-  fmt::print(stderr, "{}\n", comparison::hanging("", subject.origin));
+  fmt::print(stderr, "{}\n", text::hanging("", subject.origin));
   for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   const auto tables = comparison::simulate(experiment, session.catalogue(), request, subject);
   std::vector<std::pair<std::string, std::vector<Snapshot>>> fields;

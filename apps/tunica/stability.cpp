@@ -10,7 +10,6 @@
 #include "comparison/stability_map.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/summary.hpp"
-#include "comparison/text.hpp"
 #include "describe.hpp"
 #include "execution/files.hpp"
 #include "execution/run_directory.hpp"
@@ -18,6 +17,7 @@
 #include "messages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -46,11 +46,11 @@ tunica::stability::Domain domain_of(const calibration::Assembly& assembly, std::
 
 void print(const comparison::Subject& subject, const comparison::StabilitySummary& found,
            const std::vector<std::string>& files) {
-  fmt::print("{}\n{}\n", subject.model, comparison::hanging("  ", subject.origin));
+  fmt::print("{}\n{}\n", subject.model, text::hanging("  ", subject.origin));
   for (const auto& [name, verdict, inadmissible] : found.models) {
     if (found.models.size() > 1) fmt::print("  model '{}'\n", name);
     const char* const margin = found.models.size() > 1 ? "    " : "  ";
-    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", comparison::hanging(margin, sentence));
+    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", text::hanging(margin, sentence));
   }
   for (const auto& file : files) fmt::print("{}\n", file);
 }

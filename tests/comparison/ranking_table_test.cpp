@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/ranking_table.hpp"
+#include "text/wrapping.hpp"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "comparison/text.hpp"
 
 using namespace tunica::comparison;
 using ::testing::HasSubstr;

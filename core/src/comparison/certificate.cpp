@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "comparison/statistics.hpp"
-#include "comparison/text.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::comparison {
 
@@ -95,7 +95,7 @@ std::string verdict(const Certificate& certificate) {
                                     certificate.at_bounds.size() == 1 ? "its bound" : "their bounds"));
   if (known && certificate.fresh->around.constraints > 0)
     parts.push_back(fmt::format("{} of {} active", certificate.fresh->around.active_constraints,
-                                counted(certificate.fresh->around.constraints, "constraint", "constraints")));
+                                text::counted(certificate.fresh->around.constraints, "constraint", "constraints")));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 

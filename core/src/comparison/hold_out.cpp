@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/hold_out.hpp"
+#include "text/wrapping.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "comparison/text.hpp"
 
 namespace tunica::comparison {
 
@@ -30,8 +30,8 @@ std::string cell(const Quality& quality) {
 
 std::string line(const std::string& name, const std::string& fitted, const std::string& held_out) {
   std::string text = "  ";
-  if (columns(name) > name_width) text += name + "\n  ";
-  text += pad(columns(name) > name_width ? "" : name, name_width) + pad(fitted + ' ', cell_width) + held_out;
+  if (text::columns(name) > name_width) text += name + "\n  ";
+  text += text::pad(text::columns(name) > name_width ? "" : name, name_width) + text::pad(fitted + ' ', cell_width) + held_out;
   return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
 }
 

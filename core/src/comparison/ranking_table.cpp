@@ -11,8 +11,8 @@
 #include "comparison/hold_out.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
-#include "comparison/text.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::comparison {
 
@@ -23,7 +23,7 @@ std::string unit_text(const std::string& unit) { return unit.empty() || unit == 
 std::string lines(const std::string& title, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return {};
   std::string text = title + '\n';
-  for (const auto& sentence : sentences) text += hanging("  ! ", sentence) + '\n';
+  for (const auto& sentence : sentences) text += text::hanging("  ! ", sentence) + '\n';
   return text + '\n';
 }
 
@@ -77,15 +77,15 @@ std::string row(const Ranked& entry, const RunSummary& run, bool compares_models
   const auto& to_target = run.evaluations_to_target.box;
   const std::size_t width = label_width(compares_models);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
-  if (columns(label) > width) text += execution::shortened(label, 77) + '\n' + std::string(3, ' ');
-  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(label) > width ? "" : label, width),
+  if (text::columns(label) > width) text += text::shortened(label, 77) + '\n' + std::string(3, ' ');
+  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}", text::pad(text::columns(label) > width ? "" : label, width),
                       objective, fmt::format("{}/{}", run.successes, run.realisations),
                       count_text(to_target ? std::optional(to_target->median) : std::nullopt),
                       count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
                       count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
   if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
   text += '\n';
-  if (const std::string reason = flaw(run); !reason.empty()) text += hanging("     ", reason) + '\n';
+  if (const std::string reason = flaw(run); !reason.empty()) text += text::hanging("     ", reason) + '\n';
   return text;
 }
 
@@ -98,17 +98,17 @@ std::string ranking_lines(const Summary& summary) {
     if (run.group != group) {
       group = run.group;
       text += ranked_by_success(summary.runs, group)
-                  ? hanging("Ranking by ", fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
-                  : hanging("Ranking by ", group);
+                  ? text::hanging("Ranking by ", fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
+                  : text::hanging("Ranking by ", group);
       text += '\n';
       text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n",
-                          pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT", "total",
+                          text::pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT", "total",
                           "failed", "sec", compares_models ? "  ΔAICc" : "");
     }
     text += row(entry, run, compares_models, differ_in_constraints(summary));
   }
   return text +
-         hanging("   ",
+         text::hanging("   ",
                  "success: realisations at or below the target, or 0.1 % above the best known; evals: their "
                  "median of evaluations to it; ERT: evaluations spent for one success, failed realisations included; "
                  "total: all evaluations (their Jacobians are in ranking.csv), failed: of these; sec: all realisations "
@@ -163,29 +163,29 @@ std::string run_lines(const RunSummary& run) {
   const std::string how = ending(run);
   std::string text = run.label;
   if (run.realisations > 1) text += fmt::format(", best of {} realisations", run.realisations);
-  text = hanging(text + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n';
-  if (!run.has_result) return text + hanging("  no result: ", run.status.reason()) + '\n';
-  if (!run.certificate.verdict.empty()) text += hanging("  optimum: ", run.certificate.verdict) + '\n';
+  text = text::hanging(text + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n';
+  if (!run.has_result) return text + text::hanging("  no result: ", run.status.reason()) + '\n';
+  if (!run.certificate.verdict.empty()) text += text::hanging("  optimum: ", run.certificate.verdict) + '\n';
   std::size_t width = 8;
-  for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
+  for (const auto& parameter : run.parameters) width = std::max(width, text::columns(parameter.name));
   width = std::min(width, widest_name);
   for (const auto& parameter : run.parameters) {
     const std::string value = value_text(parameter);
-    if (columns(parameter.name) <= width && 2 + width + 2 + columns(value) <= 80)
-      text += fmt::format("  {}  {}\n", pad(parameter.name, width), value);
+    if (text::columns(parameter.name) <= width && 2 + width + 2 + text::columns(value) <= 80)
+      text += fmt::format("  {}  {}\n", text::pad(parameter.name, width), value);
     else
       text += fmt::format("  {}\n    {}\n", parameter.name, value);
     if (const auto other = other_intervals(parameter); !other.empty())
-      text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
+      text += text::hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }
-  if (run.objectives.count > 1) text += hanging("  over realisations: ", spread_text(run)) + '\n';
+  if (run.objectives.count > 1) text += text::hanging("  over realisations: ", spread_text(run)) + '\n';
   const std::string side_by_side = hold_out_table(run.quality);
   text += side_by_side;
   for (const auto& quality : run.quality) {
     if (!side_by_side.empty()) break;
-    text += hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
+    text += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
   }
-  for (const auto& sentence : run.uncertainty) text += hanging("  - ", sentence) + '\n';
+  for (const auto& sentence : run.uncertainty) text += text::hanging("  - ", sentence) + '\n';
   return text;
 }
 
@@ -218,7 +218,7 @@ std::string ranking_table(const Summary& summary) {
   if (const std::string stability = stability_table(summary); !stability.empty()) text += '\n' + stability;
   for (const auto& entry : summary.ranking) text += '\n' + run_lines(summary.runs[entry.run]);
   if (!summary.identifiability.empty()) text += "\nWhat the data fix, and what they do not\n";
-  for (const auto& sentence : summary.identifiability) text += hanging("  ", sentence) + '\n';
+  for (const auto& sentence : summary.identifiability) text += text::hanging("  ", sentence) + '\n';
   return text;
 }
 

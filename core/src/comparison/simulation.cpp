@@ -15,6 +15,7 @@
 #include "data/units.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -155,7 +156,7 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
 
 std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table) {
   std::string text;
-  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + execution::csv_cell(table.headers[c]);
+  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + text::csv_cell(table.headers[c]);
   text += '\n';
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   for (std::size_t row = 0; row < rows; ++row) {

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "comparison/text.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -155,12 +155,12 @@ std::string stability_table(const Summary& summary) {
   std::size_t width = 5;
   bool any = false;
   for (const auto& run : summary.runs)
-    if (run.stability) any = true, width = std::max(width, columns(run.label));
+    if (run.stability) any = true, width = std::max(width, text::columns(run.label));
   if (!any) return {};
   constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
   width = std::min(width, widest_label);
   std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
-  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", pad("run", width), "imposed", "objective",
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", text::pad("run", width), "imposed", "objective",
                       "x free", "stable");
   for (const auto& run : summary.runs) {
     if (!run.stability) continue;
@@ -173,24 +173,24 @@ std::string stability_table(const Summary& summary) {
                                       found.models.size() > 1 ? " (" + model.name + ')' : ""));
     const std::optional<bool> stable = found.transversely_stable();
     std::string label = run.label, imposed = found.imposed.empty() ? "-" : found.imposed;
-    if (columns(label) > width || columns(imposed) > widest_constraint) {
-      const bool with_constraint = columns(imposed) > widest_constraint;
-      text += hanging(fmt::format("  {}{}", execution::shortened(label, 77), with_constraint ? ": " : ""),
+    if (text::columns(label) > width || text::columns(imposed) > widest_constraint) {
+      const bool with_constraint = text::columns(imposed) > widest_constraint;
+      text += text::hanging(fmt::format("  {}{}", text::shortened(label, 77), with_constraint ? ": " : ""),
                       with_constraint ? imposed : "") +
               '\n';
       label.clear();
       if (with_constraint) imposed.clear();
     }
     const std::string row =
-        fmt::format("  {}  {} {:>#12.6g} {:>7}  {:<6}", pad(label, width), pad(imposed, widest_constraint),
+        fmt::format("  {}  {} {:>#12.6g} {:>7}  {:<6}", text::pad(label, width), text::pad(imposed, widest_constraint),
                     run.objective, found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
                     !stable   ? "-"
                     : *stable ? "yes"
                               : "NO");
     // The list is wrapped in its own column, which begins beyond the middle of the line.
-    const std::size_t begins = columns(row) + 1;
+    const std::size_t begins = text::columns(row) + 1;
     const std::string list =
-        hanging("", fmt::format("{}", fmt::join(where, ", ")), 80 - std::min<std::size_t>(begins, 79));
+        text::hanging("", fmt::format("{}", fmt::join(where, ", ")), 80 - std::min<std::size_t>(begins, 79));
     text += row;
     for (std::size_t from = 0; from < list.size();) {
       const std::size_t end = std::min(list.find('\n', from), list.size());
@@ -204,7 +204,7 @@ std::string stability_table(const Summary& summary) {
       runs.begin(), runs.end(), [](const RunSummary& run) { return run.stability && run.stability->ratio_to_free; });
   if (any_ratio)
     text +=
-        hanging("   ", "x free: objective over that of the best run of the same model and tests without constraints") +
+        text::hanging("   ", "x free: objective over that of the best run of the same model and tests without constraints") +
         '\n';
   return text;
 }

@@ -9,6 +9,7 @@
 #include "comparison/stability_report.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -63,7 +64,7 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
     const auto& assembly = *subject.assembly;
     for (std::size_t m = 0; m < assembly.model_count(); ++m) {
       const auto parameters = assembly.model_parameters(m, subject.free);
-      const std::string label = execution::csv_cell(
+      const std::string label = text::csv_cell(
           assembly.model_count() > 1 ? subject.label + ' ' + assembly.model_name(m) : subject.label);
       for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
         append_strip(strips, label, assembly.model(m), parameters, axis, subject.limit);

@@ -13,12 +13,13 @@
 #include "comparison/success.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
-using execution::csv_cell;
+using text::csv_cell;
 
 template <class Number>
 std::string cell(const std::optional<Number>& number) {
