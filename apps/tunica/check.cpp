@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,9 +19,11 @@
 #include "describe.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
-#include "verbs.hpp"
 #include "text/lists.hpp"
+#include "text/styled.hpp"
+#include "text/units.hpp"
 #include "text/wrapping.hpp"
+#include "verbs.hpp"
 
 namespace tunica::app {
 
@@ -38,9 +42,8 @@ void print_tests(const calibration::Assembly& assembly) {
     std::string text = fmt::format("{} rows", channel.count);
     if (held_out > 0) text += fmt::format(" ({} held out)", held_out);
     if (channel.count > 0)
-      text += fmt::format(", {:.4g} … {:.4g}{} over {} {:.4g} … {:.4g}{}", *low, *high,
-                          channel.unit == "1" ? "" : " " + channel.unit, channel.abscissa_name, *first, *last,
-                          channel.abscissa_unit == "1" ? "" : ' ' + channel.abscissa_unit);
+      text += fmt::format(", {:.4g} … {:.4g}{} over {} {:.4g} … {:.4g}{}", *low, *high, text::unit_suffix(channel.unit),
+                          channel.abscissa_name, *first, *last, text::unit_suffix(channel.abscissa_unit));
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
                           : std::string(", noise estimated");
@@ -92,13 +95,13 @@ bool agrees(const Agreement& one) { return one.difference <= one.expected; }
 /// What the tests find of themselves by other means.
 void print_agreement(const InitialPoint::OtherMeans& other) {
   for (const auto& one : other.found)
-    fmt::print("{}\n", hanging(fmt::format("  {} against ", other.test),
-                               fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference,
-                                           one.unit == "1" ? "" : ' ' + one.unit,
-                                           agrees(one) ? ""
-                                                       : fmt::format("; NOT MORE THAN {:.2g} WAS EXPECTED: take a "
-                                                                     "finer mesh, or do not trust this simulation",
-                                                                     one.expected))));
+    fmt::print("{}\n",
+               hanging(fmt::format("  {} against ", other.test),
+                       fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference, text::unit_suffix(one.unit),
+                                   agrees(one) ? ""
+                                               : fmt::format("; NOT MORE THAN {:.2g} WAS EXPECTED: take a "
+                                                             "finer mesh, or do not trust this simulation",
+                                                             one.expected))));
   if (!other.status.ok())
     fmt::print("{}\n", hanging(fmt::format("  {}: ", other.test),
                                "could not be checked by other means: " + other.status.reason()));
@@ -135,8 +138,11 @@ Checked examine(const experiment::Experiment& experiment, const execution::Plan&
   auto& warnings = checked.warnings;
   std::set<std::string> posed;
   for (const auto& run : plan.runs) {
-    for (const auto& warning : run.assembly->warnings())
-      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+    for (const auto& sentence : run.assembly->warnings()) {
+      const auto same = [&](const auto& warning) { return warning.sentence == sentence; };
+      if (std::none_of(warnings.begin(), warnings.end(), same))
+        warnings.push_back({execution::WarningKind::set_up, sentence});
+    }
     std::string problem =
         fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
@@ -150,7 +156,7 @@ void print(const Checked& checked, const std::string& file) {
   fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
              counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
              counted(experiment.runs.size(), "run", "runs"), experiment.seed);
-  for (const auto& warning : warnings) fmt::print("{}\n", hanging("  ! ", warning));
+  for (const auto& warning : warnings) fmt::print("{}", text::caution_line(warning.text()).shown_on(STDOUT_FILENO));
   fmt::print("\n");
   for (const auto& run : plan.runs)
     fmt::print("{}: {} of at most {} evaluations\n", run.label,

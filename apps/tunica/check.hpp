@@ -42,7 +42,7 @@ struct CheckedProblem {
 struct Checked {
   const experiment::Experiment& experiment;
   const execution::Plan& plan;
-  std::vector<std::string> warnings;
+  std::vector<execution::Warning> warnings;
   std::vector<CheckedProblem> problems;
 
   [[nodiscard]] bool good() const;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "check.hpp"
+#include "comparison/result_json.hpp"
 
 namespace tunica::app {
 
@@ -81,8 +82,14 @@ json initial_json(const CheckedProblem& problem) {
 }  // namespace
 
 json check_json(const Checked& checked) {
-  json document = {{"name", checked.experiment.name}, {"in_order", checked.good()}, {"seed", checked.experiment.seed},
-                   {"warnings", checked.warnings},    {"runs", json::array()},      {"problems", json::array()}};
+  json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
+                   {"seed", checked.experiment.seed},  {"warnings", json::array()},
+                   {"warning_details", json::array()}, {"runs", json::array()},
+                   {"problems", json::array()}};
+  for (const auto& warning : checked.warnings) {
+    document["warnings"].push_back(warning.text());
+    document["warning_details"].push_back(comparison::warning_json(warning));
+  }
   for (const auto& run : checked.plan.runs)
     document["runs"].push_back({{"label", run.label},
                                 {"realisations", run.entry->realisations},

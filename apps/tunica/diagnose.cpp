@@ -23,15 +23,15 @@
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "text/terminal.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"
-#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -115,7 +115,7 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   for (const std::string& warning : found.warnings) fmt::print("{}\n", text::hanging("warning: ", warning));
   if (!found.warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", highlighted(diagnosis::summary(found)), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
              (directory.path() / "result.json").string());
   if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;

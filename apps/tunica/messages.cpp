@@ -18,7 +18,7 @@ namespace tunica::app {
 
 namespace {
 
-constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *bold = "\033[1m", *plain = "\033[0m";
+constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *plain = "\033[0m";
 
 void say(const char* word, const char* colour, const std::string& text) {
   const bool colours = text::Terminal::of(STDERR_FILENO).colours;
@@ -103,23 +103,6 @@ void say_warning(const std::string& text) { say("warning", yellow, text); }
 void say_wrapped_warning(const std::string& text) {
   const std::string lead(std::string_view("warning: ").size(), ' ');
   say_warning(text::hanging(lead, text).substr(lead.size()));
-}
-
-std::string highlighted(const std::string& text) {
-  if (!text::Terminal::of(STDOUT_FILENO).colours) return text;
-  std::string result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t bound = line.find("<- AT ITS ");
-    if (line == "WARNINGS" || line.starts_with("Verdict: "))
-      line = bold + line + plain;
-    else if (line.starts_with("  ! "))
-      line = fmt::format("  {}!{} {}", yellow, plain, line.substr(4));
-    else if (bound != std::string::npos)
-      line = line.substr(0, bound) + yellow + line.substr(bound) + plain;
-    result += line + '\n';
-  }
-  return result;
 }
 
 std::shared_ptr<CLI::FormatterBase> help_format() { return std::make_shared<Wrapped>(); }

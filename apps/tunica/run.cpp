@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,9 +31,9 @@
 #include "fresh_process.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
-#include "verbs.hpp"
 #include "text/lists.hpp"
 #include "text/wrapping.hpp"
+#include "verbs.hpp"
 
 namespace tunica::app {
 
@@ -150,8 +151,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
                                         : execution::RunDirectory::create(requested, experiment.name);
   if (!global.quiet)
     fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", directory.path().string(),
-               text::counted(plan.runs.size(), "run", "runs"),
-               text::counted(plan.tasks.size(), "search", "searches"),
+               text::counted(plan.runs.size(), "run", "runs"), text::counted(plan.tasks.size(), "search", "searches"),
                text::counted(options.threads, "thread", "threads"));
 
   execution::RunSettings settings;
@@ -199,7 +199,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
   execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
   const auto page = report::write_report(directory.path());
   fmt::print("{}, seed {}, tunica {}\n\n{}", data::excerpt(summary.name), experiment.seed, provenance.version,
-             highlighted(comparison::ranking_table(summary)));
+             comparison::ranking_table(summary).shown_on(STDOUT_FILENO));
   const auto code = judge(summary);
   if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
     say_error(fmt::format("no evaluation succeeded; the first reason: {}", summary.runs.front().status.reason()));

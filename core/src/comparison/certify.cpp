@@ -94,7 +94,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
             fmt::format("{}: the best point cannot be evaluated: {}", planned.label, around.status.reason()));
       else if (contradictions && !calibration::same_objective(now, recorded))
         contradictions->push_back(
-            fmt::format("{}: NOT CONFIRMED: result.json records the objective {}, evaluated again it "
+            fmt::format("{}: not confirmed: result.json records the objective {}, but evaluated again it "
                         "is {}",
                         planned.label, recorded, now));
       runs.push_back(std::move(entry));
@@ -121,8 +121,8 @@ void add_certificates(const std::string& certified, const std::string& missing, 
         certificate.missing = problem.what();
       }
     }
-    certificate.verdict = verdict(certificate);
-    if (alarming(certificate)) summary.warnings.push_back(fmt::format("{}: {}", run.label, certificate.verdict));
+    judge(certificate);
+    if (auto warning = certificate_warning(run.label, certificate)) summary.warnings.push_back(std::move(*warning));
   }
 }
 

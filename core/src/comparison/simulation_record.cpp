@@ -18,6 +18,7 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
     parameters[free[j].name] = {{"value", subject.free[j]}, {"unit", free[j].unit}};
   for (const auto& parameter : subject.assembly->fixed_parameters())
     parameters[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
+  record["source"] = subject.source;
   record["origin"] = subject.origin;
   record["noise"] = request.noise;
   record["seed"] = request.seed;

@@ -14,6 +14,7 @@
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
 #include "execution/results.hpp"
+#include "execution/warning.hpp"
 #include "stability/admissibility.hpp"
 
 namespace tunica::comparison {
@@ -64,6 +65,7 @@ struct StabilitySummary {
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
+  std::string objective_type;         ///< "least_squares"
   std::string group;                  ///< runs of one group have the same objective on the same tests and can be ranked
   bool has_result = false;            ///< some evaluation succeeded
   std::optional<double> target = {};  ///< of the objective, where the run has one
@@ -118,13 +120,13 @@ struct Summary {
   std::string name;
   std::vector<RunSummary> runs;
   std::vector<Ranked> ranking;  ///< group after group; runs without a result last in theirs, never left out
-  std::vector<std::string> warnings;
+  std::vector<execution::Warning> warnings;
   std::vector<std::string> identifiability;
 };
 
-/// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `warnings` come
-/// from outside (refused plugins) and go before those of the plan and the data.
+/// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `refusals`: why
+/// plugins were refused; they go before the warnings of the plan and the data.
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  const std::vector<std::string>& warnings);
+                  const std::vector<std::string>& refusals);
 
 }  // namespace tunica::comparison

@@ -103,7 +103,7 @@ void Run::open() {
     log_->info("experiment '{}', seed {}, {} threads", plan_.experiment->name, plan_.experiment->seed,
                settings_.threads);
   }
-  for (const auto& warning : plan_.warnings) log_->warn("{}", warning);
+  for (const auto& warning : plan_.warnings) log_->warn("{}", warning.text());
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
   for (const auto& [task, entry] : finished_) {
     const auto& result = results_[task];

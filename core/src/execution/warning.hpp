@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "text/codes.hpp"
 
@@ -68,13 +69,15 @@ inline constexpr text::Codes<WarningKind, 27> warning_codes{
      {WarningKind::plugin_refused, "plugin_refused"},
      {WarningKind::set_up, "set_up"}}};
 
+static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());
+
 std::string_view code(WarningKind kind);
 
 struct Warning {
   WarningKind kind;
-  std::string sentence;      ///< without the run
-  std::string run = {};      ///< its label; empty = of the whole experiment
-  std::string subject = {};  ///< parameter, model, channel, test or plugin; empty = of the whole run
+  std::string sentence;                    ///< without the run
+  std::string run = {};                    ///< its label; empty = of the whole experiment
+  std::vector<std::string> subjects = {};  ///< parameters, models, channels, tests; empty = the whole run
 
   /// "gho/es: mu lies at …".
   [[nodiscard]] std::string text() const;

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "report/diagnosis_pieces.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -95,7 +97,7 @@ void add_shifts(Page& page, const Json& diagnosis) {
   for (const Json& cause : list(diagnosis, "causes"))
     for (const Json& shift : list(cause, "parameter_shifts")) {
       const double before = number(shift, "without"), after = number(shift, "with");
-      std::vector<Cell> cells{{titled(word(shift, "parameter"), word(shift, "unit"))},
+      std::vector<Cell> cells{{text::titled(word(shift, "parameter"), word(shift, "unit"))},
                               {figure(before), true},
                               {figure(after), true},
                               {change_words(before, after), true}};
@@ -111,7 +113,7 @@ void add_shifts(Page& page, const Json& diagnosis) {
   if (shifts.empty()) return;
   std::vector<std::vector<Cell>> rows;
   for (const Shift& one : shifts) {
-    auto& row = rows.emplace_back(std::vector<Cell>{{joined(one.causes)}});
+    auto& row = rows.emplace_back(std::vector<Cell>{{text::joined(one.causes)}});
     row.insert(row.end(), one.cells.begin(), one.cells.end());
   }
   page.heading("How the parameters shift");

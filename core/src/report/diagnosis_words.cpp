@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/diagnosis_pieces.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
@@ -21,18 +22,18 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
 
 std::string verdict_words(const Json& diagnosis) {
   const std::string verdict = word(diagnosis, "verdict");
-  const std::string reasons = joined(words(list(diagnosis, "reasons")));
+  const std::string reasons = text::joined(words(list(diagnosis, "reasons")));
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
-    return fmt::format("Named: the misfit is consistent with {}.", joined(named_causes(diagnosis)));
+    return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));
   const bool unlisted = member(diagnosis, "unlisted") == true;
   if (verdict == "indistinguishable" && unlisted && list(diagnosis, "explanations").size() < 2)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
-                       joined(named_causes(diagnosis)), reasons);
+                       text::joined(named_causes(diagnosis)), reasons);
   if (verdict == "indistinguishable") {
     const char* const said = list(diagnosis, "explanations").empty() ? "ambiguity_set" : "explanations";
     return fmt::format("Indistinguishable: {} explain the misfit about as well as each other{}.",
-                       joined(words(list(diagnosis, said))),
+                       text::joined(words(list(diagnosis, said))),
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
@@ -64,7 +65,7 @@ std::string fitted_words(const Json& result, const Json& diagnosis) {
   if (values.empty()) return "";
   const double rows = number(base, "rows"), squares = number(base, "squares");
   return fmt::format("{} to {}, {} values, seed {}: {}. Root mean square of residual over noise: {}.",
-                     word(base, "model"), tests.empty() ? "the data" : joined(tests), figure(rows),
+                     word(base, "model"), tests.empty() ? "the data" : text::joined(tests), figure(rows),
                      figure(number(member(result, "provenance"), "seed")), fmt::join(values, ", "),
                      figure(std::sqrt(squares / rows)));
 }
@@ -85,7 +86,7 @@ std::string gain_words(const Json& diagnosis) {
   for (const Json& block : blocks)
     if (number(block, "after") >= near && number(block, "p_value") < contradicts)
       missed.push_back(fmt::format("{} ({} σ)", word(block, "block"), figure(number(block, "after"))));
-  if (!missed.empty()) text += "; not predicted: " + joined(missed);
+  if (!missed.empty()) text += "; not predicted: " + text::joined(missed);
   return text + '.';
 }
 
@@ -96,7 +97,7 @@ std::vector<std::string> next_words(const Json& diagnosis) {
   if (std::string text = word(next, "description"); !text.empty()) {
     if (const double repeats = number(next, "repeats"); repeats > 1)
       text += fmt::format(" Repeats: {}.", figure(repeats));
-    lines.push_back(capitalised(std::move(text)));
+    lines.push_back(text::capitalised(std::move(text)));
   }
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
     lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
@@ -112,7 +113,7 @@ std::string place_words(const Json& target) {
   if (!target.is_object()) return "";
   std::vector<std::string> tests = words(list(target, "tests"));
   if (tests.empty() && !word(target, "test").empty()) tests.push_back(word(target, "test"));
-  std::string text = tests.empty() ? "" : " in " + joined(tests);
+  std::string text = tests.empty() ? "" : " in " + text::joined(tests);
   if (const std::string model = word(target, "model"); !model.empty()) text += " in " + model;
   if (const std::string channel = word(target, "channel"); !channel.empty()) text += ", " + channel;
   if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row);
