@@ -31,10 +31,11 @@ bool already_there(const std::vector<experiment::MechanismEntry>& entries, const
   return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
 }
 
-class Search {
+class CandidateSearch {
  public:
-  Search(const Experiment& experiment, const RunEntry& run, const calibration::Assembly& base,
-         std::span<const double> fitted, const Projection& projection, const plugins::Catalogue& catalogue, bool quick)
+  CandidateSearch(const Experiment& experiment, const RunEntry& run, const calibration::Assembly& base,
+                  std::span<const double> fitted, const Projection& projection, const plugins::Catalogue& catalogue,
+                  bool quick)
       : experiment_(experiment),
         run_(run),
         base_(base),
@@ -226,7 +227,7 @@ class Search {
 std::vector<Candidate> candidates(const Experiment& experiment, const RunEntry& run, const Settings& settings,
                                   const calibration::Assembly& base, std::span<const double> fitted,
                                   const Projection& projection, const plugins::Catalogue& catalogue) {
-  const Search search(experiment, run, base, fitted, projection, catalogue, settings.quick);
+  const CandidateSearch search(experiment, run, base, fitted, projection, catalogue, settings.quick);
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : catalogue.mechanisms())
     if (settings.mechanisms.empty() ||

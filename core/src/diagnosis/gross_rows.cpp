@@ -31,7 +31,7 @@ std::string words(const std::vector<GrossRow>& rows) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
-std::string with_unit(double value, const std::string& unit) {
+std::string quantity(double value, const std::string& unit) {
   return unit == "1" || unit.empty() ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
 }
 
@@ -39,8 +39,8 @@ std::string with_unit(double value, const std::string& unit) {
 std::string where(const Diagnosis& d, const Curve& curve, std::size_t row) {
   for (const calibration::ChannelView& view : d.base->channels())
     if (view.test == curve.test && view.observable == curve.channel)
-      return fmt::format("{} {}, measured {}", view.abscissa_name, with_unit(view.abscissa[row], view.abscissa_unit),
-                         with_unit(view.measured[row], view.unit));
+      return fmt::format("{} {}, measured {}", view.abscissa_name, quantity(view.abscissa[row], view.abscissa_unit),
+                         quantity(view.measured[row], view.unit));
   return {};
 }
 

@@ -10,7 +10,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t searched_again = 6;  ///< of the likeliest, without each of their members
+constexpr std::size_t groups_searched_again = 6;  ///< of the likeliest, without each of their members
 
 }  // namespace
 
@@ -42,7 +42,7 @@ std::vector<Group> GroupFits::refitted(std::vector<Group> groups) const {
   sort_by_weight(groups);
   std::vector<char> needed(groups.size(), 0);
   tbb::parallel_for(std::size_t{0}, groups.size(),
-                    [&](std::size_t g) { needed[g] = all_needed(groups[g], g < searched_again); });
+                    [&](std::size_t g) { needed[g] = all_needed(groups[g], g < groups_searched_again); });
   std::vector<Group> kept;
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (needed[g]) kept.push_back(std::move(groups[g]));

@@ -21,13 +21,13 @@ constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitud
 constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
 constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
 constexpr std::size_t triples_tried = 6;
-constexpr double short_of = 3;  ///< of ln w: what a score may underrate a refit by
-constexpr double alike = 0.02;  ///< 1 − c² below which two are one
+constexpr double short_of = 3;             ///< of ln w: what a score may underrate a refit by
+constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
 
-class Search {
+class GroupSearch {
  public:
-  Search(const Diagnosis& d, const Detection& detection, std::span<const Single> singles,
-         const plugins::Catalogue& catalogue)
+  GroupSearch(const Diagnosis& d, const Detection& detection, std::span<const Single> singles,
+              const plugins::Catalogue& catalogue)
       : d_(d), singles_(singles), catalogue_(catalogue), fits_(d, detection, singles, catalogue) {}
 
   std::vector<Group> pairs(double floor) {
@@ -157,7 +157,7 @@ class Search {
     const Direction &a = d_.directions[i], &b = d_.directions[j];
     if (a.candidate == b.candidate) return std::nullopt;
     const double c = a.unit.dot(b.unit), ta = -a.unit.dot(d_.fit.residuals), tb = -b.unit.dot(d_.fit.residuals);
-    if (1 - c * c < alike) return std::nullopt;
+    if (1 - c * c < one_and_the_same) return std::nullopt;
     const double xa = (ta - c * tb) / (1 - c * c), xb = (tb - c * ta) / (1 - c * c);
     if ((a.side != Side::both && xa <= 0) || (b.side != Side::both && xb <= 0)) return std::nullopt;
     return Group{{i, j},
@@ -184,12 +184,12 @@ double log_odds_of_pair(std::size_t candidates) {
 
 std::vector<Group> fit_pairs(const Diagnosis& diagnosis, const Detection& detection, const std::vector<Single>& singles,
                              double floor, const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, singles, catalogue).pairs(floor);
+  return GroupSearch(diagnosis, detection, singles, catalogue).pairs(floor);
 }
 
 std::vector<Group> fit_triples(const Diagnosis& diagnosis, const Detection& detection, std::span<const Group> pairs,
                                const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, detection, {}, catalogue).triples(pairs);
+  return GroupSearch(diagnosis, detection, {}, catalogue).triples(pairs);
 }
 
 }  // namespace tunica::diagnosis

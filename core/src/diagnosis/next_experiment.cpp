@@ -17,7 +17,7 @@ namespace {
 
 /// (2 · 1.645)²: at this squared distance the right one of two is preferred with 95 % probability.
 constexpr double separated = 10.82;
-constexpr std::size_t most_repeats = 20;
+constexpr std::size_t most_separating_repeats = 20;
 
 /// min over the parameters of b of |f_a − f_b|² in the design, while the data hold them: with J of b,
 ///
@@ -96,11 +96,11 @@ std::optional<NextExperiment> next_experiment(const Diagnosis& d, const plugins:
     smallest[k] = std::isfinite(least) ? least : 0;
   });
   const auto best = std::max_element(smallest.begin(), smallest.end());
-  if (best == smallest.end() || *best * most_repeats < separated) {
+  if (best == smallest.end() || *best * most_separating_repeats < separated) {
     next.description = fmt::format(
         "No strip, sheet or inflation of the library tells them apart in {} repeats; what switches one of "
         "them by itself does: {}.",
-        most_repeats, isolating(catalogue, d.ambiguity_set));
+        most_separating_repeats, isolating(catalogue, d.ambiguity_set));
     return next;
   }
   next.repeats = static_cast<std::size_t>(std::ceil(separated / *best));

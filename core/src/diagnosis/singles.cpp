@@ -17,17 +17,17 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-constexpr std::size_t quick_refits = 10;   ///< candidates
-constexpr std::size_t searched_again = 6;  ///< refits, the best
-constexpr double quick_reach = 9;          ///< of ln w, beyond the first four
+constexpr std::size_t quick_refits = 10;           ///< candidates
+constexpr std::size_t singles_searched_again = 6;  ///< refits, the best
+constexpr double quick_reach = 9;                  ///< of ln w, beyond the first four
 
 double log_side(Side side, double T) {
   return side == Side::both ? 0 : std::log(std::erfc(-std::sqrt(std::max(T, 0.0) / 2)));
 }
 
-class Search {
+class SingleSearch {
  public:
-  Search(const Diagnosis& d, const plugins::Catalogue& catalogue) : d_(d), catalogue_(catalogue) {
+  SingleSearch(const Diagnosis& d, const plugins::Catalogue& catalogue) : d_(d), catalogue_(catalogue) {
     for (const Direction& direction : d.directions) scores_.push_back(score(direction, -d.fit.residuals));
     of_.resize(d.candidates.size());
     for (std::size_t k = 0; k < d.directions.size(); ++k) of_[d.directions[k].candidate].push_back(k);
@@ -61,7 +61,7 @@ class Search {
       const auto left = [](const Job& job) { return job.refitted ? job.refitted->fit.chi2 : INFINITY; };
       return left(a) < left(b);
     });
-    tbb::parallel_for(std::size_t{0}, std::min(jobs.size(), searched_again), [&](std::size_t j) {
+    tbb::parallel_for(std::size_t{0}, std::min(jobs.size(), singles_searched_again), [&](std::size_t j) {
       if (jobs[j].refitted) search_again(d_, *jobs[j].refitted);
     });
     std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain
@@ -181,7 +181,7 @@ std::optional<std::size_t> likeliest_direction(const Diagnosis& d, std::size_t c
 }
 
 std::vector<Single> fit_singles(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue) {
-  return Search(diagnosis, catalogue).run();
+  return SingleSearch(diagnosis, catalogue).run();
 }
 
 }  // namespace tunica::diagnosis

@@ -13,7 +13,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t most_repeats = 20;
+constexpr std::size_t most_determining_repeats = 20;
 constexpr double of_logarithm = 0.25, of_box = 0.1;  ///< standard deviations of what counts as determined
 constexpr double two_sided = 1.96;
 
@@ -103,14 +103,14 @@ std::optional<NextExperiment> determining_experiment(const Diagnosis& d, const R
   const Coordinate& parameter = u[static_cast<std::size_t>(worst)];
   const std::vector<Design> library = designs(d, catalogue, model);
   struct Outcome {
-    std::size_t repeats = most_repeats + 1;
+    std::size_t repeats = most_determining_repeats + 1;
     double sd = INFINITY;
   };
   std::vector<Outcome> outcomes(library.size());
   tbb::parallel_for(std::size_t{0}, library.size(), [&](std::size_t k) {
     const auto more = information(library[k], model, u);
     if (!more || !more->allFinite()) return;
-    for (std::size_t n = 1; n <= most_repeats; ++n) {
+    for (std::size_t n = 1; n <= most_determining_repeats; ++n) {
       outcomes[k].sd = deviation(known + static_cast<double>(n) * *more, worst);
       if (outcomes[k].sd > parameter.wanted_sd) continue;
       outcomes[k].repeats = n;
@@ -128,13 +128,14 @@ std::optional<NextExperiment> determining_experiment(const Diagnosis& d, const R
                          : fmt::format("{} is known to within {} only; ", parameter.name, within(parameter, left));
   constexpr double worthwhile = 0.5;
   if (best == outcomes.end() || best->sd > worthwhile * left) {
-    next.description +=
-        fmt::format("no strip, sheet or inflation of the library determines it in {} repeats.", most_repeats);
+    next.description += fmt::format("no strip, sheet or inflation of the library determines it in {} repeats.",
+                                    most_determining_repeats);
     return next;
   }
   const std::string& design = library[static_cast<std::size_t>(best - outcomes.begin())].description;
-  if (best->repeats > most_repeats) {
-    next.description += fmt::format("{}, {} times, would leave {}.", design, most_repeats, within(parameter, best->sd));
+  if (best->repeats > most_determining_repeats) {
+    next.description +=
+        fmt::format("{}, {} times, would leave {}.", design, most_determining_repeats, within(parameter, best->sd));
     return next;
   }
   next.repeats = best->repeats;
