@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/loader.hpp"

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "calibration/identifiability.hpp"
 #include "check.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/uncertainty.hpp"
@@ -23,6 +22,7 @@
 #include "text/styled.hpp"
 #include "text/units.hpp"
 #include "text/wrapping.hpp"
+#include "uncertainty/identifiability.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -34,8 +34,8 @@ using text::counted;
 using text::hanging;
 using text::pad;
 
-void print_tests(const calibration::Assembly& assembly) {
-  for (const auto& channel : assembly.channels()) {
+void print_tests(const assembly::Assembly& assembly) {
+  for (const auto& channel : assembly.layout().channels) {
     const auto held_out = std::count(channel.fitted.begin(), channel.fitted.end(), false);
     const auto [low, high] = std::minmax_element(channel.measured.begin(), channel.measured.end());
     const auto [first, last] = std::minmax_element(channel.abscissa.begin(), channel.abscissa.end());
@@ -51,33 +51,33 @@ void print_tests(const calibration::Assembly& assembly) {
   }
 }
 
-void print_parameters(const calibration::Assembly& assembly) {
+void print_parameters(const assembly::Assembly& assembly) {
   std::size_t width = 9;
-  for (const auto& parameter : assembly.parameters()) width = std::max(width, columns(parameter.name));
-  for (const auto& parameter : assembly.fixed_parameters()) width = std::max(width, columns(parameter.name));
+  for (const auto& parameter : assembly.layout().parameters) width = std::max(width, columns(parameter.name));
+  for (const auto& parameter : assembly.layout().fixed_parameters) width = std::max(width, columns(parameter.name));
   constexpr std::size_t widest = 28;  // so that a line has 80 columns; longer names stand above it
   width = std::min(width, widest);
   const auto cell = [width](const std::string& name) {
     return columns(name) <= width ? pad(name, width) : fmt::format("{}\n  {}", name, std::string(width, ' '));
   };
   fmt::print("  {}  {:<6} {:>10} {:>10} {:>10}  scale\n", pad("parameter", width), "unit", "initial", "min", "max");
-  for (const auto& parameter : assembly.parameters())
+  for (const auto& parameter : assembly.layout().parameters)
     fmt::print("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", cell(parameter.name), parameter.unit,
                parameter.initial, parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear",
                parameter.prior ? fmt::format(", prior {:g} ± {:g}", parameter.prior->mean, parameter.prior->sd) : "");
-  for (const auto& parameter : assembly.fixed_parameters())
+  for (const auto& parameter : assembly.layout().fixed_parameters)
     fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", cell(parameter.name), parameter.unit, parameter.value);
 }
 
 /// Median time of one evaluation, over a fifth of a second at most, s.
-double time_evaluation(const calibration::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
+double time_evaluation(const assembly::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
   using Clock = std::chrono::steady_clock;
-  auto workspace = assembly.make_workspace();
+  auto workspace = assembly.evaluator().make_workspace();
   std::vector<double> per_test(tests), times;
   double objective = 0;
   const auto end = Clock::now() + std::chrono::milliseconds(200);
   for (auto now = Clock::now(); now < end && times.size() < 1001;) {
-    static_cast<void>(assembly.evaluate(free, objective, per_test, {}, {}, *workspace));
+    static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
     const auto after = Clock::now();
     times.push_back(std::chrono::duration<double>(after - now).count());
     now = after;
@@ -120,12 +120,13 @@ void print_initial_point(const CheckedProblem& problem) {
     for (std::size_t test = 0; test < tests.size(); ++test)
       text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", tests[test], initial.per_test[test]);
   fmt::print("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
-             duration_text(initial.seconds), assembly.jacobian_is_exact() ? "exact" : "differenced");
-  if (assembly.constraint_count() > 0)
-    fmt::print("{}\n", hanging(fmt::format("  {}: ", counted(assembly.constraint_count(), "constraint", "constraints")),
-                               initial.status.ok()
-                                   ? "kept at the initial point"
-                                   : "broken at the initial point, which is no harm: " + initial.status.reason()));
+             duration_text(initial.seconds), assembly.layout().jacobian_is_exact ? "exact" : "differenced");
+  if (assembly.constraints().count() > 0)
+    fmt::print(
+        "{}\n",
+        hanging(fmt::format("  {}: ", counted(assembly.constraints().count(), "constraint", "constraints")),
+                initial.status.ok() ? "kept at the initial point"
+                                    : "broken at the initial point, which is no harm: " + initial.status.reason()));
   for (const auto& other : initial.other_means) print_agreement(other);
   for (const auto& sentence : initial.sentences)
     fmt::print("{}\n", hanging("  set-up, at the initial point: ", sentence));
@@ -138,7 +139,7 @@ Checked examine(const experiment::Experiment& experiment, const execution::Plan&
   auto& warnings = checked.warnings;
   std::set<std::string> posed;
   for (const auto& run : plan.runs) {
-    for (const auto& sentence : run.assembly->warnings()) {
+    for (const auto& sentence : run.assembly->layout().warnings) {
       const auto same = [&](const auto& warning) { return warning.sentence == sentence; };
       if (std::none_of(warnings.begin(), warnings.end(), same))
         warnings.push_back({execution::WarningKind::set_up, sentence});
@@ -202,20 +203,20 @@ InitialPoint try_initial_point(const execution::PlannedRun& run) {
   const auto& tests = run.entry->tests;
   InitialPoint point;
   std::vector<double> free;
-  for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
+  for (const auto& parameter : assembly.layout().parameters) free.push_back(parameter.initial);
   point.per_test.resize(tests.size());
-  auto workspace = assembly.make_workspace();
-  point.status = assembly.evaluate(free, point.objective, point.per_test, {}, {}, *workspace);
+  auto workspace = assembly.evaluator().make_workspace();
+  point.status = assembly.evaluator().evaluate(free, point.objective, point.per_test, {}, {}, *workspace);
   if (point.status.kind() == Status::Kind::failed) return point;
   point.seconds = time_evaluation(assembly, free, tests.size());
   for (std::size_t test = 0; test < tests.size(); ++test) {
     InitialPoint::OtherMeans other{tests[test], {}, {}};
-    other.status = assembly.ask(
+    other.status = assembly.evaluator().ask(
         test, free, [&](const Test& asked, const TestInput& input) { return asked.agreement(input, other.found); });
     if (!other.found.empty() || !other.status.ok()) point.other_means.push_back(std::move(other));
   }
-  calibration::Identifiability found;
-  point.analysed = calibration::identify(assembly, free, found).ok();
+  uncertainty::Identifiability found;
+  point.analysed = uncertainty::identify(assembly, free, found).ok();
   if (point.analysed) point.sentences = found.sentences();
   return point;
 }

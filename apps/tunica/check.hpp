@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "execution/plan.hpp"
 
 namespace tunica::app {

@@ -23,7 +23,7 @@ json status_json(const Status& status) {
   return "failed: " + status.reason();
 }
 
-json channel_json(const calibration::ChannelView& channel) {
+json channel_json(const assembly::MeasuredChannel& channel) {
   json one = {{"test", channel.test},
               {"observable", channel.observable},
               {"unit", channel.unit},
@@ -41,9 +41,9 @@ json channel_json(const calibration::ChannelView& channel) {
   return one;
 }
 
-json parameters_json(const calibration::Assembly& assembly) {
+json parameters_json(const assembly::Assembly& assembly) {
   json all = json::object();
-  for (const auto& parameter : assembly.parameters()) {
+  for (const auto& parameter : assembly.layout().parameters) {
     auto& one = all[parameter.name] = {{"unit", parameter.unit},
                                        {"initial", parameter.initial},
                                        {"min", parameter.min},
@@ -51,7 +51,7 @@ json parameters_json(const calibration::Assembly& assembly) {
                                        {"scale", parameter.scale == Scale::log ? "log" : "linear"}};
     if (parameter.prior) one["prior"] = {{"mean", parameter.prior->mean}, {"sd", parameter.prior->sd}};
   }
-  for (const auto& parameter : assembly.fixed_parameters())
+  for (const auto& parameter : assembly.layout().fixed_parameters)
     all[parameter.name] = {{"unit", parameter.unit}, {"fixed", parameter.value}};
   return all;
 }
@@ -99,10 +99,10 @@ json check_json(const Checked& checked) {
     json one = {{"title", problem.title},
                 {"model", checked.experiment.model_name(*problem.run->entry)},
                 {"tests", problem.run->entry->tests},
-                {"constraints", assembly.constraint_count()},
-                {"exact_derivatives", assembly.jacobian_is_exact()},
+                {"constraints", assembly.constraints().count()},
+                {"exact_derivatives", assembly.layout().jacobian_is_exact},
                 {"channels", json::array()}};
-    for (const auto& channel : assembly.channels()) one["channels"].push_back(channel_json(channel));
+    for (const auto& channel : assembly.layout().channels) one["channels"].push_back(channel_json(channel));
     one["parameters"] = parameters_json(assembly);
     one["initial"] = initial_json(problem);
     document["problems"].push_back(std::move(one));

@@ -15,9 +15,9 @@
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
-#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -32,7 +32,7 @@ struct StabilityOptions {
 };
 
 /// The stretches to judge a model over: those of its strips, or up to the one that was asked for.
-tunica::stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model,
+tunica::stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model,
                                     const StabilityOptions& options) {
   auto domain = comparison::domain_of(assembly, model);
   if (options.to > 1) {
@@ -60,10 +60,10 @@ nlohmann::ordered_json json_of(const comparison::Subject& subject, const compari
                                const std::vector<std::string>& files) {
   nlohmann::ordered_json document = {{"model", subject.model}, {"origin", subject.origin}};
   auto& parameters = document["parameters"] = nlohmann::ordered_json::object();
-  const auto& free = subject.assembly->parameters();
+  const auto& free = subject.assembly->layout().parameters;
   for (std::size_t i = 0; i < free.size(); ++i)
     parameters[free[i].name] = {{"value", subject.free[i]}, {"unit", free[i].unit}};
-  for (const auto& fixed : subject.assembly->fixed_parameters())
+  for (const auto& fixed : subject.assembly->layout().fixed_parameters)
     parameters[fixed.name] = {{"value", fixed.value}, {"unit", fixed.unit}};
   document["warnings"] = subject.warnings;
   const auto stable = found.transversely_stable();
@@ -97,11 +97,12 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
     directory.emplace(execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name));
   for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   comparison::StabilitySummary found;
-  for (std::size_t m = 0; m < assembly.model_count(); ++m)
-    found.models.push_back({assembly.model_name(m),
-                            tunica::stability::judge(assembly.model(m), assembly.model_parameters(m, subject.free),
-                                                     domain_of(assembly, m, options)),
-                            {}});
+  for (std::size_t m = 0; m < assembly.models().count(); ++m)
+    found.models.push_back(
+        {assembly.models().name(m),
+         tunica::stability::judge(assembly.models().model(m), assembly.models().parameters(m, subject.free),
+                                  domain_of(assembly, m, options)),
+         {}});
   std::vector<std::string> files;
   if (directory) {
     comparison::write_stability_tables(directory->path(), {{subject.model, &assembly, subject.free, limit}});

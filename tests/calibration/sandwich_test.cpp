@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "calibration/fakes.hpp"
-#include "calibration/identifiability.hpp"
+#include "uncertainty/identifiability.hpp"
 
 namespace tunica {
 namespace {
@@ -46,10 +46,10 @@ struct Lines {
     const Matrix GW = G.transpose() * Eigen::Map<const Vector>(weight.data(), n).asDiagonal();
     return (GW * G).inverse() * GW;
   }
-  [[nodiscard]] std::vector<calibration::ParameterInterval> intervals() const {
-    calibration::Identifiability found;
+  [[nodiscard]] std::vector<uncertainty::ParameterInterval> intervals() const {
+    uncertainty::Identifiability found;
     const auto assembly = bench.assemble();
-    const Status status = calibration::identify(assembly, std::vector<double>{2, 3}, found);
+    const Status status = uncertainty::identify(assembly, std::vector<double>{2, 3}, found);
     EXPECT_TRUE(status.ok()) << status.reason();
     return found.parameters;
   }

@@ -20,7 +20,7 @@ namespace {
 
 Certificate spotless() {
   Certificate certificate;
-  calibration::Neighbourhood around;
+  search::Neighbourhood around;
   around.objective = 66.1;
   around.lowest = {66.2, 1e-5, "mu", {}};
   certificate.fresh = {around, 0, true};
@@ -50,9 +50,9 @@ struct Ended {
     execution::RealisationResult result;
     result.best.parameters = std::move(at);
     std::vector<double> per_test(1);
-    const auto workspace = plan->runs[0].assembly->make_workspace();
-    static_cast<void>(
-        plan->runs[0].assembly->evaluate(result.best.parameters, result.best.objective, per_test, {}, {}, *workspace));
+    const auto workspace = plan->runs[0].assembly->evaluator().make_workspace();
+    static_cast<void>(plan->runs[0].assembly->evaluator().evaluate(result.best.parameters, result.best.objective,
+                                                                   per_test, {}, {}, *workspace));
     result.trace = {{1, result.best.objective}};
     summary = comparison::summarise(*plan, {{{result}}}, {});
     written = comparison::result_json(summary, {});

@@ -82,18 +82,21 @@ TEST(RankingTable, SaysWhatEndedARunAndWhetherItsBestSearchHadConverged) {
   RunSummary run;
   run.label = "m/lm", run.group = "g", run.has_result = true, run.reason = "the reason";
   summary.ranking = {{0, 1, std::nullopt}};
-  const auto text = [&](bool converged, const std::string& stop) {
-    run.converged = converged, run.stop_reason = stop;
+  using tunica::search::StopReason;
+  const auto text = [&](bool converged, StopReason stop) {
+    run.converged = converged;
+    run.stopped_by = stop;
+    run.stop_sentence = stop == StopReason::none ? "" : "stall";
     summary.runs = {run};
     return ranking_table(summary).plain();
   };
-  EXPECT_THAT(text(true, ""), HasSubstr("m/lm  (converged: the reason)\n"));
-  EXPECT_THAT(text(false, ""), HasSubstr("m/lm  (not converged: the reason)\n"));
-  EXPECT_THAT(text(true, "stall"),
+  EXPECT_THAT(text(true, StopReason::none), HasSubstr("m/lm  (converged: the reason)\n"));
+  EXPECT_THAT(text(false, StopReason::none), HasSubstr("m/lm  (not converged: the reason)\n"));
+  EXPECT_THAT(text(true, StopReason::stall),
               HasSubstr("m/lm  (ended by stall; the search that found the best point had converged: the\n"));
-  EXPECT_THAT(text(false, "stall"),
+  EXPECT_THAT(text(false, StopReason::stall),
               HasSubstr("m/lm  (ended by stall; the search that found the best point had not converged:\n"));
-  EXPECT_THAT(text(true, "target"), HasSubstr("m/lm  (ended at its target)\n"));
+  EXPECT_THAT(text(true, StopReason::target), HasSubstr("m/lm  (ended at its target)\n"));
 }
 
 TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {

@@ -23,7 +23,8 @@ struct Summarised {
     results[0].realisations = {realisation(1, {2.5, 1, 3}), realisation(2, {2, 1, 3})};
     execution::RealisationResult failed;
     failed.tally = {150, 0, 150, 0, "row 1: no root"};
-    failed.stop_reason = "nothing succeeded";
+    failed.stopped_by = search::StopReason::nothing_succeeded;
+    failed.stop_sentence = "nothing succeeded";
     results[1].realisations = {failed};
   }
 
@@ -34,8 +35,9 @@ struct Summarised {
     result.best.parameters = at;
     result.best.index = 10 * number;
     std::vector<double> per_test(1);
-    auto workspace = plan->runs[0].assembly->make_workspace();
-    static_cast<void>(plan->runs[0].assembly->evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
+    auto workspace = plan->runs[0].assembly->evaluator().make_workspace();
+    static_cast<void>(
+        plan->runs[0].assembly->evaluator().evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
     result.trace = {{2, 1e6}, {result.best.index + 1, result.best.objective}};
     result.tally = {100, 20, 4, 0, "row 2: overflow"};
     result.seconds = 0.5;

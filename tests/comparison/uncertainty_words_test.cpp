@@ -6,7 +6,7 @@
 #include "execution/laboratory.hpp"
 
 using namespace tunica;
-using calibration::Profile;
+using uncertainty::Profile;
 using Kind = Profile::End::Kind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -101,7 +101,7 @@ TEST(LinearisedWords, AdviseAProfileOrTakeTheOneThatIsThere) {
 
 TEST(BootstrapWords, CountFailuresAndNameCorrelatedResiduals) {
   Words words;
-  calibration::Bootstrap bootstrap;
+  uncertainty::Bootstrap bootstrap;
   bootstrap.draws.resize(200);
   bootstrap.failures = 3;
   bootstrap.blocks = {7};

@@ -93,7 +93,7 @@ double loosest(const trial::Measured& measured) {
   fit_base(d, testing::catalogue());
   Eigen::MatrixXd J = d.fit.jacobian, precision = Eigen::MatrixXd::Zero(J.cols(), J.cols());
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
-    const auto& parameter = d.base->parameters()[static_cast<std::size_t>(k)];
+    const auto& parameter = d.base->layout().parameters[static_cast<std::size_t>(k)];
     J.col(k) *= d.fit.free[static_cast<std::size_t>(k)];
     precision(k, k) = 12 / std::pow(std::log(parameter.max / parameter.min), 2);
   }

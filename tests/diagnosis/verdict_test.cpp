@@ -153,9 +153,9 @@ TEST(Verdict, ARefitLeavesTheBoundThatTheEffectDroveTheBaseFitTo) {
     truth["tests"]["axial"]["mechanisms"] = {mechanism("force_offset", "value", 1.5)};
   });
   const Diagnosis found = measured.diagnose();
-  const auto theta = [](const calibration::Assembly& assembly, const std::vector<double>& free) {
+  const auto theta = [](const assembly::Assembly& assembly, const std::vector<double>& free) {
     for (std::size_t j = 0; j < free.size(); ++j)
-      if (assembly.parameters()[j].name == "theta") return free[j];
+      if (assembly.layout().parameters[j].name == "theta") return free[j];
     return std::nan("");
   };
   ASSERT_NEAR(theta(*found.base, found.fit.free), 0, 1e-3);

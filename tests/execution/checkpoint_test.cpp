@@ -29,7 +29,8 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   result.tally = {120, 30, 5, 2, "row 3: \"no\" root", {{"row 3: \"no\" root", 5}}};
   result.converged = true;
   result.reason = "step below tolerance";
-  result.stop_reason = "stall";
+  result.stopped_by = search::StopReason::failure_rate;
+  result.stop_sentence = "failure rate: too many";
   result.seconds = 1.5;
   checkpoint.finished.emplace_back(3, result);
   execution::write_checkpoint(folder.path(), checkpoint);
@@ -56,7 +57,8 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.tally.reasons[0].count, 5u);
   EXPECT_TRUE(back.converged);
   EXPECT_EQ(back.reason, result.reason);
-  EXPECT_EQ(back.stop_reason, "stall");
+  EXPECT_EQ(back.stopped_by, search::StopReason::failure_rate);
+  EXPECT_EQ(back.stop_sentence, "failure rate: too many");
   EXPECT_EQ(back.seconds, 1.5);
 }
 

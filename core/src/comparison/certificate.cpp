@@ -17,7 +17,7 @@ namespace {
 constexpr double not_an_optimum = 1e-3;
 
 /// The share by which the best neighbour is lower.
-double share_of_drop(const calibration::Neighbourhood& around) {
+double share_of_drop(const search::Neighbourhood& around) {
   return (around.objective - around.lowest->objective) / std::abs(around.objective);
 }
 
@@ -31,7 +31,7 @@ CertificateVerdict verdict_on(const Certificate& certificate) {
   if (!certificate.fresh) return CertificateVerdict::not_checked;
   const auto& around = certificate.fresh->around;
   if (around.status.kind() == Status::Kind::failed) return CertificateVerdict::failed;
-  if (!calibration::same_objective(around.objective, around.objective - certificate.fresh->difference))
+  if (!search::same_objective(around.objective, around.objective - certificate.fresh->difference))
     return CertificateVerdict::objective_differs;
   if (!around.status.ok()) return CertificateVerdict::constraint_broken;
   if (!around.lowest) return CertificateVerdict::no_neighbours;
@@ -94,9 +94,9 @@ std::string sentence_on(const Certificate& certificate) {
 
 }  // namespace
 
-void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
+void add_agreement(const assembly::Assembly& assembly, const execution::RunResult& result, double best,
                    std::optional<double> target, Certificate& certificate) {
-  const auto& parameters = assembly.parameters();
+  const auto& parameters = assembly.layout().parameters;
   double threshold = success_threshold({}, best);
   if (target && best <= *target) threshold = std::max(threshold, *target);
   std::vector<double> low, high, unit(parameters.size()), unit_low, unit_high;
@@ -104,7 +104,7 @@ void add_agreement(const calibration::Assembly& assembly, const execution::RunRe
   for (const auto& realisation : result.realisations) {
     if (!realisation.best.feasible() || realisation.best.objective > threshold) continue;
     const auto& values = realisation.best.parameters;
-    assembly.to_unit(values, unit);
+    assembly.box().to_unit(values, unit);
     if (certificate.agreeing++ == 0) {
       low = high = values;
       unit_low = unit_high = unit;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
-#include "calibration/neighbours.hpp"
+#include "assembly/assembly.hpp"
 #include "execution/results.hpp"
 #include "execution/warning.hpp"
+#include "search/neighbours.hpp"
 #include "text/codes.hpp"
 
 namespace tunica::comparison {
@@ -43,7 +43,7 @@ inline constexpr text::Codes<CertificateVerdict, 9> certificate_codes{{
 struct Certificate {
   /// What a process that knows only input.json and result.json found.
   struct Fresh {
-    calibration::Neighbourhood around;
+    search::Neighbourhood around;
     double difference = 0;   ///< its objective minus the recorded one
     bool identical = false;  ///< bit for bit
   };
@@ -65,7 +65,7 @@ struct Certificate {
 /// Fills in how many realisations end within 1e-3 (relative) of the best objective or, where the best one reached the
 /// target of the run and so stopped, at or below it too; and how far their parameters are apart. `best`: its objective,
 /// of a feasible point.
-void add_agreement(const calibration::Assembly& assembly, const execution::RunResult& result, double best,
+void add_agreement(const assembly::Assembly& assembly, const execution::RunResult& result, double best,
                    std::optional<double> target, Certificate& certificate);
 
 /// Fills in verdict and sentence from the rest.

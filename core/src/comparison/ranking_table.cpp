@@ -153,9 +153,9 @@ std::string spread_text(const RunSummary& run) {
 /// What ended the run, and whether the search that found its best point had converged by then.
 std::string ending(const RunSummary& run) {
   const std::string reason = run.reason.empty() ? "" : ": " + run.reason;
-  if (run.stop_reason.empty()) return (run.converged ? "converged" : "not converged") + reason;
-  if (run.stop_reason == "target") return "ended at its target";
-  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_reason,
+  if (run.stopped_by == search::StopReason::none) return (run.converged ? "converged" : "not converged") + reason;
+  if (run.stopped_by == search::StopReason::target) return "ended at its target";
+  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_sentence,
                      run.converged ? "had" : "had not", reason);
 }
 

@@ -153,23 +153,25 @@ json run_json(const RunSummary& run) {
   over_realisations["evaluations"] = statistics(run.evaluations_spent);
   over_realisations["seconds"] = statistics(run.seconds_spent);
   over_realisations["parameters"] = std::move(over_parameters);
-  return {{"run", run.label},
-          {"model", run.model},
-          {"optimizer", run.optimizer},
-          {"tests", run.tests},
-          {"objective_type", run.objective_type},
-          {"realisations", run.realisations},
-          {"best", run.has_result ? best(run) : json(nullptr)},
-          {"fixed", std::move(fixed)},
-          {"statistics", std::move(over_realisations)},
-          {"evaluations", run.evaluations},
-          {"jacobians", run.jacobians},
-          {"failures", run.failures},
-          {"infeasible", run.infeasible},
-          {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
-          {"converged", run.converged},
-          {"ended_by", run.stop_reason.empty() ? run.reason : run.stop_reason},
-          {"seconds", run.seconds}};
+  return {
+      {"run", run.label},
+      {"model", run.model},
+      {"optimizer", run.optimizer},
+      {"tests", run.tests},
+      {"objective_type", run.objective_type},
+      {"realisations", run.realisations},
+      {"best", run.has_result ? best(run) : json(nullptr)},
+      {"fixed", std::move(fixed)},
+      {"statistics", std::move(over_realisations)},
+      {"evaluations", run.evaluations},
+      {"jacobians", run.jacobians},
+      {"failures", run.failures},
+      {"infeasible", run.infeasible},
+      {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
+      {"converged", run.converged},
+      {"ended_by", run.stop_sentence.empty() ? run.reason : run.stop_sentence},
+      {"stop_reason", run.stopped_by == search::StopReason::none ? json(nullptr) : json(search::code(run.stopped_by))},
+      {"seconds", run.seconds}};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <boost/random/normal_distribution.hpp>
 #include <tuple>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "comparison/parameter_file.hpp"
 #include "data/dataset.hpp"
 #include "data/nearest.hpp"
@@ -81,10 +81,10 @@ Subject subject_of(const experiment::Experiment& experiment, const plugins::Cata
   const experiment::RunEntry run = all_tests_with(experiment, request.model);
   Subject subject;
   subject.model = experiment.model_name(run);
-  subject.assembly = std::make_unique<calibration::Assembly>(experiment, run, catalogue);
+  subject.assembly = std::make_unique<assembly::Assembly>(experiment, run, catalogue);
   if (!request.run.empty() && !request.parameters)
     throw InputError("--run names a run of a result.json: name that with --parameters FILE");
-  const auto& parameters = subject.assembly->parameters();
+  const auto& parameters = subject.assembly->layout().parameters;
   if (request.parameters)
     std::tie(subject.free, subject.source) =
         read_parameters(*request.parameters, subject.model, request.run, *subject.assembly);
@@ -114,9 +114,9 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
                                      const SimulationRequest& request, const Subject& subject) {
   const auto& assembly = *subject.assembly;
   const auto& free = subject.free;
-  std::vector<double> predictions(assembly.prediction_count());
-  auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(free, predictions, {}, *workspace);
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(free, predictions, {}, *workspace);
   if (!status.ok())
     throw InputError(fmt::format("the model cannot be evaluated at these parameters: {}; give others with --parameters",
                                  status.reason()));
@@ -139,9 +139,9 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
       const std::string unit = source_unit.empty() ? base : source_unit;
       std::vector<double> values;
       const auto channel =
-          std::find_if(assembly.channels().begin(), assembly.channels().end(),
+          std::find_if(assembly.layout().channels.begin(), assembly.layout().channels.end(),
                        [&, &name = observable](const auto& c) { return c.test == test.name && c.observable == name; });
-      if (channel != assembly.channels().end()) {
+      if (channel != assembly.layout().channels.end()) {
         const auto begin = predictions.begin() + static_cast<std::ptrdiff_t>(channel->offset);
         values.assign(begin, begin + static_cast<std::ptrdiff_t>(channel->count));
         add_noise(values, request.noise,

@@ -13,10 +13,10 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
       {"name", experiment.name}, {"model", subject.model}, {"tests", nlohmann::ordered_json::array()}};
   for (const auto& test : experiment.tests) record["tests"].push_back(test.name);
   auto& parameters = record["parameters"] = nlohmann::ordered_json::object();
-  const auto& free = subject.assembly->parameters();
+  const auto& free = subject.assembly->layout().parameters;
   for (std::size_t j = 0; j < free.size(); ++j)
     parameters[free[j].name] = {{"value", subject.free[j]}, {"unit", free[j].unit}};
-  for (const auto& parameter : subject.assembly->fixed_parameters())
+  for (const auto& parameter : subject.assembly->layout().fixed_parameters)
     parameters[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
   record["source"] = subject.source;
   record["origin"] = subject.origin;

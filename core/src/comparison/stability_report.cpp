@@ -113,13 +113,13 @@ std::optional<bool> StabilitySummary::transversely_stable() const {
   return all.transversely_stable();
 }
 
-stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model) {
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model) {
   stability::Domain domain;
-  for (const auto& strip : assembly.strips()) {
+  for (const auto& strip : assembly.models().strips()) {
     if (strip.model != model) continue;
     domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
   }
-  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
+  if (assembly.models().largest_stretch() > 1) domain.largest = assembly.models().largest_stretch();
   return domain;
 }
 
@@ -130,13 +130,14 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     if (!entry.has_result) continue;
     const auto& assembly = *plan.runs[run].assembly;
     StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}};
-    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-      const auto parameters = assembly.model_parameters(m, values_of(entry));
+    for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+      const auto parameters = assembly.models().parameters(m, values_of(entry));
       auto domain = domain_of(assembly, m);
       add_asked(*plan.runs[run].entry, domain);
       domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-      found.models.push_back({assembly.model_name(m), stability::judge(assembly.model(m), parameters, domain), {}});
-      for (const auto& inequality : assembly.model(m).describe().admissible) {
+      found.models.push_back(
+          {assembly.models().name(m), stability::judge(assembly.models().model(m), parameters, domain), {}});
+      for (const auto& inequality : assembly.models().model(m).describe().admissible) {
         const double value = inequality.value(parameters);
         if (value < -1e-9)
           found.models.back().inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
@@ -160,8 +161,8 @@ std::string stability_table(const Summary& summary) {
   constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
   width = std::min(width, widest_label);
   std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
-  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", text::pad("run", width), "imposed", "objective",
-                      "x free", "stable");
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", text::pad("run", width), "imposed",
+                      "objective", "x free", "stable");
   for (const auto& run : summary.runs) {
     if (!run.stability) continue;
     const auto& found = *run.stability;
@@ -176,7 +177,7 @@ std::string stability_table(const Summary& summary) {
     if (text::columns(label) > width || text::columns(imposed) > widest_constraint) {
       const bool with_constraint = text::columns(imposed) > widest_constraint;
       text += text::hanging(fmt::format("  {}{}", text::shortened(label, 77), with_constraint ? ": " : ""),
-                      with_constraint ? imposed : "") +
+                            with_constraint ? imposed : "") +
               '\n';
       label.clear();
       if (with_constraint) imposed.clear();
@@ -203,9 +204,9 @@ std::string stability_table(const Summary& summary) {
   const bool any_ratio = std::any_of(
       runs.begin(), runs.end(), [](const RunSummary& run) { return run.stability && run.stability->ratio_to_free; });
   if (any_ratio)
-    text +=
-        text::hanging("   ", "x free: objective over that of the best run of the same model and tests without constraints") +
-        '\n';
+    text += text::hanging(
+                "   ", "x free: objective over that of the best run of the same model and tests without constraints") +
+            '\n';
   return text;
 }
 

@@ -32,13 +32,13 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
 /// The same for parameter sets that no run has found.
 struct StabilitySubject {
   std::string label;
-  const calibration::Assembly* assembly;
+  const assembly::Assembly* assembly;
   std::vector<double> free;
   double limit;  ///< stretch
 };
 void write_stability_tables(const std::filesystem::path& directory, const std::vector<StabilitySubject>& subjects);
 
 /// The stretches of the strips that are made of a model, and the largest that the tests of the assembly reach.
-stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model);
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model);
 
 }  // namespace tunica::comparison

@@ -62,13 +62,13 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
       "stretches.\nrun,circumferential_stretch [1],axial_stretch [1],energy [kPa]\n";
   for (const StabilitySubject& subject : subjects) {
     const auto& assembly = *subject.assembly;
-    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-      const auto parameters = assembly.model_parameters(m, subject.free);
+    for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+      const auto parameters = assembly.models().parameters(m, subject.free);
       const std::string label = text::csv_cell(
-          assembly.model_count() > 1 ? subject.label + ' ' + assembly.model_name(m) : subject.label);
+          assembly.models().count() > 1 ? subject.label + ' ' + assembly.models().name(m) : subject.label);
       for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-        append_strip(strips, label, assembly.model(m), parameters, axis, subject.limit);
-      append_energy(energies, label, assembly.model(m), parameters, subject.limit);
+        append_strip(strips, label, assembly.models().model(m), parameters, axis, subject.limit);
+      append_energy(energies, label, assembly.models().model(m), parameters, subject.limit);
     }
   }
   execution::write_atomically(directory / "stability.csv", strips);
@@ -89,7 +89,7 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
   write_stability_tables(directory, subjects);
   const auto& analysis = plan.experiment->analysis;
   for (std::size_t k = 0; k < subjects.size() && !analysis.stability_map.empty(); ++k) {
-    const auto& free = subjects[k].assembly->parameters();
+    const auto& free = subjects[k].assembly->layout().parameters;
     const bool searched =
         std::all_of(analysis.stability_map.begin(), analysis.stability_map.end(), [&](const auto& name) {
           return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });

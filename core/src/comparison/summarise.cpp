@@ -35,15 +35,20 @@ bool one_course(const execution::RunResult& result) {
          });
 }
 
+/// The failure policy ended it.
+bool gave_up(search::StopReason reason) {
+  return reason == search::StopReason::failure || reason == search::StopReason::failure_rate;
+}
+
 void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::vector<double> objectives;
-  calibration::Tally total;
+  search::Tally total;
   for (const auto& realisation : result.realisations) {
     total.add(realisation.tally);
     summary.seconds += realisation.seconds;
-    const bool fault = realisation.stop_reason == execution::optimizer_failure;
-    if (fault && summary.faults++ == 0) summary.first_fault = realisation.reason;
-    summary.given_up += !fault && realisation.stop_reason.starts_with("failure");
+    if (realisation.stopped_by == search::StopReason::optimizer_failure && summary.faults++ == 0)
+      summary.first_fault = realisation.reason;
+    summary.given_up += gave_up(realisation.stopped_by);
     if (realisation.best.feasible()) objectives.push_back(realisation.best.objective);
   }
   summary.evaluations = total.evaluations;
@@ -69,14 +74,15 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.objective_type = name_of(run.entry->objective);
   summary.group = group_of(*run.entry);
   summary.target = run.entry->stop.target;
-  summary.fixed = run.assembly->fixed_parameters();
+  summary.fixed = run.assembly->layout().fixed_parameters;
   add_counts(result, summary);
   const auto* best = best_of(result);
   const auto* told = best ? best : result.realisations.empty() ? nullptr : &result.realisations.front();
   if (told) {
     summary.converged = told->converged;
     summary.reason = told->reason;
-    summary.stop_reason = told->stop_reason;
+    summary.stopped_by = told->stopped_by;
+    summary.stop_sentence = told->stop_sentence;
   }
   if (!best) {
     summary.status = Status::failed(summary.first_failure.empty() ? "nothing was evaluated" : summary.first_failure);
@@ -90,7 +96,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
   if (best->best.feasible())
     add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);
-  summary.certificate.ended_at_target = best->stop_reason == "target";
+  summary.certificate.ended_at_target = best->stopped_by == search::StopReason::target;
   for (const auto& parameter : summary.parameters)
     if (parameter.at_bound != Estimate::Bound::none) summary.certificate.at_bounds.push_back(parameter.name);
   return summary;
@@ -137,7 +143,7 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   for (const auto& refusal : refusals) add({execution::WarningKind::plugin_refused, refusal});
   for (const auto& warning : plan.warnings) add(warning);
   for (const auto& run : plan.runs)
-    for (const auto& warning : run.assembly->warnings()) add({execution::WarningKind::set_up, warning});
+    for (const auto& warning : run.assembly->layout().warnings) add({execution::WarningKind::set_up, warning});
   return summary;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double disagreement = 0.25;  ///< of the linearised half width
 
-using calibration::Profile;
+using uncertainty::Profile;
 using Kind = Profile::End::Kind;
 
 std::string end_text(const Profile::End& end) {
@@ -57,7 +57,7 @@ void add_linearised_words(RunSummary& summary) {
   summary.uncertainty.insert(summary.uncertainty.begin(), std::move(sentence));
 }
 
-void add_profile_words(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+void add_profile_words(const assembly::Assembly& assembly, experiment::ObjectiveType objective,
                        const std::vector<Profile>& profiles, RunSummary& summary) {
   if (objective != experiment::ObjectiveType::least_squares)
     summary.uncertainty.push_back(
@@ -66,7 +66,7 @@ void add_profile_words(const calibration::Assembly& assembly, experiment::Object
                     name_of(objective)));
   for (const Profile& profile : profiles) {
     const auto& estimate = summary.parameters[profile.parameter];
-    const std::string& name = assembly.parameters()[profile.parameter].name;
+    const std::string& name = assembly.layout().parameters[profile.parameter].name;
     if (!at(estimate, Estimate::Bound::lower)) add_open_end(name, profile.lower, "lower", summary);
     if (!at(estimate, Estimate::Bound::upper)) add_open_end(name, profile.upper, "upper", summary);
     if (profile.lowest < -1e-2 * profile.threshold)
@@ -93,7 +93,7 @@ void add_profile_words(const calibration::Assembly& assembly, experiment::Object
   }
 }
 
-void add_bootstrap_words(const calibration::Assembly& assembly, const calibration::Bootstrap& bootstrap,
+void add_bootstrap_words(const assembly::Assembly& assembly, const uncertainty::Bootstrap& bootstrap,
                          RunSummary& summary) {
   summary.bootstrap = {bootstrap.draws.size(), bootstrap.failures};
   if (bootstrap.draws.empty()) {
@@ -104,7 +104,7 @@ void add_bootstrap_words(const calibration::Assembly& assembly, const calibratio
     summary.uncertainty.push_back(fmt::format("{} of {} bootstrap draws could not be fitted and are left out",
                                               bootstrap.failures, bootstrap.draws.size()));
   std::size_t channel = 0;
-  for (const auto& view : assembly.channels()) {
+  for (const auto& view : assembly.layout().channels) {
     const bool counted =
         view.weight > 0 && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end();
     if (!counted || channel >= bootstrap.blocks.size()) continue;

@@ -66,9 +66,9 @@ void write_wall_tables(const std::filesystem::path& directory, const execution::
     const auto& assembly = *plan.runs[run].assembly;
     const auto& tests = plan.runs[run].entry->tests;
     const auto position = static_cast<std::size_t>(std::find(tests.begin(), tests.end(), test.name) - tests.begin());
-    const auto channel = std::find_if(assembly.channels().begin(), assembly.channels().end(),
+    const auto channel = std::find_if(assembly.layout().channels.begin(), assembly.layout().channels.end(),
                                       [&](const auto& one) { return one.test == test.name; });
-    if (channel == assembly.channels().end()) continue;
+    if (channel == assembly.layout().channels.end()) continue;
     std::vector<double> free;
     for (const auto& parameter : summary.runs[run].parameters) free.push_back(parameter.value);
     std::vector<Snapshot> snapshots;

@@ -147,7 +147,7 @@ void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run,
                         "max_time is set. Where it ends a search, the result depends on the speed of the machine, and "
                         "a repetition may differ",
                         run.label});
-  const auto& parameters = planned.assembly->parameters();
+  const auto& parameters = planned.assembly->layout().parameters;
   const auto priors =
       std::count_if(parameters.begin(), parameters.end(), [](const auto& one) { return one.prior.has_value(); });
   if (priors > 0)

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/composition.hpp"
+#include "assembly/composition.hpp"
 #include "conformance/declarations.hpp"
 #include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
@@ -67,7 +67,7 @@ WrappedModel around_some_model(const Entry& entry, const Around& around) {
 
 /// A test of the experiment once more: one that is wrapped is owned.
 std::unique_ptr<Test> composed_test(const std::string& name, const Around& around) {
-  return calibration::compose_test(around.settings.experiment->test(name), around.catalogue).test;
+  return assembly::compose_test(around.settings.experiment->test(name), around.catalogue).test;
 }
 
 WrappedTest around_test(const Entry& entry, const std::string& type, const Around& around) {

@@ -24,12 +24,12 @@ struct Found {
   std::vector<std::string> sentences;
 };
 
-Found judge(const calibration::Assembly& assembly, std::span<const double> free) {
+Found judge(const assembly::Assembly& assembly, std::span<const double> free) {
   Found found;
   bool all = true;
-  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-    const auto verdict =
-        stability::judge(assembly.model(m), assembly.model_parameters(m, free), comparison::domain_of(assembly, m));
+  for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+    const auto verdict = stability::judge(assembly.models().model(m), assembly.models().parameters(m, free),
+                                          comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
     const bool elliptic = !verdict.ellipticity.first_lost;
     if (transverse == false)

@@ -10,10 +10,10 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "calibration/refit.hpp"
 #include "diagnosis/causes.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -70,15 +70,15 @@ void take_out_unweighted(Diagnosis& d, const plugins::Catalogue& catalogue) {
   }
 }
 
-std::vector<std::vector<double>> random_starts(const calibration::Assembly& assembly, std::size_t count,
+std::vector<std::vector<double>> random_starts(const assembly::Assembly& assembly, std::size_t count,
                                                std::uint64_t seed) {
   boost::random::mt19937_64 generator(derive_seed(seed, "starts of the base fit"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   std::vector<std::vector<double>> starts;
   for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double> unit(assembly.parameters().size()), free(unit.size());
+    std::vector<double> unit(assembly.layout().parameters.size()), free(unit.size());
     for (double& x : unit) x = uniform(generator);
-    assembly.from_unit(unit, free);
+    assembly.box().from_unit(unit, free);
     starts.push_back(std::move(free));
   }
   return starts;
@@ -86,7 +86,7 @@ std::vector<std::vector<double>> random_starts(const calibration::Assembly& asse
 
 /// The predictions, moved by the mean residual of the seven rows around each: what is measured, with little of its
 /// noise.
-std::vector<double> smoothed(const calibration::ChannelView& view, std::span<const double> predicted) {
+std::vector<double> smoothed(const assembly::MeasuredChannel& view, std::span<const double> predicted) {
   constexpr std::size_t half = 3;
   std::vector<double> level(predicted.begin(), predicted.end());
   for (std::size_t i = 0; i < view.count; ++i) {
@@ -100,10 +100,10 @@ std::vector<double> smoothed(const calibration::ChannelView& view, std::span<con
 
 }  // namespace
 
-std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise) {
+std::vector<Curve> curves_of(const assembly::Assembly& assembly, const std::vector<NoiseSource>& noise) {
   std::vector<Curve> curves;
   Eigen::Index at = 0;
-  for (const calibration::ChannelView& view : assembly.channels()) {
+  for (const assembly::MeasuredChannel& view : assembly.layout().channels) {
     Curve curve{view.test, view.observable, at, 0, {}, {}, {}};
     for (std::size_t i = 0; i < view.count; ++i)
       if (view.fitted[i]) curve.abscissa.push_back(view.abscissa[i]), curve.rows.push_back(i);
@@ -127,16 +127,16 @@ void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugi
   d.run.objective = experiment::ObjectiveType::least_squares;
   take_out_unweighted(d, catalogue);
   d.noise = state_noise(d.experiment, d.run.tests, catalogue, gross);
-  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  d.base = std::make_unique<assembly::Assembly>(d.experiment, d.run, catalogue);
   d.curves = curves_of(*d.base, d.noise);
   if (d.curves.empty())
     throw InputError(
         "diagnosis: every test is held out, so that there is nothing to diagnose; set hold_out to false in one");
-  if (d.base->parameters().size() >= d.base->residual_count())
+  if (d.base->layout().parameters.size() >= d.base->layout().residual_count)
     throw InputError(
         fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to judge by; fix "
                     "parameters or give more rows",
-                    d.base->parameters().size(), d.base->residual_count()));
+                    d.base->layout().parameters.size(), d.base->layout().residual_count));
   tell_of_constraints(d, run);
   for (const auto& test : d.experiment.tests)
     if (test.hold_out.all && std::find(d.run.tests.begin(), d.run.tests.end(), test.name) != d.run.tests.end())
@@ -152,11 +152,11 @@ void prepare(Diagnosis& d, const experiment::Experiment& experiment, const plugi
 }
 
 void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
-  const calibration::Assembly& assembly = *d.base;
+  const assembly::Assembly& assembly = *d.base;
   std::vector<Variable> variables;
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) variables.push_back({j});
-  std::vector<double> initial(assembly.parameters().size());
-  assembly.from_unit(assembly.initial_unit(), initial);
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) variables.push_back({j});
+  std::vector<double> initial(assembly.layout().parameters.size());
+  assembly.box().from_unit(assembly.box().initial(), initial);
   std::vector<std::vector<double>> starts = random_starts(assembly, d.settings.quick ? 3 : 8, d.settings.seed);
   starts.insert(starts.begin(), initial);
   if (!d.settings.quick && !d.settings.optimizer.empty()) {
@@ -165,15 +165,15 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
       d.warnings.push_back(fmt::format(
           "diagnosis.optimizer '{}' has stages and is not used here; name one of its stages", d.settings.optimizer));
     } else {
-      const calibration::LocalOptimizer optimizer{&catalogue.optimizers().find(entry.type)->second, entry.options};
-      const calibration::Target target{
-          assembly.blocks(), assembly.residual_count(),
+      const uncertainty::LocalOptimizer optimizer{&catalogue.optimizers().find(entry.type)->second, entry.options};
+      const uncertainty::Target target{
+          assembly.layout().blocks, assembly.layout().residual_count,
           [&assembly](auto free, double& objective, auto residuals, auto jacobian, auto& workspace) {
-            return assembly.evaluate(free, objective, {}, residuals, jacobian, workspace);
+            return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);
           }};
-      const auto workspace = assembly.make_workspace();
+      const auto workspace = assembly.evaluator().make_workspace();
       const auto found =
-          calibration::refit(assembly, target, optimizer, initial, std::nullopt, d.settings.seed, *workspace);
+          uncertainty::refit(assembly, target, optimizer, initial, std::nullopt, d.settings.seed, *workspace);
       if (found.status.ok())
         starts.push_back(found.free);
       else
@@ -185,7 +185,7 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
   }
   std::vector<Fit> fits(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
-    const auto workspace = assembly.make_workspace();
+    const auto workspace = assembly.evaluator().make_workspace();
     fits[k] = least_squares(assembly, variables, starts[k], *workspace, k == 0 || !d.settings.quick ? 200 : 60);
   });
   const Fit* best = nullptr;
@@ -208,9 +208,9 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
 void settle_noise(Diagnosis& d, const plugins::Catalogue& catalogue) {
   const auto relative = [](const NoiseSource& source) { return source.noise.relative > 0; };
   if (std::none_of(d.noise.begin(), d.noise.end(), relative)) return;
-  std::vector<double> predicted(d.base->prediction_count());
-  if (!d.base->predict(d.fit.free, predicted, {}, *d.base->make_workspace()).ok()) return;
-  for (const calibration::ChannelView& view : d.base->channels())
+  std::vector<double> predicted(d.base->layout().prediction_count);
+  if (!d.base->evaluator().predict(d.fit.free, predicted, {}, *d.base->evaluator().make_workspace()).ok()) return;
+  for (const assembly::MeasuredChannel& view : d.base->layout().channels)
     for (auto& test : d.experiment.tests) {
       if (test.name != view.test) continue;
       for (auto& [channel, noise] : test.data.noise)
@@ -218,10 +218,10 @@ void settle_noise(Diagnosis& d, const plugins::Catalogue& catalogue) {
           noise.level = smoothed(view, {predicted.data() + view.offset, view.count});
         }
     }
-  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  d.base = std::make_unique<assembly::Assembly>(d.experiment, d.run, catalogue);
   std::vector<Variable> variables;
-  for (std::size_t j = 0; j < d.base->parameters().size(); ++j) variables.push_back({j});
-  if (Fit fit = least_squares(*d.base, variables, d.fit.free, *d.base->make_workspace()); fit.status.ok())
+  for (std::size_t j = 0; j < d.base->layout().parameters.size(); ++j) variables.push_back({j});
+  if (Fit fit = least_squares(*d.base, variables, d.fit.free, *d.base->evaluator().make_workspace()); fit.status.ok())
     d.fit = std::move(fit);
 }
 

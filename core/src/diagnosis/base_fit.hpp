@@ -22,6 +22,6 @@ void fit_base(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 void settle_noise(Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
 /// The rows of the whitened residuals by channel.
-std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise);
+std::vector<Curve> curves_of(const assembly::Assembly& assembly, const std::vector<NoiseSource>& noise);
 
 }  // namespace tunica::diagnosis

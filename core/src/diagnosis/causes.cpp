@@ -48,7 +48,7 @@ Eigen::MatrixXd interior(const Fit& fit) {
 std::pair<double, double> plausible_range(const Diagnosis& diagnosis, const MechanismFactory& mechanism,
                                           const Target& target) {
   if (target.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
-  for (const calibration::ChannelView& view : diagnosis.base->channels())
+  for (const assembly::MeasuredChannel& view : diagnosis.base->layout().channels)
     if (view.test == target.tests.front() && view.observable == target.channel) {
       const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
       return {*low - *high, *high - *low};
@@ -80,7 +80,7 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
                const plugins::Catalogue& catalogue) {
   const Addition& addition = refitted.additions[which];
   const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
-  const auto& parameters = refitted.extended->assembly().parameters();
+  const auto& parameters = refitted.extended->assembly().layout().parameters;
   const std::vector<Variable> variables = refitted.extended->variables();
   const std::vector<double> sd = deviations(refitted.fit);
   const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
@@ -116,7 +116,7 @@ Cause cause_of(const Diagnosis& diagnosis, const Refitted& refitted, std::size_t
     }
   }
   for (std::size_t j = 0; j < refitted.extended->base().size(); ++j) {
-    const auto& parameter = diagnosis.base->parameters()[j];
+    const auto& parameter = diagnosis.base->layout().parameters[j];
     cause.shifts.push_back(
         {parameter.name, parameter.unit, diagnosis.fit.free[j], refitted.fit.free[refitted.extended->base()[j]]});
   }

@@ -74,7 +74,7 @@ double shortest_time(const Diagnosis& d, const plugins::Catalogue& catalogue, do
 
 std::vector<Plan> plans(const Diagnosis& d, const plugins::Catalogue& catalogue) {
   std::vector<Plan> found;
-  const double reach = std::clamp(d.base->largest_stretch(), 1.15, 8.0);
+  const double reach = std::clamp(d.base->models().largest_stretch(), 1.15, 8.0);
   const auto strip = [&](std::string description, const char* direction, std::vector<double> stretch,
                          std::vector<double> time) -> Plan& {
     Plan plan{std::move(description), "uniaxial", {}, {{"stretch", std::move(stretch)}}, std::move(time), {"stress"}};
@@ -148,10 +148,10 @@ std::vector<Plan> plans(const Diagnosis& d, const plugins::Catalogue& catalogue)
 
 bool predict(const Design& design, const Refitted& rival, std::span<const double> free, std::vector<double>& values) {
   const auto& assembly = rival.extended->assembly();
-  const std::vector<double> parameters = assembly.model_parameters(0, free);
+  const std::vector<double> parameters = assembly.models().parameters(0, free);
   values.assign(design.test->rows().count * design.test->rows().channels.size(), 0.0);
   try {
-    return design.test->predict({assembly.model(0), parameters, design.parameters}, {values, {}, {}, {}}).ok();
+    return design.test->predict({assembly.models().model(0), parameters, design.parameters}, {values, {}, {}, {}}).ok();
   } catch (const std::exception&) {
     return false;
   }

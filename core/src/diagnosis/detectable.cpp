@@ -22,7 +22,7 @@ double reach_of(const Diagnosis& d, const MechanismFactory& mechanism, const Tar
 
 /// Amplitudes of what acts on a channel have the channel's unit.
 std::string unit_of(const Diagnosis& d, const MechanismFactory& mechanism, const Target& target) {
-  for (const calibration::ChannelView& view : d.base->channels())
+  for (const assembly::MeasuredChannel& view : d.base->layout().channels)
     if (!target.channel.empty() && view.test == target.tests.front() && view.observable == target.channel)
       return view.unit;
   return mechanism.parameters.front().unit;

@@ -77,7 +77,7 @@ Judgement judge(Diagnosis& d, const plugins::Catalogue& catalogue) {
   report(d, "fitting the base model", 0.05);
   fit_base(d, catalogue);
   settle_noise(d, catalogue);
-  d.warnings.insert(d.warnings.end(), d.base->warnings().begin(), d.base->warnings().end());
+  d.warnings.insert(d.warnings.end(), d.base->layout().warnings.begin(), d.base->layout().warnings.end());
   report(d, "signatures of the mechanisms", 0.1);
   const Projection projection(interior(d.fit));
   d.candidates = candidates(d.experiment, d.run, d.settings, *d.base, d.fit.free, projection, catalogue);

@@ -113,7 +113,7 @@ struct Diagnosis {
   Settings settings;
   experiment::Experiment experiment;  ///< with noise stated for every channel
   experiment::RunEntry run;
-  std::unique_ptr<calibration::Assembly> base;
+  std::unique_ptr<assembly::Assembly> base;
   Fit fit;  ///< of the base
   std::vector<Curve> curves;
   std::vector<Candidate> candidates;

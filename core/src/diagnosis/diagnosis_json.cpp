@@ -147,8 +147,9 @@ json diagnosis_json(const Diagnosis& d) {
                      {"absolute", source.noise.absolute},
                      {"relative", source.noise.relative},
                      {"correlation", source.noise.correlation}});
-  for (std::size_t j = 0; j < d.base->parameters().size(); ++j)
-    parameters[d.base->parameters()[j].name] = {{"value", d.fit.free[j]}, {"unit", d.base->parameters()[j].unit}};
+  for (std::size_t j = 0; j < d.base->layout().parameters.size(); ++j)
+    parameters[d.base->layout().parameters[j].name] = {{"value", d.fit.free[j]},
+                                                       {"unit", d.base->layout().parameters[j].unit}};
   json extension = nullptr;
   if (d.extension) {
     json mechanisms = json::array();
@@ -173,7 +174,7 @@ json diagnosis_json(const Diagnosis& d) {
                    {"remedy", d.admissibility.remedy.empty() ? json(nullptr) : json(d.admissibility.remedy)}}},
                  {"detectable", std::move(detectable)},
                  {"base",
-                  {{"model", d.base->model_name(0)},
+                  {{"model", d.base->models().name(0)},
                    {"parameters", std::move(parameters)},
                    {"squares", d.fit.chi2},
                    {"rows", d.fit.residuals.size()}}},
@@ -209,15 +210,16 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
   for (const std::string& name : d.run.tests)
     plugins.insert(catalogue.tests().find(experiment.test(name).type)->second.plugin);
   for (const Candidate& candidate : d.candidates) plugins.insert(catalogue.mechanisms().at(candidate.id).plugin);
-  const json document = {{"format", 1},
-                         {"name", experiment.name},
-                         {"warnings", d.warnings},
-                         {"ranking", json::array()},
-                         {"identifiability", json::array()},
-                         {"runs", json::array()},
-                         {"diagnosis", diagnosis_json(d)},
-                         {"provenance", comparison::provenance_json(comparison::provenance_of(
-                                            experiment, {plugins.begin(), plugins.end()}, d.base->data_hashes()))}};
+  const json document = {
+      {"format", 1},
+      {"name", experiment.name},
+      {"warnings", d.warnings},
+      {"ranking", json::array()},
+      {"identifiability", json::array()},
+      {"runs", json::array()},
+      {"diagnosis", diagnosis_json(d)},
+      {"provenance", comparison::provenance_json(comparison::provenance_of(experiment, {plugins.begin(), plugins.end()},
+                                                                           d.base->layout().data_hashes))}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

@@ -112,8 +112,8 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
           setting->share = addition.id + "_" + parameter.name;
   }
   add_gross_rows(experiment, d, catalogue);
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
-    const std::string& name = assembly.parameters()[j].name;
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
+    const std::string& name = assembly.layout().parameters[j].name;
     if (auto* setting = setting_of(experiment, models, name))
       setting->initial = d.extension->fit.free[j];
     else
@@ -131,11 +131,11 @@ void warn_of_run(Diagnosis& d, std::vector<GrossRow> gross, const plugins::Catal
   Experiment experiment = d.extension->extended->experiment();
   for (auto& test : experiment.tests)
     for (auto& [channel, noise] : test.data.noise) noise.level.clear();
-  const calibration::Assembly assembly(experiment, d.run, catalogue);
+  const assembly::Assembly assembly(experiment, d.run, catalogue);
   Eigen::VectorXd residuals;
   const Fit& fit = d.extension->fit;
   constexpr double alike = 1e-3;
-  if (whitened(assembly, fit.free, *assembly.make_workspace(), residuals, nullptr).ok())
+  if (whitened(assembly, fit.free, *assembly.evaluator().make_workspace(), residuals, nullptr).ok())
     if (const double run = residuals.squaredNorm(); std::abs(run - fit.chi2) > alike * fit.chi2)
       d.warnings.push_back(
           fmt::format("a run of extended.json takes relative noise as a share of the measured values, and not of the "

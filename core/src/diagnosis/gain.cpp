@@ -30,7 +30,7 @@ std::vector<Block> blocks_of(const Diagnosis& d) {
         if (left_out(curve, static_cast<std::size_t>(i)))
           block.counted[static_cast<std::size_t>(curve.first + i)] = false, ++out;
     // What is left must be able to determine the parameters.
-    if (out > 0 && rows - out > 2 * d.base->parameters().size()) blocks.push_back(std::move(block));
+    if (out > 0 && rows - out > 2 * d.base->layout().parameters.size()) blocks.push_back(std::move(block));
   };
   std::vector<std::string> tests;
   std::map<std::string, std::size_t> types;
@@ -62,9 +62,9 @@ struct Prediction {
   double chi2 = 0;  ///< |r|² of the rows that were fitted
 };
 
-Prediction predict(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
+Prediction predict(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
                    std::span<const double> start, const std::vector<bool>& counted) {
-  const auto workspace = assembly.make_workspace();
+  const auto workspace = assembly.evaluator().make_workspace();
   const Fit fit = least_squares(assembly, variables, start, *workspace, 60, {nullptr, &counted});
   Prediction prediction;
   Eigen::MatrixXd all;
@@ -117,7 +117,7 @@ void measure_gain(Diagnosis& d) {
   const std::vector<Block> blocks = blocks_of(d);
   std::vector<std::optional<HeldOut>> found(blocks.size());
   std::vector<Variable> base;
-  for (std::size_t j = 0; j < d.base->parameters().size(); ++j) base.push_back({j});
+  for (std::size_t j = 0; j < d.base->layout().parameters.size(); ++j) base.push_back({j});
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
     std::vector<Eigen::Index> in, out;
     for (std::size_t i = 0; i < blocks[b].counted.size(); ++i)

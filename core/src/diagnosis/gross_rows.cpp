@@ -37,7 +37,7 @@ std::string quantity(double value, const std::string& unit) {
 
 /// "stretch 1.25, measured 14 kPa": rows are counted from 0 behind `rows` and `where`, which is hard to find in a file.
 std::string where(const Diagnosis& d, const Curve& curve, std::size_t row) {
-  for (const calibration::ChannelView& view : d.base->channels())
+  for (const assembly::MeasuredChannel& view : d.base->layout().channels)
     if (view.test == curve.test && view.observable == curve.channel)
       return fmt::format("{} {}, measured {}", view.abscissa_name, quantity(view.abscissa[row], view.abscissa_unit),
                          quantity(view.measured[row], view.unit));
@@ -89,7 +89,7 @@ void leave_out(Diagnosis& d, const std::vector<GrossRow>& rows, const plugins::C
       for (const GrossRow& row : rows)
         if (row.test == test.name && row.channel == channel) noise.gross.push_back(row.row);
   d.gross.insert(d.gross.end(), rows.begin(), rows.end());
-  d.base = std::make_unique<calibration::Assembly>(d.experiment, d.run, catalogue);
+  d.base = std::make_unique<assembly::Assembly>(d.experiment, d.run, catalogue);
   d.warnings.push_back(fmt::format("left out as gross errors: {}; look at them in residuals.csv", words(rows)));
 }
 
@@ -113,10 +113,11 @@ struct Away {
   std::string unit;
 };
 std::optional<Away> away(const Diagnosis& d, const GrossRow& row) {
-  const calibration::Assembly& assembly = d.extension->extended->assembly();
-  std::vector<double> predicted(assembly.prediction_count());
-  if (!assembly.predict(d.extension->fit.free, predicted, {}, *assembly.make_workspace()).ok()) return std::nullopt;
-  for (const calibration::ChannelView& view : assembly.channels()) {
+  const assembly::Assembly& assembly = d.extension->extended->assembly();
+  std::vector<double> predicted(assembly.layout().prediction_count);
+  if (!assembly.evaluator().predict(d.extension->fit.free, predicted, {}, *assembly.evaluator().make_workspace()).ok())
+    return std::nullopt;
+  for (const assembly::MeasuredChannel& view : assembly.layout().channels) {
     if (view.test != row.test || view.observable != row.channel) continue;
     const auto before = static_cast<std::size_t>(
         std::count(view.fitted.begin(), view.fitted.begin() + static_cast<std::ptrdiff_t>(row.row), true));

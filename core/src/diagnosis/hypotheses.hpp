@@ -49,7 +49,7 @@ class Extended {
     std::vector<double> nuisance_start;
     double null;
   };
-  [[nodiscard]] const calibration::Assembly& assembly() const { return *assembly_; }
+  [[nodiscard]] const assembly::Assembly& assembly() const { return *assembly_; }
   [[nodiscard]] const experiment::Experiment& experiment() const { return experiment_; }
   [[nodiscard]] const std::vector<Addition>& additions() const { return additions_; }
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }       ///< one an addition
@@ -62,7 +62,7 @@ class Extended {
  private:
   experiment::Experiment experiment_;
   std::vector<Addition> additions_;
-  std::unique_ptr<calibration::Assembly> assembly_;
+  std::unique_ptr<assembly::Assembly> assembly_;
   std::vector<std::size_t> base_;
   std::vector<Part> parts_;
 };
@@ -90,7 +90,7 @@ struct Candidate {
 /// Every mechanism that was asked for with all its targets and settings, and its signatures at the base fit, where a
 /// refit absorbs what `projection` says. Mechanisms side by side; the outcome does not depend on threads.
 std::vector<Candidate> candidates(const experiment::Experiment& experiment, const experiment::RunEntry& run,
-                                  const Settings& settings, const calibration::Assembly& base,
+                                  const Settings& settings, const assembly::Assembly& base,
                                   std::span<const double> fitted, const Projection& projection,
                                   const plugins::Catalogue& catalogue);
 

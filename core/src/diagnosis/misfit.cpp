@@ -42,7 +42,7 @@ Misfit told(const Diagnosis& d, const Curve& curve, const Eigen::VectorXd& shape
              end = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1;
   const auto [from, to] = std::minmax_element(begin, end);
   std::string name = "row", unit;
-  for (const auto& view : d.base->channels())
+  for (const auto& view : d.base->layout().channels)
     if (view.test == curve.test && view.observable == curve.channel)
       name = view.abscissa_name, unit = view.abscissa_unit;
   const double mean =

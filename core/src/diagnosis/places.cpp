@@ -55,7 +55,7 @@ std::vector<MechanismFactory::Setting> settings_of(const MechanismFactory& mecha
 }
 
 std::vector<Target> single_targets(const MechanismFactory& mechanism, const Experiment& experiment, const RunEntry& run,
-                                   const calibration::Assembly& base) {
+                                   const assembly::Assembly& base) {
   std::vector<Target> targets;
   for (const std::string& name : run.tests) {
     const auto& entry = experiment.test(name);
@@ -66,26 +66,26 @@ std::vector<Target> single_targets(const MechanismFactory& mechanism, const Expe
       targets.push_back({{name}});
       continue;
     }
-    for (const calibration::ChannelView& view : base.channels())
+    for (const assembly::MeasuredChannel& view : base.layout().channels)
       if (view.test == name && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
         targets.push_back({{name}, view.observable});
   }
   return targets;
 }
 
-void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into) {
-  const std::size_t rows = base.residual_count(), predictions = base.prediction_count();
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {
+  const std::size_t rows = base.layout().residual_count, predictions = base.layout().prediction_count;
   std::vector<double> unit(rows, 0.0), map(predictions);
   // Row k of the whitening, read off its transpose.
   std::vector<std::vector<std::pair<std::size_t, double>>> columns(predictions);
   for (std::size_t k = 0; k < rows; ++k) {
     unit[k] = 1;
-    base.transpose_residuals(unit, map);
+    base.evaluator().transpose_residuals(unit, map);
     unit[k] = 0;
     for (std::size_t i = 0; i < predictions; ++i)
       if (map[i] != 0) columns[i].emplace_back(k, map[i]);
   }
-  for (const calibration::ChannelView& view : base.channels()) {
+  for (const assembly::MeasuredChannel& view : base.layout().channels) {
     if (view.test != whole.addition.target.tests.front() || view.observable != whole.addition.target.channel) continue;
     for (std::size_t i = 0; i < view.count; ++i) {
       if (!view.fitted[i]) continue;

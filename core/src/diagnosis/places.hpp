@@ -25,9 +25,9 @@ std::vector<MechanismFactory::Setting> settings_of(const MechanismFactory& mecha
 
 /// Single tests and channels where the mechanism may act; nothing for one that acts on the model.
 std::vector<Target> single_targets(const MechanismFactory& mechanism, const experiment::Experiment& experiment,
-                                   const experiment::RunEntry& run, const calibration::Assembly& base);
+                                   const experiment::RunEntry& run, const assembly::Assembly& base);
 
 /// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
-void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into);
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into);
 
 }  // namespace tunica::diagnosis

@@ -20,11 +20,11 @@ double p_from_refits(const Diagnosis& d, const Detection& detection, std::size_t
   const Eigen::MatrixXf noise =
       noise_draws(d.curves, d.fit.residuals.size(), draws, derive_seed(d.settings.seed, "refits under nothing"));
   std::vector<Variable> variables;
-  for (std::size_t j = 0; j < d.base->parameters().size(); ++j) variables.push_back({j});
+  for (std::size_t j = 0; j < d.base->layout().parameters.size(); ++j) variables.push_back({j});
   std::vector<char> worse(draws, 0);
   std::atomic<std::size_t> finished = 0;
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t b) {
-    const auto workspace = d.base->make_workspace();
+    const auto workspace = d.base->evaluator().make_workspace();
     // Residuals of data simulated at the fit: those of the measured data drop out, the noise takes their place.
     const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - d.fit.residuals;
     const Fit fit = least_squares(*d.base, variables, d.fit.free, *workspace, 60, {&added, nullptr});
@@ -42,7 +42,7 @@ void refine_intervals(Diagnosis& d, const plugins::Catalogue& catalogue) {
   const std::vector<Variable> variables = extension.extended->variables();
   std::vector<std::vector<double>> found(interval_draws);
   tbb::parallel_for(std::size_t{0}, interval_draws, [&](std::size_t b) {
-    const auto workspace = extension.extended->assembly().make_workspace();
+    const auto workspace = extension.extended->assembly().evaluator().make_workspace();
     const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - extension.fit.residuals;
     const Fit fit =
         least_squares(extension.extended->assembly(), variables, extension.fit.free, *workspace, 40, {&added, nullptr});

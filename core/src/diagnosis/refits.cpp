@@ -28,8 +28,8 @@ const Hypothesis* hypothesis_of(const Diagnosis& diagnosis, const Addition& addi
 }
 
 /// The values of a smaller refit in the place of parameters of the same name.
-void take_over(const Refitted& from, const calibration::Assembly& onto, std::vector<double>& start) {
-  const auto& names = from.extended->assembly().parameters();
+void take_over(const Refitted& from, const assembly::Assembly& onto, std::vector<double>& start) {
+  const auto& names = from.extended->assembly().layout().parameters;
   const auto& parameters = onto.parameters();
   for (std::size_t j = 0; j < parameters.size(); ++j)
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -50,8 +50,8 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
     return std::nullopt;
   }
   const Extended& extended = *refitted.extended;
-  const auto& parameters = extended.assembly().parameters();
-  const auto workspace = extended.assembly().make_workspace();
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
   const std::vector<Variable> variables = extended.variables();
 
   // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
@@ -91,7 +91,7 @@ std::optional<Refitted> fit_with(const Diagnosis& diagnosis, std::vector<Additio
     if (found && diagnosis.settings.quick && refitted.fit.chi2 < diagnosis.fit.chi2) break;
     std::vector<double> base = diagnosis.fit.free;
     for (std::size_t j = 0; j < base.size(); ++j) {
-      const auto& parameter = diagnosis.base->parameters()[j];
+      const auto& parameter = diagnosis.base->layout().parameters[j];
       double step = share * shift[static_cast<Eigen::Index>(j)] / lengths[j];
       if (parameter.scale == Scale::log)  // as far as the straight line can be believed
         base[j] *= std::exp(std::clamp(step / base[j], -1.0, 1.0));
@@ -125,14 +125,14 @@ bool at_a_bound(const Fit& fit) {
 void search_again(const Diagnosis& diagnosis, Refitted& refitted) {
   if (!at_a_bound(diagnosis.fit)) return;
   const Extended& extended = *refitted.extended;
-  const auto& parameters = extended.assembly().parameters();
-  const auto workspace = extended.assembly().make_workspace();
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
   boost::random::mt19937_64 generator(derive_seed(diagnosis.settings.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   for (std::size_t k = 0; k < (diagnosis.settings.quick ? quick_starts : full_starts); ++k) {
-    std::vector<double> unit(diagnosis.base->parameters().size()), base(unit.size());
+    std::vector<double> unit(diagnosis.base->layout().parameters.size()), base(unit.size());
     for (double& x : unit) x = uniform(generator);
-    diagnosis.base->from_unit(unit, base);
+    diagnosis.base->box().from_unit(unit, base);
     std::vector<double> start = extended.at_null(base);
     for (const Extended::Part& part : extended.parts()) {
       const double share = uniform(generator);

@@ -24,16 +24,17 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
   std::vector<double> without = d.extension->fit.free;
   for (const std::size_t member : part.amplitude) without[member] = part.null;
   Eigen::VectorXd residuals;
-  if (!whitened(extended.assembly(), without, *extended.assembly().make_workspace(), residuals, nullptr).ok())
+  if (!whitened(extended.assembly(), without, *extended.assembly().evaluator().make_workspace(), residuals, nullptr)
+           .ok())
     return nothing;
   return Projection(interior(d.fit)).off(d.extension->fit.residuals - residuals);
 }
 
 std::string residual_table(const Diagnosis& d) {
-  const auto predicted = [](const calibration::Assembly& assembly, std::span<const double> free) {
-    std::vector<double> values(assembly.prediction_count());
-    const auto workspace = assembly.make_workspace();
-    if (!assembly.predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
+  const auto predicted = [](const assembly::Assembly& assembly, std::span<const double> free) {
+    std::vector<double> values(assembly.layout().prediction_count);
+    const auto workspace = assembly.evaluator().make_workspace();
+    if (!assembly.evaluator().predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
     return values;
   };
   const std::vector<double> base = predicted(*d.base, d.fit.free);
@@ -47,7 +48,7 @@ std::string residual_table(const Diagnosis& d) {
   for (const Cause& cause : d.causes) text += ",signature_" + cause.id;
   text += '\n';
   std::size_t c = 0;
-  for (const calibration::ChannelView& view : d.base->channels()) {
+  for (const assembly::MeasuredChannel& view : d.base->layout().channels) {
     if (c >= d.curves.size() || d.curves[c].test != view.test || d.curves[c].channel != view.observable) continue;
     const Curve& curve = d.curves[c++];
     const std::vector<double> sd = row_deviations(view);

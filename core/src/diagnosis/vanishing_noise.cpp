@@ -36,7 +36,7 @@ std::string carried(const Curve& curve, const std::vector<double>& sd, const Eig
 void warn_of_vanishing_noise(Diagnosis& d) {
   std::vector<std::string> found;
   std::size_t c = 0;
-  for (const calibration::ChannelView& view : d.base->channels()) {
+  for (const assembly::MeasuredChannel& view : d.base->layout().channels) {
     if (c >= d.curves.size() || d.curves[c].test != view.test || d.curves[c].channel != view.observable) continue;
     const Curve& curve = d.curves[c++];
     if (view.noise->absolute > 0) continue;

@@ -45,7 +45,8 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
           {"reason", result.reason},
-          {"stop_reason", result.stop_reason},
+          {"stop_reason", search::code(result.stopped_by)},
+          {"stop_sentence", result.stop_sentence},
           {"seconds", result.seconds}};
 }
 
@@ -69,7 +70,13 @@ RealisationResult from_json(const json& entry) {
     result.tally.reasons.push_back({kind.at("example"), kind.at("count")});
   result.converged = entry.at("converged");
   result.reason = entry.at("reason");
-  result.stop_reason = entry.at("stop_reason");
+  const std::string code = entry.at("stop_reason");
+  const auto stopped_by = search::stop_reason_from_code(code);
+  if (!stopped_by)
+    throw InputError(
+        fmt::format("checkpoint.json: the stop reason '{}' is not known; start anew with another -o", code));
+  result.stopped_by = *stopped_by;
+  result.stop_sentence = entry.at("stop_sentence");
   result.seconds = entry.at("seconds");
   return result;
 }
@@ -123,7 +130,7 @@ Facts facts_of(const Plan& plan) {
   facts.experiment = data::sha256(without_analysis(experiment.input_json));
   facts.seed = fmt::format("{}", experiment.seed);
   for (const auto& run : plan.runs) {
-    for (const auto& hash : run.assembly->data_hashes()) {
+    for (const auto& hash : run.assembly->layout().data_hashes) {
       const auto space = hash.rfind(' ');
       auto& known = facts.data[hash.substr(0, space)];
       const std::string digest = space == std::string::npos ? hash : hash.substr(space + 1);

@@ -100,7 +100,7 @@ std::string EvaluationTable::header() const {
 }
 
 void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
-                                 const calibration::Record& record) const {
+                                 const search::Record& record) const {
   const std::string reason = record.status.reason().empty() ? std::string() : csv_cell(record.status.reason());
   const std::size_t numbers = parameter_columns_.size() + cost_columns_.size() + fixed_before + fixed_after;
   // Room for the longest line at once, then plain pointers: a fifth faster than appending piece by piece.
@@ -146,7 +146,7 @@ void EvaluationTable::parse(std::string_view line, Row& row) const {
   row.index = id - 1;
 }
 
-void EvaluationTable::values(const Row& row, calibration::Replayed& entry) const {
+void EvaluationTable::values(const Row& row, search::Replayed& entry) const {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto& run = runs_[row.run];
   entry.parameters.assign(run.parameters.size(), none);

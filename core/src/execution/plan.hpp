@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/journal.hpp"
 #include "execution/warning.hpp"
@@ -26,7 +26,7 @@ struct PlannedStage {
 struct PlannedRun {
   std::string label;  ///< "gho/es"; a second run of the same pair is "gho/es#2"
   const experiment::RunEntry* entry = nullptr;
-  std::unique_ptr<calibration::Assembly> assembly;
+  std::unique_ptr<assembly::Assembly> assembly;
   std::vector<PlannedStage> stages;
   std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
 };

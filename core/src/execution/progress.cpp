@@ -28,13 +28,15 @@ std::string rate_text(double rate) {
 
 Meter::Meter() : best(std::numeric_limits<double>::infinity()) {}
 
-void Meter::count(const calibration::Record& record) {
+void Meter::count(const search::Record& record) {
   evaluations.store(record.index + 1, std::memory_order_relaxed);
   if (record.status.ok() && record.objective < best.load(std::memory_order_relaxed))
     best.store(record.objective, std::memory_order_relaxed);
 }
 
-Progress::Style Progress::style_of_stderr() { return text::Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines; }
+Progress::Style Progress::style_of_stderr() {
+  return text::Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines;
+}
 
 Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters)
     : style_(style), line_(text::Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}

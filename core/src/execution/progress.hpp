@@ -18,7 +18,7 @@ struct alignas(64) Meter {
   std::atomic<double> best;  ///< infinity until something succeeded
   std::atomic<bool> running = false, finished = false;
   Meter();
-  void count(const calibration::Record& record);
+  void count(const search::Record& record);
 };
 
 /// What is shown on stderr while a run is under way: on a terminal one line that is redrawn, elsewhere a plain line
