@@ -69,14 +69,15 @@ def check_format(root, clang_format):
 
 
 # A call that searches a text, or a comparison, and the literals of its arguments.
-SEARCH = re.compile(r"(?:(?:\.|->|::)(?:find|rfind|contains|starts_with|ends_with|compare|includes|indexOf|startsWith|"
-                    r"endsWith|match|search|test)|\b(?:strstr|strn?cmp|regex_search|regex_match|regex|RegExp))\s*[({]")
+SEARCH = re.compile(r"(?:(?:\.|->)(?:find|rfind|contains|starts_with|ends_with|compare|includes|indexOf|startsWith|"
+                    r"endsWith|match|search|test)\s*\(|\b(?:strstr|strn?cmp|regex_search|regex_match|RegExp)\s*\(|"
+                    r"\bregex\s+\w+\s*[({])")
 COMPARED = re.compile(r'[=!]=\s*"((?:\\.|[^"\\\n])*)"|"((?:\\.|[^"\\\n])*)"\s*[=!]=')
 PIECE = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<raw>R"(?P<end>\w*)\(.*?\)(?P=end)")|"(?P<text>(?:\\.|[^"\\\n])*)"|'
                    r"'(?P<single>(?:\\.|[^'\\\n])*)'", re.S)
-PLANTED = ['if (warning.find("AT ITS BOUND") != npos)', 'warning.starts_with(run + ": not an optimum")',
+PLANTED = ['std::regex bound("AT ITS BOUND");', 'if (warning.find("AT ITS BOUND") != npos)', 'warning.starts_with(run + ": not an optimum")',
            'if (reason == "nothing succeeded")', "text.includes('two words')", 'group.find(" on ")']
-HARMLESS = ['node.find("stop")', 'text.find(\' \')', 'throw Error("two words")', '// line.find("two words")',
+HARMLESS = ['node.find("stop")', 'namespace tunica::search { "two words" }', 'text.find(\' \')', 'throw Error("two words")', '// line.find("two words")',
             'known.find(name) == known.end() ? "two words" : ""', 'name.find(" [")', 'std::find(a, b, "x")']
 
 
