@@ -6,8 +6,9 @@ import re
 
 GAP = "⟨…⟩"
 NAMES = "⟨the nearest name, then all there are⟩"
-SINKS = {"InputError", "Refused", "PluginRefused", "PluginFailure", "HostFault", "invalid_argument", "runtime_error",
-         "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse", "warn", "Warning"}
+SINKS = {"InputError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument",
+         "runtime_error", "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse", "warn",
+         "Warning"}
 TOKEN = re.compile(r'R"\((?P<raw>.*?)\)"|"(?P<text>(?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])+\'|//[^\n]*|/\*.*?\*/|'
                    r"\d[\w']*|\w+|::|->|\S", re.S)
 ESCAPES = {"n": " ", "t": " ", '"': '"', "\\": "\\", "'": "'"}

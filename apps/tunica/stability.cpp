@@ -100,7 +100,7 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   for (std::size_t m = 0; m < assembly.models().count(); ++m)
     found.models.push_back(
         {assembly.models().name(m),
-         tunica::stability::judge(assembly.models().model(m), assembly.models().parameters(m, subject.free),
+         tunica::stability::judge_admissibility(assembly.models().model(m), assembly.models().parameters(m, subject.free),
                                   domain_of(assembly, m, options)),
          {}});
   std::vector<std::string> files;

@@ -8,7 +8,7 @@
 #include "assembly/assembly.hpp"
 #include "calibration/fakes.hpp"
 
-namespace tunica {
+namespace tunica::layers_test {
 namespace {
 
 using assembly::Assembly;
@@ -156,4 +156,4 @@ TEST_F(Layered, AParameterThatLayersExcludeIsRefused) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::layers_test

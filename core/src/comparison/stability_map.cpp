@@ -47,7 +47,7 @@ Strips judge_strips(const assembly::Assembly& assembly, std::span<const double> 
   for (std::size_t m = 0; m < assembly.models().count(); ++m) {
     const auto parameters = assembly.models().parameters(m, free);
     for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
-      const auto verdict = stability::judge(assembly.models().model(m), parameters, axis, {}, limit);
+      const auto verdict = stability::judge_transverse(assembly.models().model(m), parameters, axis, {}, limit);
       auto& first = worst.first_unstable[axis];
       if (verdict.first_unstable) first = std::min(first.value_or(*verdict.first_unstable), *verdict.first_unstable);
       worst.worst_slope = std::max(worst.worst_slope, verdict.worst_slope);
