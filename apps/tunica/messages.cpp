@@ -43,7 +43,7 @@ const CLI::App* innermost(const CLI::App& program, std::string& words) {
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const auto* option : app.get_options())
+  for (const auto* option : app.get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))
     for (const auto& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }

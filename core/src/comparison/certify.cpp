@@ -67,6 +67,20 @@ const json& run_named(const json& result, const std::string& label) {
 
 }  // namespace
 
+std::string best_points_json(const Summary& summary) {
+  json runs = json::array();
+  for (const auto& run : summary.runs) {
+    json best = nullptr;
+    if (run.has_result) {
+      best = {{"objective", run.objective}, {"parameters", json::object()}};
+      for (const auto& parameter : run.parameters) best["parameters"][parameter.name] = {{"value", parameter.value}};
+    }
+    runs.push_back({{"run", run.label}, {"best", std::move(best)}});
+  }
+  const json document = {{"runs", std::move(runs)}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
 std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions) {
   json runs = json::array();
