@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "check.hpp"
 #include "comparison/result_json.hpp"
@@ -56,7 +57,7 @@ json parameters_json(const assembly::Assembly& assembly) {
   return all;
 }
 
-json initial_json(const CheckedProblem& problem) {
+json initial_json(const calibration::PosedProblem& problem) {
   const auto& initial = problem.initial;
   json one = {{"status", status_json(initial.status)}};
   if (initial.status.kind() == Status::Kind::failed) return one;
@@ -81,7 +82,7 @@ json initial_json(const CheckedProblem& problem) {
 
 }  // namespace
 
-json check_json(const Checked& checked) {
+json check_json(const calibration::Examination& checked) {
   json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
                    {"seed", checked.experiment.seed},  {"warnings", json::array()},
                    {"warning_details", json::array()}, {"runs", json::array()},

@@ -113,14 +113,33 @@ std::optional<bool> StabilitySummary::transversely_stable() const {
   return all.transversely_stable();
 }
 
-stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model) {
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model, std::optional<double> to) {
   stability::Domain domain;
+  if (to) {
+    constexpr int points = 100;
+    domain.largest = *to;
+    for (auto& stretches : domain.asked)
+      for (int k = 1; k <= points; ++k) stretches.push_back(1 + (*to - 1) * k / points);
+    return domain;
+  }
   for (const auto& strip : assembly.models().strips()) {
     if (strip.model != model) continue;
     domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
   }
   if (assembly.models().largest_stretch() > 1) domain.largest = assembly.models().largest_stretch();
   return domain;
+}
+
+StabilitySummary stability_of(const assembly::Assembly& assembly, std::span<const double> free,
+                              std::optional<double> to) {
+  StabilitySummary found;
+  const auto& models = assembly.models();
+  for (std::size_t m = 0; m < models.count(); ++m)
+    found.models.push_back(
+        {models.name(m),
+         stability::judge_admissibility(models.model(m), models.parameters(m, free), domain_of(assembly, m, to)),
+         {}});
+  return found;
 }
 
 void add_stability(const execution::Plan& plan, Summary& summary) {
@@ -135,8 +154,9 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
       auto domain = domain_of(assembly, m);
       add_asked(*plan.runs[run].entry, domain);
       domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-      found.models.push_back(
-          {assembly.models().name(m), stability::judge_admissibility(assembly.models().model(m), parameters, domain), {}});
+      found.models.push_back({assembly.models().name(m),
+                              stability::judge_admissibility(assembly.models().model(m), parameters, domain),
+                              {}});
       for (const auto& inequality : assembly.models().model(m).describe().admissible) {
         const double value = inequality.value(parameters);
         if (value < -1e-9)

@@ -75,6 +75,17 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
   execution::write_atomically(directory / "energy.csv", energies);
 }
 
+std::vector<std::filesystem::path> write_stability(const std::filesystem::path& directory, const Subject& subject,
+                                                   std::optional<double> to, const std::string& map) {
+  const double limit = domain_of(*subject.assembly, 0, to).largest;
+  write_stability_tables(directory, {{subject.model, subject.assembly.get(), subject.free, limit}});
+  std::vector<std::filesystem::path> files{directory / "stability.csv", directory / "energy.csv"};
+  if (map.empty()) return files;
+  files.push_back(directory / "stability_map.csv");
+  execution::write_atomically(files.back(), map);
+  return files;
+}
+
 void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
                             const Summary& summary) {
   std::vector<StabilitySubject> subjects;
