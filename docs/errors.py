@@ -100,6 +100,11 @@ CODES = [
     ("warning_kind", "`warning_details[].kind`", "What a warning is about."),
     ("certificate_verdict", "`runs[].best.certificate.verdict_code`", "What speaks for or against an optimum."),
     ("hold_out_verdict", "`runs[].best.hold_out[].verdict`", "How held-out rows are predicted."),
+    ("diagnosis_verdict", "`diagnosis.verdict`", "What a diagnosis says."),
+    ("diagnosis_reason", "`diagnosis.reason_codes[]`", "Why the verdict is what it is."),
+    ("diagnosis_warning_kind", "`warning_details[].kind` of a diagnosis", "What a warning is about."),
+    ("block_verdict", "`diagnosis.gain.held_out[].verdict`", "How the extension predicts rows that it has not seen."),
+    ("remainder", "`diagnosis.remainder`", "What the causes leave."),
 ]
 
 

@@ -37,7 +37,7 @@ Chart ranking_chart(const Json& diagnosis) {
   chart.bars = true;
   chart.id = "scores";
   chart.title = "What each candidate explains";
-  chart.about = "Fall of the sum of squares that each candidate brings, the largest first";
+  chart.about = "How much each candidate lowers the sum of squares, the largest first";
   chart.note =
       "Gain: by fitting the cause. Score: what it promises to first order; only the promising ones are fitted.";
   chart.x = {"fall of the sum of squares over the noise", false, {0}, {}};
@@ -126,7 +126,7 @@ Chart gain_chart(const Json& gain) {
   chart.id = "gain_held_out";
   chart.title = "Gain on blocks that were held out";
   chart.about = "Root mean square of the residuals over the noise on each held-out block, without and with the cause";
-  chart.note = "Each block is predicted by fits that have not seen it; 1 is what noise alone leaves.";
+  chart.note = "Fits that have not seen a block predict it. 1 is what noise alone leaves.";
   chart.x = {"root mean square of residual / noise", false, {1}, {}};
   chart.rule(1, "noise", 'x');
   chart.files = {"result.json"};

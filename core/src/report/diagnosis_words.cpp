@@ -50,7 +50,7 @@ std::string cause_words(const Json& cause) {
   if (const Json& interval = member(amplitude, "ci95"); interval.is_array() && interval.size() == 2)
     text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
                         figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
-  if (member(amplitude, "plausible") == false) text += ", which is beyond what is plausible";
+  if (member(amplitude, "plausible") == false) text += ", which is implausible";
   return text + fmt::format(", probability {}", share(number(cause, "probability")));
 }
 
@@ -80,11 +80,9 @@ std::string gain_words(const Json& diagnosis) {
   const Json& blocks = list(gain, "held_out");
   for (const Json& block : blocks) better += number(block, "after") < number(block, "before") ? 1 : 0;
   if (!blocks.empty()) text += fmt::format("; better on {} of {} blocks that were held out", better, blocks.size());
-  // Far off is no contradiction where the other rows leave the parameters open: the p-value knows of that.
-  constexpr double near = 2, contradicts = 0.05;  // σ, p
   std::vector<std::string> missed;
   for (const Json& block : blocks)
-    if (number(block, "after") >= near && number(block, "p_value") < contradicts)
+    if (word(block, "verdict") == "not_predicted")
       missed.push_back(fmt::format("{} ({} σ)", word(block, "block"), figure(number(block, "after"))));
   if (!missed.empty()) text += "; not predicted: " + text::joined(missed);
   return text + '.';
@@ -103,7 +101,7 @@ std::vector<std::string> next_words(const Json& diagnosis) {
     lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
   if (lines.empty() && verdict == "nothing_detected")
     lines.emplace_back(
-        "The fitted parameters can be used; what could still hide below the noise is listed under Reach.");
+        "The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
 }
 
@@ -131,13 +129,16 @@ void add_verdict(Page& page, const Folder& folder) {
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
   for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
   const double p = number(diagnosis, "p_value");
-  std::vector<std::string> sure{fmt::format("Noise alone would do this with {}; below {} counts as detected.",
+  std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p), figure(number(diagnosis, "alpha")))};
-  // What a verdict calls clean (diagnosis/groups.hpp): one rest in a hundred looks worse by chance.
-  constexpr double clean_above = 0.01;
-  if (const double after = number(diagnosis, "p_after"); std::isfinite(after))
-    sure.push_back(fmt::format("With the cause added, noise alone would leave what is left with {}: {}.", chance(after),
-                               after > clean_above ? "nothing is left to explain" : "something is left still"));
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
+    const std::string remainder = word(diagnosis, "remainder");
+    sure.push_back(
+        fmt::format("With the cause added, the remaining misfit would be noise with {}{}.", chance(after),
+                    remainder == "clean"       ? "; nothing is left to explain"
+                    : remainder == "not_clean" ? "; something is still left to explain"
+                                               : ""));
+  }
   const auto one = [](std::string text) {
     return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
   };
