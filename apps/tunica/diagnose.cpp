@@ -18,17 +18,17 @@
 #include <typeinfo>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "execution/terminal.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"
@@ -78,7 +78,7 @@ std::string farewell() {
   return fmt::format(
       "{}interrupted; a diagnosis that is not finished leaves nothing behind. Begin it again with the "
       "same command, or with --quick for a first answer\n",
-      execution::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
+      text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
 }
 
 int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
@@ -112,10 +112,10 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   found.settings.progress = {};
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_outputs(directory.path(), found, experiment, session.catalogue());
-  for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning));
+  for (const std::string& warning : found.warnings) fmt::print("{}\n", text::hanging("warning: ", warning));
   if (!found.warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", highlighted(diagnosis::summary(found)), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
              (directory.path() / "result.json").string());
   if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;

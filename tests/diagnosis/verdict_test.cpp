@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "comparison/text.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::trial {
 namespace {
@@ -80,7 +80,7 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   for (auto& cause : found.causes) cause.id = name;
   std::istringstream stream(diagnosis::summary(found));
   int lines = 0;
-  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(comparison::columns(line), 80u) << line;
+  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(text::columns(line), 80u) << line;
   EXPECT_GT(lines, 8);
   EXPECT_LE(lines, 25) << "names of 50 characters take a line each";
 }

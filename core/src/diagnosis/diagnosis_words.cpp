@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "comparison/text.hpp"
 #include "diagnosis/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -140,7 +140,7 @@ std::vector<std::string> explanations(const Diagnosis& d) {
 std::string summary(const Diagnosis& d) {
   std::vector<std::string> lines;
   const auto line = [&lines](const char* lead, const std::string& text) {
-    if (!text.empty()) lines.push_back(comparison::hanging(lead, text));
+    if (!text.empty()) lines.push_back(text::hanging(lead, text));
   };
   line("Verdict:  ", verdict_line(d));
   line("Alarm:    ",

@@ -3,9 +3,8 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 
-namespace tunica::execution {
+namespace tunica::text {
 
 /// What is at the other end of stdout or stderr.
 struct Terminal {
@@ -16,11 +15,8 @@ struct Terminal {
   static Terminal of(int descriptor);
 };
 
-/// As wide on a screen as it looks: characters, not bytes. Control characters stand as '?'.
-std::size_t shown_columns(std::string_view text);
-/// At most so many columns, the end of what is longer as "…"; control characters, which could move the cursor or
-/// colour the screen, as '?'.
-std::string shortened(std::string_view text, std::size_t columns);
+/// "0:07", "12:30", "3:05:00"
+std::string clock_text(double seconds);
 
 /// One line on stderr that is redrawn, with a bar where there is room for one.
 class StatusLine {
@@ -36,4 +32,4 @@ class StatusLine {
   Terminal terminal_;
 };
 
-}  // namespace tunica::execution
+}  // namespace tunica::text

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "comparison/text.hpp"
+#include "text/wrapping.hpp"
 
 #include <algorithm>
 
-namespace tunica::comparison {
+namespace tunica::text {
+
+namespace {
+
+bool continues_a_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+}  // namespace
 
 std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_a_character));
 }
 
 std::string pad(std::string_view text, std::size_t width) {
@@ -20,8 +25,16 @@ std::string pad_left(std::string_view text, std::size_t width) {
   return std::string(used < width ? width - used : 0, ' ') + std::string(text);
 }
 
-std::string counted(std::size_t count, std::string_view one, std::string_view many) {
-  return std::to_string(count).append(" ").append(count == 1 ? one : many);
+std::string shortened(std::string_view text, std::size_t width) {
+  std::string shown(text);
+  for (char& c : shown)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  if (columns(shown) <= width) return shown;
+  if (width == 0) return {};
+  std::size_t end = 0, used = 0;
+  while (end < shown.size() && (used < width - 1 || continues_a_character(shown[end])))
+    used += !continues_a_character(shown[end++]);
+  return shown.substr(0, end) + "…";
 }
 
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
@@ -46,7 +59,10 @@ std::string hanging(std::string_view lead, std::string_view text, std::size_t wi
         used = indent;
         first_word = true;
       }
-      if (!first_word) result += ' ', ++used;
+      if (!first_word) {
+        result += ' ';
+        ++used;
+      }
       result += word;
       used += length;
       first_word = false;
@@ -60,4 +76,4 @@ std::string hanging(std::string_view lead, std::string_view text, std::size_t wi
   return result;
 }
 
-}  // namespace tunica::comparison
+}  // namespace tunica::text

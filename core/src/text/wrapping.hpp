@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// Text for a terminal of 80 columns.
-namespace tunica::comparison {
+namespace tunica::text {
 
 /// Columns that UTF-8 text takes: one a code point, which is right for the letters, Greek and signs we print.
 std::size_t columns(std::string_view text);
@@ -14,11 +14,12 @@ std::size_t columns(std::string_view text);
 std::string pad(std::string_view text, std::size_t width);
 std::string pad_left(std::string_view text, std::size_t width);
 
-/// "1 search", "20 searches".
-std::string counted(std::size_t count, std::string_view one, std::string_view many);
+/// At most so many columns, the end of what is longer as "…"; control characters, which could move the cursor or
+/// colour the screen, as '?'.
+std::string shortened(std::string_view text, std::size_t width);
 
 /// `text` after `lead`, wrapped to `width` columns, further lines indented to where the text began. A lead that takes
 /// more than half of that, a long name for example, stands on a line of its own.
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width = 80);
 
-}  // namespace tunica::comparison
+}  // namespace tunica::text

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -10,13 +10,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace tunica::execution {
+#include "text/wrapping.hpp"
+
+namespace tunica::text {
 
 namespace {
 
 constexpr std::size_t shortest_bar = 5, longest_bar = 30, narrowest = 20;  // columns
-
-bool continues_a_character(char c) { return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u; }
 
 }  // namespace
 
@@ -31,24 +31,14 @@ Terminal Terminal::of(int descriptor) {
   return terminal;
 }
 
-std::size_t shown_columns(std::string_view text) {
-  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_a_character));
-}
-
-std::string shortened(std::string_view text, std::size_t columns) {
-  std::string shown(text);
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  if (shown_columns(shown) <= columns) return shown;
-  if (columns == 0) return {};
-  std::size_t end = 0, used = 0;
-  while (end < shown.size() && (used < columns - 1 || continues_a_character(shown[end])))
-    used += !continues_a_character(shown[end++]);
-  return shown.substr(0, end) + "…";
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 void StatusLine::draw(const std::string& line, double share) const {
-  const std::size_t used = shown_columns(line);
+  const std::size_t used = columns(line);
   std::string text = shortened(line, room());
   if (used + 3 + shortest_bar <= room()) {
     const std::size_t length = std::min(room() - used - 3, longest_bar);
@@ -66,4 +56,4 @@ void StatusLine::clear() const {
   std::fflush(stderr);
 }
 
-}  // namespace tunica::execution
+}  // namespace tunica::text
