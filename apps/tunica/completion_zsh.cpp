@@ -8,7 +8,7 @@ namespace tunica::app {
 
 namespace {
 
-constexpr const char* head = R"sh(#compdef tunica
+constexpr const char* zsh_head = R"sh(#compdef tunica
 # zsh completion for tunica, made by `tunica completion zsh` from the program's own help.
 # Installed as share/zsh/site-functions/_tunica; without that: source <(tunica completion zsh)
 
@@ -45,7 +45,7 @@ else
 fi
 )sh";
 
-std::string action(const Argument& argument) {
+std::string zsh_action(const Argument& argument) {
   switch (offer_for(argument)) {
     case Offer::words:
       return fmt::format("({})", fmt::join(argument.choices, " "));
@@ -80,7 +80,7 @@ std::string specification(const Argument& argument) {
   std::string message;
   for (int i = 0; i < argument.takes; ++i)
     message += fmt::format(":{}:{}", escaped(argument.value.empty() ? argument.label : argument.value, ":"),
-                           escaped(action(argument), ":"));
+                           escaped(zsh_action(argument), ":"));
   if (argument.names.empty())
     return fmt::format("'{}{}'", argument.repeats ? "*" : argument.required ? "" : ":", message);
   const std::string doc = fmt::format("[{}]", escaped(argument.doc, "[]:\\"));
@@ -125,7 +125,7 @@ void add(const Verb& verb, const std::string& function, std::vector<Argument> in
 }  // namespace
 
 std::string zsh_completion(const Verb& program) {
-  std::string text = head;
+  std::string text = zsh_head;
   add(program, "_tunica_program", {}, text);
   return text + tail;
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check_links.py TUNICA SOURCE_DIR: every link of README and docs leads to a file, every anchor to a heading; each claim
-of the README links what proves it; and the README names exactly the models, tests, mechanisms and optimisers there are."""
+of docs/capabilities.md links what proves it; and that page names exactly the models, tests, mechanisms and optimisers
+there are."""
 import json
 import pathlib
 import re
@@ -40,29 +41,32 @@ assert links > 30, f"found only {links} links"
 
 readme = (source / "README.md").read_text(encoding="utf-8")
 first_screen = readme[:readme.index("## ")]
+if readme.count("\n") > 75:
+    problems.append(f"the README has {readme.count(chr(10))} lines; one screen was promised, the rest belongs into docs")
 for wanted, count in (("![", 1), ("```json", 1), ("./bootstrap ", 2)):
     if first_screen.count(wanted) != count:
         problems.append(f"the first screen of the README has {first_screen.count(wanted)} of '{wanted}', expected {count}")
 if first_screen.count("\n") > 45:
     problems.append(f"the first screen of the README has {first_screen.count(chr(10))} lines")
 
-claims = readme.split("## What it can do that others cannot\n")[1].split("\n## ")[0]
+capabilities = (source / "docs/capabilities.md").read_text(encoding="utf-8")
+claims = capabilities.split("## What it can do that others cannot\n")[1].split("\n## ")[0]
 bullets = re.findall(r"^- .*(?:\n  .*)*", claims, re.M)
 assert len(bullets) >= 8, f"found only {len(bullets)} claims"
 for bullet in bullets:
-    proofs = [link for link in LINK.findall(bullet) if re.match(r"(tests|examples|bench|docs/(figures|images))/", link)]
+    proofs = [link for link in LINK.findall(bullet) if re.match(r"(?:\.\./(?:tests|examples|bench)|figures|images)/", link)]
     if not proofs:
         problems.append(f"no test, example, bench or figure stands behind: {bullet[:70]}")
 
 listed = json.loads(subprocess.run([tunica, "--allow-world-writable-plugins", "list", "--json"],
                                    capture_output=True, text=True, check=True).stdout)
 names = {one["name"] for shelf in ("models", "tests", "optimizers", "mechanisms") for one in listed[shelf]}
-inside = readme.split("## What is in it\n")[1].split("\n## ")[0]
+inside = capabilities.split("## Models, tests, mechanisms, optimisers\n")[1].split("\n## ")[0]
 written = set(re.findall(r"`([a-z0-9_]+)`", inside))
 if missing := names - written:
-    problems.append(f"the README does not name {', '.join(sorted(missing))}")
+    problems.append(f"docs/capabilities.md does not name {', '.join(sorted(missing))}")
 if unknown := written - names:
-    problems.append(f"the README names {', '.join(sorted(unknown))}, and no plugin provides that")
+    problems.append(f"docs/capabilities.md names {', '.join(sorted(unknown))}, and no plugin provides that")
 
 print(f"{links} links in {len(pages)} pages, {len(bullets)} claims, {len(names)} names")
 if problems:

@@ -27,13 +27,13 @@ constexpr Sheet sheets[] = {
     {"A sheet or strip cut at 45 deg to the axes, with its shear measured,", 1, 0, std::numbers::pi / 4}};
 
 /// In-plane stresses tt, zz, tz of the sheet at its stretches, and their derivatives along each step.
-struct Seen {
+struct SheetChange {
   double largest = 0;
   std::vector<double> change;  ///< by step, of the largest
 };
 
 bool look(const Assembly& assembly, std::size_t number, std::span<const double> free,
-          const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch, Seen& seen) {
+          const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch, SheetChange& change) {
   const Model& model = assembly.model(number);
   const std::vector<double> parameters = assembly.model_parameters(number, free);
   std::vector<double> C(6 * stretches, 0.0), stress(6 * stretches, 0.0), by(parameters.size() * 6 * stretches, 0.0);
@@ -59,11 +59,11 @@ bool look(const Assembly& assembly, std::size_t number, std::span<const double> 
     out[1] = S[stretches + i] - rr * C[i];
     out[2] = S[3 * stretches + i] + rr * C[3 * stretches + i];
   };
-  seen.change.assign(steps.size(), 0.0);
+  change.change.assign(steps.size(), 0.0);
   for (std::size_t i = 0; i < stretches; ++i) {
     double S[3];
     in_plane(stress.data(), i, S);
-    for (const double value : S) seen.largest = std::max(seen.largest, std::abs(value));
+    for (const double value : S) change.largest = std::max(change.largest, std::abs(value));
     for (std::size_t k = 0; k < steps.size(); ++k) {
       std::vector<double> moved(free.begin(), free.end());
       for (std::size_t j = 0; j < moved.size(); ++j) moved[j] += steps[k][j];
@@ -74,11 +74,11 @@ bool look(const Assembly& assembly, std::size_t number, std::span<const double> 
         for (int component = 0; component < 3; ++component)
           sum[component] += dS[component] * (there[p] - parameters[p]);
       }
-      for (const double value : sum) seen.change[k] = std::max(seen.change[k], std::abs(value));
+      for (const double value : sum) change.change[k] = std::max(change.change[k], std::abs(value));
     }
   }
-  return std::isfinite(seen.largest) && seen.largest > 0 &&
-         std::all_of(seen.change.begin(), seen.change.end(), [](double value) { return std::isfinite(value); });
+  return std::isfinite(change.largest) && change.largest > 0 &&
+         std::all_of(change.change.begin(), change.change.end(), [](double value) { return std::isfinite(value); });
 }
 
 /// The largest relative change that some channel of the present tests shows, by step.
@@ -115,17 +115,17 @@ std::string remedy_in_words(const Assembly& assembly, std::span<const double> fr
   if (!(stretch > 1) || steps.empty()) return elsewhere;
   const std::vector<double> now = present(assembly, free, steps);
   if (now.empty()) return elsewhere;
-  // How many times as well as the present tests the worst direction is seen. Exact valleys: as well as rounding lets us
-  // tell.
+  // How many times as well as the present tests the worst direction is change. Exact valleys: as well as rounding lets
+  // us tell.
   std::vector<double> gains;  // by model, then by sheet
   for (std::size_t model = 0; model < assembly.model_count(); ++model) {
     if (!assembly.model(model).describe().parameter_derivatives) return elsewhere;
     for (const Sheet& sheet : sheets) {
-      Seen seen;
+      SheetChange change;
       double gain = std::numeric_limits<double>::infinity();
-      if (!look(assembly, model, free, steps, sheet, stretch, seen)) gain = 0;
-      for (std::size_t k = 0; k < seen.change.size() && gain > 0; ++k)
-        gain = std::min(gain, seen.change[k] / seen.largest / std::max(now[k], 1e-9));
+      if (!look(assembly, model, free, steps, sheet, stretch, change)) gain = 0;
+      for (std::size_t k = 0; k < change.change.size() && gain > 0; ++k)
+        gain = std::min(gain, change.change[k] / change.largest / std::max(now[k], 1e-9));
       gains.push_back(gain);
     }
   }

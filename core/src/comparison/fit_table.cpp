@@ -60,7 +60,7 @@ std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, co
   return fits;
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+std::string fit_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 }  // namespace
 
@@ -95,21 +95,21 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
   for (const auto& fit : fits) {
     const auto& lead = *fit.channels.front();
     for (std::size_t row = 0; row < lead.count; ++row) {
-      text += execution::csv_cell(fit.label) + ',' + number(lead.abscissa[row]);
-      for (const auto& other : lead.other_abscissae) text += ',' + number(other.second[row]);
+      text += execution::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
+      for (const auto& other : lead.other_abscissae) text += ',' + fit_cell(other.second[row]);
       for (const auto* channel : fit.channels)
-        text += ',' + number(channel->measured[row]) + ',' + number(fit.predictions[channel->offset + row]);
+        text += ',' + fit_cell(channel->measured[row]) + ',' + fit_cell(fit.predictions[channel->offset + row]);
       text += lead.fitted[row] ? ",0" : ",1";
       for (const auto& name : diagnostics) {
         const auto found = std::find_if(fit.diagnostics.begin(), fit.diagnostics.end(),
                                         [&](const auto& entry) { return entry.first == name; });
         text += ',';
-        if (found != fit.diagnostics.end() && row < found->second.size()) text += number(found->second[row]);
+        if (found != fit.diagnostics.end() && row < found->second.size()) text += fit_cell(found->second[row]);
       }
       for (const auto* channel : fit.channels)
         for (const Extra& extra : shown) {
           const auto& values = fit.summary->*extra.values;
-          text += ',' + (values.empty() ? "" : number(values[channel->offset + row]));
+          text += ',' + (values.empty() ? "" : fit_cell(values[channel->offset + row]));
         }
       text += '\n';
     }

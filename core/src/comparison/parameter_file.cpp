@@ -16,7 +16,7 @@ namespace tunica::comparison {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 /// {name: value} of a run of the model in a result.json, the best-ranked one unless `wanted` names it, which then is
 /// its name.

@@ -33,7 +33,7 @@ std::size_t index_of(const calibration::Assembly& assembly, const std::string& n
       fmt::format("stability map: there is no free parameter '{}'. {}", name, data::suggestion(name, known)));
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+std::string map_cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 /// Strips along both axes; of several models the one that is worst.
 struct Strips {
@@ -72,11 +72,11 @@ std::string stability_map(const calibration::Assembly& assembly, std::span<const
     assembly.from_unit(x, p);
     const Strips strips = judge_strips(assembly, p, limit);
     const auto first = [&](std::size_t axis) {
-      return strips.first_unstable[axis] ? number(*strips.first_unstable[axis]) : std::string();
+      return strips.first_unstable[axis] ? map_cell(*strips.first_unstable[axis]) : std::string();
     };
-    rows[at] = fmt::format("{},{},{},{},{},{}\n", number(p[index[0]]), number(p[index[1]]),
+    rows[at] = fmt::format("{},{},{},{},{},{}\n", map_cell(p[index[0]]), map_cell(p[index[1]]),
                            strips.first_unstable[0] || strips.first_unstable[1] ? 0 : 1, first(0), first(1),
-                           number(strips.worst_slope));
+                           map_cell(strips.worst_slope));
   });
   const auto header = [&](std::size_t k) {
     return execution::csv_cell(fmt::format("{} [{}]", names[k], assembly.parameters()[index[k]].unit));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t steps = 60, grid = 41;
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
+std::string table_cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 /// Rows of one strip, as far as it has an equilibrium.
 void append_strip(std::string& table, const std::string& label, const Model& model,
@@ -24,9 +24,9 @@ void append_strip(std::string& table, const std::string& label, const Model& mod
     const double stretch = 1 + (limit - 1) * static_cast<double>(k) / steps;
     stability::StripState at;
     if (!stability::FreePath(model, axis, {stretch}).states(parameters, {&at, 1}).ok()) return;
-    table += fmt::format("{},{},{},{},{},{},{},{}\n", label, axis == 0 ? "circumferential" : "axial", number(stretch),
-                         number(at.transverse), number(at.normal), number(at.stress), number(at.anisotropy),
-                         number(at.normal_slope()));
+    table += fmt::format("{},{},{},{},{},{},{},{}\n", label, axis == 0 ? "circumferential" : "axial",
+                         table_cell(stretch), table_cell(at.transverse), table_cell(at.normal), table_cell(at.stress),
+                         table_cell(at.anisotropy), table_cell(at.normal_slope()));
   }
 }
 
@@ -44,7 +44,7 @@ void append_energy(std::string& table, const std::string& label, const Model& mo
     for (std::size_t j = 0; j < grid; ++j) {
       const double t = low + (limit - low) * static_cast<double>(i) / (grid - 1);
       const double z = low + (limit - low) * static_cast<double>(j) / (grid - 1);
-      table += fmt::format("{},{},{},{}\n", label, number(t), number(z), number(energy(t, z) - at_rest));
+      table += fmt::format("{},{},{},{}\n", label, table_cell(t), table_cell(z), table_cell(energy(t, z) - at_rest));
     }
 }
 

@@ -13,8 +13,8 @@
 namespace tunica::conformance {
 namespace {
 
-constexpr int draws = 20;
-constexpr double tolerance = 1e-12;
+constexpr int axes_draws = 20;
+constexpr double axes_tolerance = 1e-12;
 
 struct OnAxes {
   double energy = 0;
@@ -35,12 +35,12 @@ OnAxes evaluate_axes(const Model& model, const Point& point, bool parameter_deri
 }  // namespace
 
 Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed) {
-  Meter meter("evaluate_axes with evaluate at C without shear", tolerance);
+  Meter meter("evaluate_axes with evaluate at C without shear", axes_tolerance);
   const ModelDescription& description = model.describe();
   if (!description.principal_axes)
     return not_checked(meter.verdict().compared, "the model declares no principal-axes path");
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < axes_draws; ++draw) {
     const Point point = sampler.diagonal_point(model);
     const Evaluated tensor = evaluate(model, point.C, point.p);
     const OnAxes axes = evaluate_axes(model, point, false);
@@ -64,14 +64,14 @@ Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed) {
 }
 
 Verdict axes_parameter_derivatives_agree_with_tensors(const Model& model, std::uint64_t seed) {
-  Meter meter("dg/dp of evaluate_axes with dS/dp of evaluate", tolerance);
+  Meter meter("dg/dp of evaluate_axes with dS/dp of evaluate", axes_tolerance);
   const ModelDescription& description = model.describe();
   if (!description.principal_axes || !description.parameter_derivatives)
     return not_checked(meter.verdict().compared, description.principal_axes
                                                      ? "the model declares no parameter derivatives"
                                                      : "the model declares no principal-axes path");
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < axes_draws; ++draw) {
     const Point point = sampler.diagonal_point(model);
     const Evaluated tensor = evaluate(model, point.C, point.p);
     const OnAxes axes = evaluate_axes(model, point, true);

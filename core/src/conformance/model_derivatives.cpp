@@ -13,11 +13,11 @@ namespace tunica::conformance {
 namespace {
 
 /// Differences are good to better than this where they settle; a wrong term in a formula is off by orders more.
-constexpr double tolerance = 1e-6;
-constexpr double settled = 0.25 * tolerance;
-constexpr std::size_t draws = 20;
+constexpr double derivative_tolerance = 1e-6;
+constexpr double settled = 0.25 * derivative_tolerance;
+constexpr std::size_t settled_states = 20;
 /// First step in C; the last is 1/256 of it.
-constexpr double step = 1e-2;
+constexpr double first_step = 1e-2;
 constexpr const char* component[] = {"tt", "zz", "rr", "tz", "zr", "tr"};
 
 /// compare(point, at) at states until there are enough at which it says that differences can see the derivative: not
@@ -26,12 +26,12 @@ template <class Compare>
 Verdict at_settled_states(const Model& model, std::uint64_t seed, Meter& meter, const Compare& compare) {
   Sampler sampler(seed);
   std::size_t seen = 0, tries = 0;
-  while (seen < draws && tries < 10 * draws) {
+  while (seen < settled_states && tries < 10 * settled_states) {
     ++tries;
     const Point point = sampler.point(model);
     if (compare(point, evaluate(model, point.C, point.p))) ++seen;
   }
-  if (seen < draws / 4)
+  if (seen < settled_states / 4)
     return broken(meter.verdict().compared,
                   fmt::format("at {} of {} states differences do not settle: W or S jumps, has a kink or noise nearly "
                               "everywhere",
@@ -56,13 +56,13 @@ std::vector<Difference> along(const Model& model, const Point& point, std::size_
         C[c] += t;
         return pick(evaluate(model, C, point.p));
       },
-      step);
+      first_step);
 }
 
 }  // namespace
 
 Verdict stress_is_the_gradient_of_the_energy(const Model& model, std::uint64_t seed) {
-  Meter meter("S with twice the difference of W over C", tolerance);
+  Meter meter("S with twice the difference of W over C", derivative_tolerance);
   return at_settled_states(model, seed, meter, [&](const Point& point, const Evaluated& at) {
     Tensor expected{}, uncertainty{};
     for (std::size_t c = 0; c < 6; ++c) {
@@ -81,7 +81,7 @@ Verdict stress_is_the_gradient_of_the_energy(const Model& model, std::uint64_t s
 }
 
 Verdict tangent_is_the_derivative_of_the_stress(const Model& model, std::uint64_t seed) {
-  Meter meter("the tangent with twice the difference of S over C", tolerance);
+  Meter meter("the tangent with twice the difference of S over C", derivative_tolerance);
   return at_settled_states(model, seed, meter, [&](const Point& point, const Evaluated& at) {
     std::vector<double> expected(36), uncertainty(36);
     for (std::size_t c = 0; c < 6; ++c) {
@@ -109,7 +109,7 @@ Verdict tangent_has_its_symmetries(const Model& model, std::uint64_t seed) {
   Meter meter("the tangent with its transpose", 1e-12);
   if (model.describe().history_size > 0) meter.allow(1e-9);  // sums of several tangents
   Sampler sampler(seed);
-  for (std::size_t draw = 0; draw < draws; ++draw) {
+  for (std::size_t draw = 0; draw < settled_states; ++draw) {
     const Point point = sampler.point(model);
     const Evaluated at = evaluate(model, point.C, point.p);
     const double scale = std::max(scale_of(at.tangent), 1e-2 * scale_of(at.stress));
@@ -126,7 +126,7 @@ Verdict tangent_has_its_symmetries(const Model& model, std::uint64_t seed) {
 }
 
 Verdict parameter_derivatives_match_differences(const Model& model, std::uint64_t seed) {
-  Meter meter("dS/dp with differences of S over each parameter", tolerance);
+  Meter meter("dS/dp with differences of S over each parameter", derivative_tolerance);
   const ModelDescription& description = model.describe();
   if (!description.parameter_derivatives)
     return not_checked(meter.verdict().compared, "the model declares none; tunica differences its predictions");

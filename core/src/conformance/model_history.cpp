@@ -12,12 +12,12 @@
 namespace tunica::conformance {
 namespace {
 
-constexpr std::size_t n = 20;
+constexpr std::size_t points = 20;
 
-struct Step {
+struct StepResult {
   std::vector<double> stress, state;
 };
-Step step(const Model& model, const Batch& batch) {
+StepResult step(const Model& model, const Batch& batch) {
   return {answers(model, batch, {false, true, false, false, false}),
           answers(model, batch, {false, false, false, false, true})};
 }
@@ -34,7 +34,7 @@ void see(Meter& meter, const Model& model, const Batch& batch, const std::vector
 
 Batch at_states(const Model& model, std::uint64_t seed) {
   Sampler sampler(seed);
-  Batch batch = Batch::draw(model, sampler, n);
+  Batch batch = Batch::draw(model, sampler, points);
   batch.state.clear(), batch.time_step.clear();
   return batch;
 }
@@ -46,14 +46,14 @@ Verdict history_begins_at_rest(const Model& model, std::uint64_t seed) {
   if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
   Batch batch = at_states(model, seed);
   Batch rest = batch;
-  for (std::size_t i = 0; i < rest.C.size(); ++i) rest.C[i] = i < 3 * n ? 1 : 0;
+  for (std::size_t i = 0; i < rest.C.size(); ++i) rest.C[i] = i < 3 * points ? 1 : 0;
   const std::vector<double> state = step(model, rest).state;
   if (!std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); }))
     return broken(meter.verdict().compared,
                   fmt::format("of history_size = {} numbers a point some are not written, or no numbers",
                               model.describe().history_size));
   for (const double dt : {-1., 0., 1e-3, 1., 1e3}) {
-    batch.time_step.assign(dt < 0 ? 0 : n, dt);
+    batch.time_step.assign(dt < 0 ? 0 : points, dt);
     batch.state.clear();
     const std::vector<double> from_nothing = step(model, batch).stress;
     batch.state = state;
@@ -68,13 +68,13 @@ Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed
   if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
   Batch batch = at_states(model, seed);
   for (const double dt : {0., 1e-2, 1., 1e2}) {
-    batch.time_step.assign(n, dt);
+    batch.time_step.assign(points, dt);
     batch.state.clear();
-    const Step first = step(model, batch);
+    const StepResult first = step(model, batch);
     if (!std::all_of(first.stress.begin(), first.stress.end(), [](double x) { return std::isfinite(x); }))
       return broken(meter.verdict().compared, fmt::format("S is no number after a step of {:g} s", dt));
     batch.state = first.state;
-    batch.time_step.assign(n, 0);
+    batch.time_step.assign(points, 0);
     see(meter, model, batch, first.stress, step(model, batch).stress, "and after a second step of 0 s at the same C");
   }
   return meter.verdict();

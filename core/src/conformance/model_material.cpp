@@ -15,7 +15,7 @@
 namespace tunica::conformance {
 namespace {
 
-constexpr int draws = 20;
+constexpr int material_draws = 20;
 
 double largest_difference(const Tensor& a, const Tensor& b) {
   double difference = 0;
@@ -53,7 +53,7 @@ Verdict response_is_objective(const Model& model, std::uint64_t seed) {
                         : "S with S after turning the observer",
               1e-8);
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < material_draws; ++draw) {
     const Point point = sampler.point(model);
     const Matrix C = to_matrix(point.C), Q = rotation(draw);
     const Evaluated at = evaluate(model, point.C, point.p);
@@ -87,7 +87,7 @@ Verdict response_has_the_symmetry_of_the_wall(const Model& model, std::uint64_t 
   // Families that lie symmetrically about the axes: a reflection t → −t maps the wall on itself.
   Meter meter("S with its mirror image, t -> -t", 1e-12);
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < material_draws; ++draw) {
     const Point point = sampler.point(model);
     const Tensor& C = point.C;
     const Tensor mirrored{C[0], C[1], C[2], -C[3], C[4], -C[5]};
@@ -109,7 +109,7 @@ Verdict response_has_the_symmetry_of_the_wall(const Model& model, std::uint64_t 
 Verdict deviatoric_stress_vanishes_at_rest(const Model& model, std::uint64_t seed) {
   Meter meter("deviatoric S at C = 1 with zero, over the tangent", 1e-12);
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < material_draws; ++draw) {
     const Point rest{{1, 1, 1, 0, 0, 0}, sampler.parameters(model.describe())};
     const Evaluated at = evaluate(model, rest.C, rest.p);
     const double mean = (at.stress[0] + at.stress[1] + at.stress[2]) / 3;
@@ -130,7 +130,7 @@ Verdict energy_is_the_sum_of_its_parts(const Model& model, std::uint64_t seed) {
   Meter meter("W with the sum of the energies of parts()", 1e-12);
   if (model.parts().empty()) return not_checked(meter.verdict().compared, "the model exposes no parts");
   Sampler sampler(seed);
-  for (int draw = 0; draw < draws; ++draw) {
+  for (int draw = 0; draw < material_draws; ++draw) {
     const Point point = sampler.point(model);
     double sum = 0;
     for (const auto& part : model.parts())
@@ -155,7 +155,7 @@ Verdict numbers_are_finite_or_say_so(const Model& model, std::uint64_t seed) {
   all.push_back(initial);
   for (std::size_t j = 0; j < declared.size(); ++j)
     for (const double bound : {declared[j].min, declared[j].max}) all.push_back(initial), all.back()[j] = bound;
-  for (int draw = 0; draw < draws; ++draw) all.push_back(sampler.parameters(declared));
+  for (int draw = 0; draw < material_draws; ++draw) all.push_back(sampler.parameters(declared));
   std::size_t overflowed = 0, count = 0;
   for (const auto& p : all) {
     const Point rest{{1, 1, 1, 0, 0, 0}, p};

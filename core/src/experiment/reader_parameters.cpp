@@ -50,7 +50,7 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
   return setting;
 }
 
-std::string with_unit(double value, std::string_view unit) {
+std::string quantity(double value, std::string_view unit) {
   return unit.empty() || unit == "1" ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
 }
 
@@ -62,22 +62,22 @@ void check_setting(const Node& node, const ParameterSetting& setting, const Para
   const auto source = [](const std::optional<double>& given) { return given ? "" : " (the default)"; };
   if (setting.min && setting.max && !(*setting.min < *setting.max))
     node.fail(fmt::format("the bounds of {} are {}: min is {}{}, max is {}{}", what,
-                          *setting.min == *setting.max ? "equal" : "reversed", with_unit(*setting.min, unit),
-                          source(of_file.min), with_unit(*setting.max, unit), source(of_file.max)),
+                          *setting.min == *setting.max ? "equal" : "reversed", quantity(*setting.min, unit),
+                          source(of_file.min), quantity(*setting.max, unit), source(of_file.max)),
               *setting.min == *setting.max ? "To hold a parameter at a value, use \"fixed\"."
               : of_file.min && of_file.max ? "Swap them: min must be less than max."
                                            : "Give both: min must be less than max.");
   if (setting.scale == Scale::log && setting.min && !(*setting.min > 0))
     node.fail(fmt::format("{} has \"scale\": \"log\" and the lower bound {}{}, which has no logarithm", what,
-                          with_unit(*setting.min, unit), source(of_file.min)),
+                          quantity(*setting.min, unit), source(of_file.min)),
               "Give a \"min\" greater than zero, or \"scale\": \"linear\".");
   const bool below = setting.initial && setting.min && *setting.initial < *setting.min;
   const bool above = setting.initial && setting.max && *setting.initial > *setting.max;
   if (below || above)
     node.child_or_self("initial").fail(
         fmt::format("the initial value of {}, {}, is outside its bounds: {}{} to {}{}", what,
-                    with_unit(*setting.initial, unit), with_unit(setting.min.value_or(0), unit), source(of_file.min),
-                    with_unit(setting.max.value_or(0), unit), source(of_file.max)),
+                    quantity(*setting.initial, unit), quantity(setting.min.value_or(0), unit), source(of_file.min),
+                    quantity(setting.max.value_or(0), unit), source(of_file.max)),
         "Move it inside, or widen the bounds.");
 }
 

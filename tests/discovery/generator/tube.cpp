@@ -9,7 +9,7 @@
 namespace blind {
 namespace {
 
-constexpr int substeps = 12;  ///< between two rows, where the material remembers
+constexpr int tube_substeps = 12;  ///< between two rows, where the material remembers
 
 /// The wall in its stress-free configuration, an open sector or the unloaded tube, and its nodes.
 class Wall {
@@ -157,7 +157,7 @@ TubeRecord record(const Tube& tube, const Tissue& tissue, const TubeFaults& faul
   bool lost = false;
   for (std::size_t i = 0; i < tube.pressure.size(); ++i) {
     const double now = tube.pressure[i], dt = tube.time[i] - clock;
-    const int steps = material.remembers() && dt > 0 ? substeps : 1;
+    const int steps = material.remembers() && dt > 0 ? tube_substeps : 1;
     for (int k = 1; k <= steps && !lost; ++k) {
       const double p = before + (now - before) * k / steps;
       lost = !wall.follow(held(p), truth(p), dt / steps, true);

@@ -11,7 +11,7 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t searched_again_first = 6;  ///< of the likeliest, without each of their members
+constexpr std::size_t groups_searched_again = 6;  ///< of the likeliest, without each of their members
 
 }  // namespace
 
@@ -44,7 +44,7 @@ std::vector<Group> GroupFits::refitted(std::vector<Group> groups) const {
   std::erase_if(groups, [](const Group& group) { return !group.refit; });
   sort_by_weight(groups);
   tbb::parallel_for(std::size_t{0}, groups.size(),
-                    [&](std::size_t g) { groups[g].losses = losses_of(groups[g], g < searched_again_first); });
+                    [&](std::size_t g) { groups[g].losses = losses_of(groups[g], g < groups_searched_again); });
   std::erase_if(groups, [](const Group& group) { return group.losses.empty(); });
   return groups;
 }

@@ -20,7 +20,7 @@ constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a ca
 constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
 constexpr std::size_t triples_tried = 6;
 constexpr double short_of = 3;  ///< of ln w: what a score may underrate a refit by
-constexpr double alike = 0.02;  ///< 1 − c² below which two are one
+constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
 
 class GroupSearch {
  public:
@@ -158,7 +158,7 @@ class GroupSearch {
     const Direction &a = directions_[i], &b = directions_[j];
     if (a.candidate == b.candidate) return std::nullopt;
     const double c = a.unit.dot(b.unit), ta = -a.unit.dot(fit_.residuals), tb = -b.unit.dot(fit_.residuals);
-    if (1 - c * c < alike) return std::nullopt;
+    if (1 - c * c < one_and_the_same) return std::nullopt;
     const double xa = (ta - c * tb) / (1 - c * c), xb = (tb - c * ta) / (1 - c * c);
     if ((a.side != Side::both && xa <= 0) || (b.side != Side::both && xb <= 0)) return std::nullopt;
     return Group{{i, j},

@@ -16,7 +16,7 @@ namespace {
 using Side = MechanismFactory::Side;
 
 constexpr std::size_t quick_refits = 10;   ///< candidates
-constexpr std::size_t searched_again = 6;  ///< refits, the best
+constexpr std::size_t singles_searched_again = 6;  ///< refits, the best
 constexpr double quick_reach = 9;          ///< of ln w, beyond the first four
 
 double log_side(Side side, double T) {
@@ -62,7 +62,7 @@ class SingleSearch {
       const auto left = [](const Job& job) { return job.refit ? job.refit->fit.chi2 : INFINITY; };
       return left(a) < left(b);
     });
-    tbb::parallel_for(std::size_t{0}, std::min(jobs.size(), searched_again), [&](std::size_t j) {
+    tbb::parallel_for(std::size_t{0}, std::min(jobs.size(), singles_searched_again), [&](std::size_t j) {
       if (jobs[j].refit) jobs[j].refit = searched_again(inquiry_, analysis_, std::move(*jobs[j].refit));
     });
     std::map<std::size_t, std::map<std::size_t, double>> gains;  // single → direction → gain

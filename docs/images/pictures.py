@@ -1,0 +1,25 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""pictures.py TUNICA: makes the pictures of docs/getting-started.md again. Runs the page with TUNICA, opens the reports it
+leaves behind in headless Chromium, and reduces each picture to 64 colours with ImageMagick (Debian: chromium, imagemagick)."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+here = pathlib.Path(__file__).resolve().parent
+source = here.parent.parent
+# Folder of the run, name of the picture, height in pixels (the width is 1000).
+PICTURES = [("first", "getting-started-run.png", 1230), ("why", "getting-started-diagnosis.png", 1380),
+            ("third", "getting-started-prediction.png", 1340)]
+
+with tempfile.TemporaryDirectory() as folder:
+    subprocess.run([sys.executable, source / "tests/docs/run_page.py", sys.argv[1], source, here.parent / "getting-started.md",
+                    "--update", "--keep", folder], check=True)
+    for run, name, height in PICTURES:
+        report = pathlib.Path(folder) / run / "report.html"
+        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                        "--virtual-time-budget=8000", f"--window-size=1000,{height}", f"--screenshot={here / name}",
+                        report.as_uri()], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run(["convert", here / name, "-colors", "64", "-define", "png:compression-level=9", here / name], check=True)
+        print(here / name)
