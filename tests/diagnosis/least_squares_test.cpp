@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/least_squares.hpp"
+#include "diagnosis/evidence/least_squares.hpp"
 
 #include <gmock/gmock.h>
 

@@ -79,9 +79,15 @@ experiment::Experiment Measured::read() const {
 
 diagnosis::Diagnosis Measured::diagnose(bool quick) const {
   const experiment::Experiment own = read();
-  diagnosis::Settings settings = diagnosis::settings_of(own);
-  settings.quick = quick;
-  return diagnosis::diagnose(own, settings, testing::catalogue());
+  diagnosis::Request request = diagnosis::request_of(own);
+  request.quick = quick;
+  return diagnosis::diagnose(own, request, testing::catalogue());
+}
+
+std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found) {
+  std::vector<std::string> texts;
+  for (const diagnosis::Warning& warning : found.warnings()) texts.push_back(warning.text);
+  return texts;
 }
 
 json mechanism(const std::string& type, const std::string& parameter, double value, json more) {

@@ -57,6 +57,7 @@ json cause_json(const Cause& cause) {
           {"retained_fraction", std::min(1.0, cause.retained)},
           {"gain", cause.gain},
           {"parameter_shifts", std::move(shifts)},
+          {"claim", "consistent_with"},
           {"explanation", cause.explanation}};
 }
 
@@ -208,17 +209,26 @@ json gross_json(const std::vector<GrossRow>& gross) {
   return rows;
 }
 
-/// The sentences, or the codes, of reasons or warnings.
+/// The sentences of reasons or warnings.
 template <class Statement>
 json texts(const std::vector<Statement>& statements) {
   json all = json::array();
   for (const Statement& one : statements) all.push_back(one.text);
   return all;
 }
-template <class Statement>
-json codes(const std::vector<Statement>& statements) {
+
+json codes(const std::vector<Reason>& reasons) {
   json all = json::array();
-  for (const Statement& one : statements) all.push_back(code_of(one.kind));
+  for (const Reason& one : reasons) all.push_back(code_of(one.kind));
+  return all;
+}
+
+/// As other results have them; a diagnosis has no runs.
+json details(const std::vector<Warning>& warnings) {
+  json all = json::array();
+  for (const Warning& warning : warnings)
+    all.push_back(
+        {{"kind", code_of(warning.kind)}, {"run", nullptr}, {"subjects", json::array()}, {"sentence", warning.text}});
   return all;
 }
 
