@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "check.hpp"
+#include "comparison/result_json.hpp"
 
 namespace tunica::app {
 
@@ -55,7 +57,7 @@ json parameters_json(const assembly::Assembly& assembly) {
   return all;
 }
 
-json initial_json(const CheckedProblem& problem) {
+json initial_json(const calibration::PosedProblem& problem) {
   const auto& initial = problem.initial;
   json one = {{"status", status_json(initial.status)}};
   if (initial.status.kind() == Status::Kind::failed) return one;
@@ -80,9 +82,15 @@ json initial_json(const CheckedProblem& problem) {
 
 }  // namespace
 
-json check_json(const Checked& checked) {
-  json document = {{"name", checked.experiment.name}, {"in_order", checked.good()}, {"seed", checked.experiment.seed},
-                   {"warnings", checked.warnings},    {"runs", json::array()},      {"problems", json::array()}};
+json check_json(const calibration::Examination& checked) {
+  json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
+                   {"seed", checked.experiment.seed},  {"warnings", json::array()},
+                   {"warning_details", json::array()}, {"runs", json::array()},
+                   {"problems", json::array()}};
+  for (const auto& warning : checked.warnings) {
+    document["warnings"].push_back(warning.text());
+    document["warning_details"].push_back(comparison::warning_json(warning));
+  }
   for (const auto& run : checked.plan.runs)
     document["runs"].push_back({{"label", run.label},
                                 {"realisations", run.entry->realisations},

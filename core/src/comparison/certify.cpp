@@ -67,6 +67,20 @@ const json& run_named(const json& result, const std::string& label) {
 
 }  // namespace
 
+std::string best_points_json(const Summary& summary) {
+  json runs = json::array();
+  for (const auto& run : summary.runs) {
+    json best = nullptr;
+    if (run.has_result) {
+      best = {{"objective", run.objective}, {"parameters", json::object()}};
+      for (const auto& parameter : run.parameters) best["parameters"][parameter.name] = {{"value", parameter.value}};
+    }
+    runs.push_back({{"run", run.label}, {"best", std::move(best)}});
+  }
+  const json document = {{"runs", std::move(runs)}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
 std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions) {
   json runs = json::array();
@@ -94,7 +108,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
             fmt::format("{}: the best point cannot be evaluated: {}", planned.label, around.status.reason()));
       else if (contradictions && !search::same_objective(now, recorded))
         contradictions->push_back(
-            fmt::format("{}: NOT CONFIRMED: result.json records the objective {}, evaluated again it "
+            fmt::format("{}: not confirmed: result.json records the objective {}, but evaluated again it "
                         "is {}",
                         planned.label, recorded, now));
       runs.push_back(std::move(entry));
@@ -121,8 +135,8 @@ void add_certificates(const std::string& certified, const std::string& missing, 
         certificate.missing = problem.what();
       }
     }
-    certificate.verdict = verdict(certificate);
-    if (alarming(certificate)) summary.warnings.push_back(fmt::format("{}: {}", run.label, certificate.verdict));
+    judge(certificate);
+    if (auto warning = certificate_warning(run.label, certificate)) summary.warnings.push_back(std::move(*warning));
   }
 }
 

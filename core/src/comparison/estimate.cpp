@@ -14,20 +14,22 @@ namespace tunica::comparison {
 
 namespace {
 
+using execution::WarningKind;
+
 /// Share of the search range, in the coordinate the optimiser sees, within which a value counts as being on a bound.
 constexpr double on_bound = 1e-6;
 
 /// The best point once more, with a workspace that has seen nothing else. A search that starts from the solution
 /// before may end a solver a few roundings elsewhere, no further.
 void evaluate_again(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary,
-                    std::vector<std::string>& warnings) {
+                    std::vector<execution::Warning>& warnings) {
   auto workspace = assembly.evaluator().make_workspace();
   summary.per_test.resize(summary.tests.size());
   double objective = 0;
   summary.status = assembly.evaluator().evaluate(best.best.parameters, objective, summary.per_test, {}, {}, *workspace);
   if (summary.status.kind() == Status::Kind::failed) {
-    warnings.push_back(
-        fmt::format("{}: the best point could not be evaluated again: {}", summary.label, summary.status.reason()));
+    warnings.push_back({WarningKind::not_evaluated_again,
+                        "the best point could not be evaluated again: " + summary.status.reason(), summary.label});
     return;
   }
   if (summary.status.kind() == Status::Kind::infeasible && assembly.layout().has_costly_tests) {
@@ -35,10 +37,11 @@ void evaluate_again(const assembly::Assembly& assembly, const execution::Realisa
     return;
   }
   if (std::abs(objective - best.best.objective) > 1e-9 * std::abs(best.best.objective) + 1e-12)
-    warnings.push_back(
-        fmt::format("{}: the best point gives the objective {} where the search recorded {}: model or test do "
-                    "not give the same answer twice",
-                    summary.label, objective, best.best.objective));
+    warnings.push_back({WarningKind::not_repeatable,
+                        fmt::format("the best point gives the objective {}, but the search recorded {}; the model or "
+                                    "the test does not give the same answer twice",
+                                    objective, best.best.objective),
+                        summary.label});
 }
 
 void add_parameters(const assembly::Assembly& assembly, const execution::RealisationResult& best,
@@ -49,8 +52,11 @@ void add_parameters(const assembly::Assembly& assembly, const execution::Realisa
   assembly.box().to_unit(values, unit);
   for (std::size_t j = 0; j < declared.size(); ++j) {
     Estimate estimate;
-    estimate.name = declared[j].name, estimate.unit = declared[j].unit;
-    estimate.value = values[j], estimate.min = declared[j].min, estimate.max = declared[j].max;
+    estimate.name = declared[j].name;
+    estimate.unit = declared[j].unit;
+    estimate.value = values[j];
+    estimate.min = declared[j].min;
+    estimate.max = declared[j].max;
     if (unit[j] <= on_bound) estimate.at_bound = Estimate::Bound::lower;
     if (unit[j] >= 1 - on_bound) estimate.at_bound = Estimate::Bound::upper;
     std::vector<double> sample;
@@ -63,13 +69,15 @@ void add_parameters(const assembly::Assembly& assembly, const execution::Realisa
 
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
 void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-                         RunSummary& summary, std::vector<std::string>& warnings) {
-  if (summary.status.kind() == Status::Kind::infeasible) return;  // of a point that is not allowed nobody asks
+                         RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  if (summary.status.kind() == Status::Kind::infeasible) return;  // nobody asks this of a point that is not allowed
   uncertainty::Identifiability found;
   const Status status = uncertainty::identify(assembly, best.best.parameters, found);
   if (!status.ok()) {
-    warnings.push_back(fmt::format("{}: no confidence intervals, for the best point cannot be linearised: {}",
-                                   summary.label, status.reason()));
+    warnings.push_back(
+        {WarningKind::not_linearised,
+         "there are no confidence intervals, because the best point cannot be linearised: " + status.reason(),
+         summary.label});
     return;
   }
   for (std::size_t j = 0; j < summary.parameters.size(); ++j) {
@@ -83,15 +91,6 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
   }
   summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();
-  std::vector<std::string> bent;
-  for (const auto& estimate : summary.parameters)
-    if (estimate.ci95 && !estimate.straight) bent.push_back(estimate.name);
-  if (!bent.empty())
-    summary.uncertainty.push_back(
-        fmt::format("the linearised interval{} of {} may be far off: before {} ends the likelihood is no parabola any "
-                    "more, or a bound is in the way; --profiles {} gives {}",
-                    bent.size() == 1 ? "" : "s", fmt::join(bent, ", "), bent.size() == 1 ? "its" : "their",
-                    fmt::join(bent, ","), bent.size() == 1 ? "a better one" : "better ones"));
 }
 
 void add_quality(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
@@ -126,15 +125,14 @@ void add_spread(const assembly::Assembly& assembly, const execution::RunResult& 
 }  // namespace
 
 void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings) {
+              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
   add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
   add_spread(assembly, all, summary);
   if (!summary.status.ok()) return;
-  if (std::string text = transfer_warning(summary.label, summary.quality); !text.empty())
-    warnings.push_back(std::move(text));
+  if (auto warning = transfer_warning(summary.label, summary.quality)) warnings.push_back(std::move(*warning));
 }
 
 }  // namespace tunica::comparison

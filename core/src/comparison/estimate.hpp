@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "comparison/summary.hpp"
+#include "execution/warning.hpp"
 
 namespace tunica::comparison {
 
@@ -12,6 +12,6 @@ namespace tunica::comparison {
 /// recorded (otherwise a warning); parameters with confidence intervals and bounds, quality of the fit per channel,
 /// identifiability in words.
 void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings);
+              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings);
 
 }  // namespace tunica::comparison

@@ -11,6 +11,7 @@
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
@@ -97,7 +98,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
   for (const auto& fit : fits) {
     const auto& lead = *fit.channels.front();
     for (std::size_t row = 0; row < lead.count; ++row) {
-      text += execution::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
+      text += text::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
       for (const auto& other : lead.other_abscissae) text += ',' + fit_cell(other.second[row]);
       for (const auto* channel : fit.channels)
         text += ',' + fit_cell(channel->measured[row]) + ',' + fit_cell(fit.predictions[channel->offset + row]);

@@ -15,6 +15,8 @@
 #include "data/units.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
+#include "text/units.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -26,7 +28,10 @@ namespace {
 experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, const std::string& model) {
   experiment::RunEntry run;
   bool needed = false;
-  for (const auto& test : experiment.tests) run.tests.push_back(test.name), needed = needed || test.layers.empty();
+  for (const auto& test : experiment.tests) {
+    run.tests.push_back(test.name);
+    needed = needed || test.layers.empty();
+  }
   const std::string of_layers = experiment.model_name(run);
   if (needed) run.model = model;
   std::vector<std::string> models;
@@ -81,19 +86,20 @@ Subject subject_of(const experiment::Experiment& experiment, const plugins::Cata
     throw InputError("--run names a run of a result.json: name that with --parameters FILE");
   const auto& parameters = subject.assembly->layout().parameters;
   if (request.parameters)
-    std::tie(subject.free, subject.origin) =
+    std::tie(subject.free, subject.source) =
         read_parameters(*request.parameters, subject.model, request.run, *subject.assembly);
   else
     for (const auto& parameter : parameters) subject.free.push_back(parameter.initial);
-  if (!request.parameters) subject.origin = "initial values of the experiment";
+  if (!request.parameters) subject.source = "initial values of the experiment";
+  subject.origin = subject.source;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const auto& parameter = parameters[j];
-    const std::string unit = parameter.unit == "1" ? "" : ' ' + parameter.unit;
+    const std::string unit = text::unit_suffix(parameter.unit);
     subject.origin += fmt::format("{}{} = {:.6g}{}", j == 0 ? ": " : ", ", parameter.name, subject.free[j], unit);
     if (!parameter.declared.contains(subject.free[j]))
       subject.warnings.push_back(
-          fmt::format("{} = {:g}{} lies outside {:g} … {:g}, the range declared for it: what "
-                      "follows may mean nothing",
+          fmt::format("{} = {:g}{} lies outside {:g} … {:g}, the range declared for it; the "
+                      "predictions may mean nothing",
                       parameter.name, subject.free[j], unit, parameter.declared.min, parameter.declared.max));
   }
   return subject;
@@ -155,7 +161,7 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
 
 std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table) {
   std::string text;
-  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + execution::csv_cell(table.headers[c]);
+  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + text::csv_cell(table.headers[c]);
   text += '\n';
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   for (std::size_t row = 0; row < rows; ++row) {

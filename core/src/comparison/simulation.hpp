@@ -28,7 +28,8 @@ struct Subject {
   std::string model;  ///< what results call it
   std::unique_ptr<assembly::Assembly> assembly;
   std::vector<double> free;
-  std::string origin;                 ///< "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"
+  std::string source;  ///< of the values: "run 'gho/lm' of out/result.json"
+  std::string origin;  ///< the same with the values: "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"
   std::vector<std::string> warnings;  ///< values outside the declared ranges
 };
 Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,

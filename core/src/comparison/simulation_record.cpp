@@ -7,6 +7,29 @@
 
 namespace tunica::comparison {
 
+Simulation simulate_with_fields(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                const SimulationRequest& request, const Subject& subject,
+                                const std::vector<std::string>& fields) {
+  Simulation simulation{simulate(experiment, catalogue, request, subject), {}};
+  for (const auto& text : fields) {
+    const auto asked = field_request(text);
+    simulation.fields.emplace_back(asked.test, take_snapshots(experiment, subject, asked));
+  }
+  return simulation;
+}
+
+std::vector<std::filesystem::path> write_simulation(const std::filesystem::path& directory,
+                                                    const experiment::Experiment& experiment,
+                                                    const SimulationRequest& request, const Subject& subject,
+                                                    const Simulation& simulation) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& table : simulation.tables) files.push_back(write_table(directory, table));
+  for (const auto& [test, snapshots] : simulation.fields)
+    for (const auto& path : write_snapshots(directory, test, snapshots)) files.push_back(path);
+  files.push_back(write_record(directory, experiment, request, subject));
+  return files;
+}
+
 std::filesystem::path write_record(const std::filesystem::path& directory, const experiment::Experiment& experiment,
                                    const SimulationRequest& request, const Subject& subject) {
   nlohmann::ordered_json record{
@@ -18,6 +41,7 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
     parameters[free[j].name] = {{"value", subject.free[j]}, {"unit", free[j].unit}};
   for (const auto& parameter : subject.assembly->layout().fixed_parameters)
     parameters[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
+  record["source"] = subject.source;
   record["origin"] = subject.origin;
   record["noise"] = request.noise;
   record["seed"] = request.seed;

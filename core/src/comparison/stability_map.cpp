@@ -13,6 +13,7 @@
 #include "data/nearest.hpp"
 #include "execution/evaluation_table.hpp"
 #include "stability/transverse.hpp"
+#include "text/csv.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
@@ -79,7 +80,7 @@ std::string stability_map(const assembly::Assembly& assembly, std::span<const do
                            map_cell(strips.worst_slope));
   });
   const auto header = [&](std::size_t k) {
-    return execution::csv_cell(fmt::format("{} [{}]", names[k], assembly.layout().parameters[index[k]].unit));
+    return text::csv_cell(fmt::format("{} [{}]", names[k], assembly.layout().parameters[index[k]].unit));
   };
   std::string text = fmt::format(
       "# Transverse stability of free strips from rest to stretch {:g}.\n{},{},stable,"

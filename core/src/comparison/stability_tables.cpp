@@ -9,6 +9,7 @@
 #include "comparison/stability_report.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -63,7 +64,7 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
     const auto& assembly = *subject.assembly;
     for (std::size_t m = 0; m < assembly.models().count(); ++m) {
       const auto parameters = assembly.models().parameters(m, subject.free);
-      const std::string label = execution::csv_cell(
+      const std::string label = text::csv_cell(
           assembly.models().count() > 1 ? subject.label + ' ' + assembly.models().name(m) : subject.label);
       for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
         append_strip(strips, label, assembly.models().model(m), parameters, axis, subject.limit);
@@ -72,6 +73,17 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
   }
   execution::write_atomically(directory / "stability.csv", strips);
   execution::write_atomically(directory / "energy.csv", energies);
+}
+
+std::vector<std::filesystem::path> write_stability(const std::filesystem::path& directory, const Subject& subject,
+                                                   std::optional<double> to, const std::string& map) {
+  const double limit = domain_of(*subject.assembly, 0, to).largest;
+  write_stability_tables(directory, {{subject.model, subject.assembly.get(), subject.free, limit}});
+  std::vector<std::filesystem::path> files{directory / "stability.csv", directory / "energy.csv"};
+  if (map.empty()) return files;
+  files.push_back(directory / "stability_map.csv");
+  execution::write_atomically(files.back(), map);
+  return files;
 }
 
 void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,

@@ -93,14 +93,20 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
              const std::function<bool()>& interrupted, Summary& summary) {
   const auto& analysis = plan.experiment->analysis;
-  if (!analysis.wanted()) return;
+  if (!analysis.wanted()) {
+    for (auto& run : summary.runs) add_linearised_words(run);
+    return;
+  }
   const auto optimizer = local_optimizer(*plan.experiment, catalogue);
   std::vector<RunProfiles> profiled;
   std::vector<RunDraws> drawn;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const auto& run = plan.runs[k];
     auto& own = summary.runs[k];
-    if (!own.has_result || !own.status.ok()) continue;
+    if (!own.has_result || !own.status.ok()) {
+      add_linearised_words(own);
+      continue;
+    }
     const auto& assembly = *run.assembly;
     std::vector<double> best;
     for (const auto& parameter : own.parameters) best.push_back(parameter.value);
@@ -113,9 +119,6 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       } else {
         auto made = uncertainty::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
         keep(made, own);
-        for (auto& sentence : own.uncertainty)  // of the linearised intervals: what it advises is done
-          if (const auto advice = sentence.find("; --profiles "); advice != std::string::npos && analysis.all_profiles)
-            sentence = sentence.substr(0, advice) + "; take the profile";
         add_profile_words(assembly, run.entry->objective, made, own);
         profiled.push_back({&assembly, own.label, std::move(made)});
       }
@@ -126,6 +129,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       add_bootstrap_words(assembly, made, own);
       drawn.push_back({&assembly, own.label, std::move(made)});
     }
+    add_linearised_words(own);
     if (interrupted && interrupted()) return;
   }
   write_profiles(directory, profiled);

@@ -9,13 +9,14 @@
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
 std::string column(const assembly::FreeParameter& parameter) {
-  return execution::csv_cell(fmt::format("{} [{}]", parameter.name, parameter.unit));
+  return text::csv_cell(fmt::format("{} [{}]", parameter.name, parameter.unit));
 }
 
 /// Columns of all these runs, each once.
@@ -65,8 +66,8 @@ void write_profiles(const std::filesystem::path& directory, const std::vector<Ru
             "run,value [{}],delta,threshold,{}\n",
             parameter.name, parameter.unit, fmt::join(columns, ","));
       for (const auto& point : profile.points)
-        text += fmt::format("{},{},{},{}{}\n", execution::csv_cell(run.label), point.value, point.delta,
-                            profile.threshold, cells(*run.assembly, point.free, columns));
+        text += fmt::format("{},{},{},{}{}\n", text::csv_cell(run.label), point.value, point.delta, profile.threshold,
+                            cells(*run.assembly, point.free, columns));
     }
   for (const auto& [parameter, text] : files) execution::write_atomically(directory / file_name(parameter), text);
 }
@@ -78,7 +79,7 @@ void write_bootstrap(const std::filesystem::path& directory, const std::vector<R
   for (const auto& run : runs)
     for (std::size_t k = 0; k < run.bootstrap.draws.size(); ++k) {
       const auto& draw = run.bootstrap.draws[k];
-      text += fmt::format("{},{},{},{},{}{}\n", execution::csv_cell(run.label), k + 1, name(draw.status.kind()),
+      text += fmt::format("{},{},{},{},{}{}\n", text::csv_cell(run.label), k + 1, name(draw.status.kind()),
                           draw.converged ? 1 : 0, draw.free.empty() ? "" : fmt::format("{}", draw.objective),
                           cells(*run.assembly, draw.free, columns));
     }

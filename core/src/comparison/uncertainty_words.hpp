@@ -9,6 +9,10 @@
 
 namespace tunica::comparison {
 
+/// Puts first which linearised intervals may be far off, and where to find better ones: in the profile where there is
+/// one already.
+void add_linearised_words(RunSummary& summary);
+
 /// What a reader of the intervals must know: ends that stay open, profiles that disagree with the linearised intervals
 /// (an end elsewhere by more than a quarter of their half width), a centre that was no optimum, refits that failed.
 void add_profile_words(const assembly::Assembly& assembly, experiment::ObjectiveType objective,

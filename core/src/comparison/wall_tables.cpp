@@ -11,6 +11,7 @@
 #include "comparison/snapshots.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
@@ -47,7 +48,7 @@ std::string table_of(const std::string& run, const std::vector<Snapshot>& snapsh
       text += '\n';
     }
     for (std::size_t i = 0; i < snapshot.section.front().values.size(); ++i) {
-      text += fmt::format("{},{}", execution::csv_cell(run), snapshot.row + 1);
+      text += fmt::format("{},{}", text::csv_cell(run), snapshot.row + 1);
       for (const auto& column : snapshot.section)
         text += std::isfinite(column.values[i]) ? fmt::format(",{}", column.values[i]) : ",";
       text += '\n';

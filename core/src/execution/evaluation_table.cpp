@@ -9,9 +9,12 @@
 #include <iterator>
 #include <limits>
 
+#include "text/csv.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::execution {
+
+using text::csv_cell;
 
 namespace {
 
@@ -75,15 +78,6 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
 }
 
 }  // namespace
-
-std::string csv_cell(std::string_view text) {
-  std::string cell;
-  for (const char character : text) {
-    cell += character == '\n' || character == '\r' ? ' ' : character;
-    if (character == '"') cell += '"';
-  }
-  return text.find_first_of(",\"") == std::string_view::npos ? cell : '"' + cell + '"';
-}
 
 EvaluationTable::EvaluationTable(std::vector<RunColumns> runs) : runs_(std::move(runs)) {
   std::vector<std::vector<std::string>> parameters, costs;

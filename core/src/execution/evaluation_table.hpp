@@ -55,7 +55,4 @@ class EvaluationTable {
   std::vector<std::vector<int>> parameter_slots_, cost_slots_;  ///< run → column → own index, or -1
 };
 
-/// A cell as RFC 4180 wants it, on one line.
-std::string csv_cell(std::string_view text);
-
 }  // namespace tunica::execution

@@ -65,7 +65,7 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
 }
 
 /// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
-void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
+void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   if (run.assembly->layout().parameters.empty())
     throw InputError(
         fmt::format("run {}: every parameter is fixed, there is nothing to fit; free one, or use "
@@ -89,18 +89,21 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
                       run.assembly->layout().parameters.size()));
     check_constraints(run, stage, needs);
     if (needs.gradient && !run.assembly->layout().jacobian_is_exact)
-      warnings.push_back(
-          fmt::format("run {}: derivatives for '{}' are differences of whole predictions, because model "
-                      "or test has no exact ones",
-                      run.label, stage.entry->name));
+      warnings.push_back({WarningKind::differenced_derivatives,
+                          fmt::format("derivatives for '{}' are differences of whole predictions, because the model or "
+                                      "a test has no exact ones",
+                                      stage.entry->name),
+                          run.label,
+                          {stage.entry->name}});
   }
   if (run.assembly->layout().blocks.empty())
     throw InputError(fmt::format(
         "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
   if (!random && !run.entry->random_start && run.entry->realisations > 1)
-    warnings.push_back(
-        fmt::format("run {}: the optimiser uses no random numbers, so its {} realisations are all the same", run.label,
-                    run.entry->realisations));
+    warnings.push_back({WarningKind::equal_realisations,
+                        fmt::format("the optimiser uses no random numbers, so its {} realisations are all the same",
+                                    run.entry->realisations),
+                        run.label});
 }
 
 /// The plugins behind every model, test, mechanism and optimiser of the experiment.

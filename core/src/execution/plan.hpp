@@ -9,6 +9,7 @@
 #include "assembly/assembly.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/journal.hpp"
+#include "execution/warning.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -36,7 +37,7 @@ struct Plan {
   const experiment::Experiment* experiment = nullptr;
   std::vector<PlannedRun> runs;
   std::vector<Task> tasks;  ///< in the order of evaluations.csv
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 
   std::vector<std::string> plugins;  ///< every one the results depend on, "gho 0.1.0", sorted
 

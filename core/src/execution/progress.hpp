@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "execution/plan.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
 
 namespace tunica::execution {
 
@@ -38,14 +38,11 @@ class Progress {
 
  private:
   Style style_;
-  StatusLine line_;
+  text::StatusLine line_;
   const Plan& plan_;
   const std::vector<Meter>& meters_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double drawn_ = 0;  ///< s since the beginning
 };
-
-/// "0:07", "12:30", "3:05:00"
-std::string clock_text(double seconds);
 
 }  // namespace tunica::execution

@@ -40,6 +40,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Whether what stopped a stage is a limit of the whole; otherwise the next stage begins.
+bool ends_all(const RealisationResult& result, const experiment::Stop& shared) {
+  switch (result.stopped_by) {
+    case search::StopReason::none:
+    case search::StopReason::stall:
+      return false;
+    case search::StopReason::target:
+      return shared.target && result.best.feasible() && result.best.objective <= *shared.target;
+    case search::StopReason::max_evaluations:
+      return result.tally.evaluations >= shared.max_evaluations;
+    case search::StopReason::max_time:
+      return shared.max_time && result.seconds >= *shared.max_time;
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisation,
@@ -92,20 +109,15 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     if (best.better_than(result.best)) result.best = best;
     result.converged = outcome.converged;
     result.reason = one_line(outcome.reason);
-    result.stop_reason = one_line(problem.stop_sentence());
+    result.stopped_by = problem.stop_reason();
+    result.stop_sentence = one_line(problem.stop_sentence());
     if (!fault.empty()) {  // of this realisation; what it has found stays, and the others go on
       result.reason = one_line(fault);
-      result.stop_reason = optimizer_failure;
+      result.stopped_by = search::StopReason::optimizer_failure;
+      result.stop_sentence = "failure of the optimiser";
       break;
     }
-    const bool spent = result.tally.evaluations >= shared.max_evaluations;
-    const bool stage_ended =
-        result.stop_reason.empty() || result.stop_reason == "stall" ||
-        (result.stop_reason == "target" &&
-         !(shared.target && result.best.feasible() && result.best.objective <= *shared.target)) ||
-        (result.stop_reason == "max_evaluations" && !spent) ||
-        (result.stop_reason == "max_time" && !(shared.max_time && result.seconds >= *shared.max_time));
-    if (!stage_ended) break;
+    if (ends_all(result, shared)) break;
   }
   result.tally.first_failure = one_line(result.tally.first_failure);
   for (auto& kind : result.tally.reasons) kind.example = one_line(kind.example);
