@@ -101,8 +101,8 @@ TEST(LeastSquares, ReachesTheSameOptimumWithSecantsAsWithExactJacobians) {
   differenced.model().mechanisms = {{"memory", {}, {}}};
   differenced.model().mechanisms[0].parameters["g"].fixed = 0;
   const auto exact = plain.assemble(), secant = differenced.assemble();
-  ASSERT_TRUE(exact.jacobian_is_exact());
-  ASSERT_FALSE(secant.jacobian_is_exact());
+  ASSERT_TRUE(exact.layout().jacobian_is_exact);
+  ASSERT_FALSE(secant.layout().jacobian_is_exact);
   const Fit one = fit(exact, each_alone(exact), {9, 0.2, -3}), other = fit(secant, each_alone(secant), {9, 0.2, -3});
   EXPECT_NEAR(other.chi2, one.chi2, 1e-4);
   for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(other.free[j], one.free[j], 1e-3);
@@ -113,7 +113,9 @@ TEST(LeastSquares, FindsWhatAModelWithHistoryRemembers) {
   bench.model().mechanisms = {{"memory", {}, {}}};
   auto assembly = bench.assemble();
   std::vector<double> seen(assembly.layout().prediction_count);
-  ASSERT_TRUE(assembly.evaluator().predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.evaluator().make_workspace()).ok());
+  ASSERT_TRUE(assembly.evaluator()
+                  .predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.evaluator().make_workspace())
+                  .ok());
   const auto workspace = assembly.evaluator().make_workspace();
   assembly.evaluator().measure(seen, *workspace);
   const Fit found = least_squares(assembly, each_alone(assembly), std::vector<double>{2, 1, 0, 0.1}, *workspace, 200);
@@ -169,8 +171,8 @@ TEST(LeastSquares, TellsWhyNothingCouldBeEvaluated) {
   Parabola bench;
   const auto assembly = bench.assemble();
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("a torn strip"); });
-  const Fit found =
-      least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0}, *assembly.evaluator().make_workspace());
+  const Fit found = least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0},
+                                  *assembly.evaluator().make_workspace());
   EXPECT_FALSE(found.status.ok());
   EXPECT_THAT(found.status.reason(), ::testing::HasSubstr("a torn strip"));
 }
