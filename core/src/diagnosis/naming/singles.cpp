@@ -134,7 +134,7 @@ class SingleSearch {
     }
     std::vector<std::size_t>& chosen = common.empty() ? single : common;
     std::stable_sort(chosen.begin(), chosen.end(), [&](auto a, auto b) { return scores_[a].T > scores_[b].T; });
-    chosen.resize(std::min<std::size_t>(chosen.size(), 2));
+    if (chosen.size() > 2) chosen.erase(chosen.begin() + 2, chosen.end());
     return chosen;
   }
   [[nodiscard]] double far_amplitude(std::size_t direction) const {
