@@ -6,7 +6,7 @@ import re
 
 GAP = "⟨…⟩"
 NAMES = "⟨the nearest name, then all there are⟩"
-SINKS = {"InputError", "Refused", "PluginRefused", "PluginFailure", "HostFault", "invalid_argument", "runtime_error",
+SINKS = {"InputError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument", "runtime_error",
          "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse"}
 TOKEN = re.compile(r'R"\((?P<raw>.*?)\)"|"(?P<text>(?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])+\'|//[^\n]*|/\*.*?\*/|'
                    r"\d[\w']*|\w+|::|->|\S", re.S)

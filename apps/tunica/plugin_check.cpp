@@ -36,7 +36,7 @@ struct Asked {
 /// The plugin under check before all others, so that its names are its own; the others are its partners.
 struct OnTheBench {
   plugins::Catalogue catalogue;
-  plugins::Loaded loaded;
+  plugins::LoadedPlugin loaded;
   conformance::Contents contents;
 
   OnTheBench(const GlobalOptions& global, const fs::path& file) {
@@ -44,7 +44,7 @@ struct OnTheBench {
     if (!fs::exists(file)) throw InputError(fmt::format("{}: no such file; expected a plugin to check", file.string()));
     try {
       loaded = plugins::load_file(file, catalogue, trusting);
-    } catch (const plugins::Refused& refused) {
+    } catch (const plugins::LoadError& refused) {
       throw PluginRefused(fmt::format("{}: {}", file.string(), refused.what()));
     }
     contents = conformance::contents_of(catalogue);
@@ -64,7 +64,7 @@ struct OnTheBench {
   void load_partner(const fs::path& path, bool trusting) {
     try {
       plugins::load_file(path, catalogue, trusting);
-    } catch (const plugins::Refused& refused) {
+    } catch (const plugins::LoadError& refused) {
       warn(path, refused.what());
     }
   }

@@ -16,7 +16,7 @@ namespace tunica::app {
 
 namespace {
 
-std::string describe(const plugins::Refusal& refusal) {
+std::string describe(const plugins::RefusedPlugin& refusal) {
   return fmt::format("plugin {} was refused: {}", refusal.file.string(), refusal.reason);
 }
 
@@ -48,7 +48,7 @@ Session::Session(const GlobalOptions& options) {
     }
     try {
       loaded_.push_back(plugins::load_file(path, catalogue_, options.allow_world_writable_plugins));
-    } catch (const plugins::Refused& refused) {
+    } catch (const plugins::LoadError& refused) {
       throw PluginRefused(fmt::format("--plugin-path {}: {}", path.string(), refused.what()));
     }
   }

@@ -32,7 +32,7 @@ class Session {
   explicit Session(const GlobalOptions& options);
 
   [[nodiscard]] const plugins::Catalogue& catalogue() const { return catalogue_; }
-  [[nodiscard]] const std::vector<plugins::Loaded>& loaded() const { return loaded_; }
+  [[nodiscard]] const std::vector<plugins::LoadedPlugin>& loaded() const { return loaded_; }
   /// "plugin X was refused: …", for reports.
   [[nodiscard]] std::vector<std::string> refusals() const;
 
@@ -42,8 +42,8 @@ class Session {
 
  private:
   plugins::Catalogue catalogue_;
-  std::vector<plugins::Loaded> loaded_;
-  std::vector<plugins::Refusal> refused_;
+  std::vector<plugins::LoadedPlugin> loaded_;
+  std::vector<plugins::RefusedPlugin> refused_;
 };
 
 }  // namespace tunica::app

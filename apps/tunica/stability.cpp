@@ -98,10 +98,11 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   comparison::StabilitySummary found;
   for (std::size_t m = 0; m < assembly.model_count(); ++m)
-    found.models.push_back({assembly.model_name(m),
-                            tunica::stability::judge(assembly.model(m), assembly.model_parameters(m, subject.free),
-                                                     domain_of(assembly, m, options)),
-                            {}});
+    found.models.push_back(
+        {assembly.model_name(m),
+         tunica::stability::judge_admissibility(assembly.model(m), assembly.model_parameters(m, subject.free),
+                                                domain_of(assembly, m, options)),
+         {}});
   std::vector<std::string> files;
   if (directory) {
     comparison::write_stability_tables(directory->path(), {{subject.model, &assembly, subject.free, limit}});

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""pictures.py TUNICA: makes the pictures of docs/getting-started.md again. Runs the page with TUNICA, opens the reports it
-leaves behind in headless Chromium, and reduces each picture to 64 colours with ImageMagick (Debian: chromium, imagemagick)."""
+"""pictures.py TUNICA: makes the pictures of the pages again.
+
+Runs docs/getting-started.md and a diagnosis of examples/hidden_effect with TUNICA, opens the reports in headless Chromium,
+and reduces each picture to 64 colours with ImageMagick (Debian: chromium, imagemagick)."""
 import pathlib
 import subprocess
 import sys
@@ -11,11 +13,13 @@ here = pathlib.Path(__file__).resolve().parent
 source = here.parent.parent
 # Folder of the run, name of the picture, height in pixels (the width is 1000).
 PICTURES = [("first", "getting-started-run.png", 1230), ("why", "getting-started-diagnosis.png", 1380),
-            ("third", "getting-started-prediction.png", 1340)]
+            ("third", "getting-started-prediction.png", 1340), ("hidden", "diagnosis.png", 1270)]
 
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.executable, source / "tests/docs/run_page.py", sys.argv[1], source, here.parent / "getting-started.md",
                     "--update", "--keep", folder], check=True)
+    subprocess.run([sys.argv[1], "--allow-world-writable-plugins", "diagnose", source / "examples/hidden_effect/experiment.json",
+                    "-o", pathlib.Path(folder) / "hidden", "--quiet"], check=True, stdout=subprocess.DEVNULL)
     for run, name, height in PICTURES:
         report = pathlib.Path(folder) / run / "report.html"
         subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",

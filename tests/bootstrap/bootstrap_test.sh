@@ -74,6 +74,19 @@ case $2 in
     output_has "Could not find Ceres"
     output_has "cmake could not configure the build"
     ;;
+  shows_how_far_the_build_is)
+    pretend cmake <<<'[[ $1 != --build ]] || printf "[%s/20] Building CXX object x.o\n" {1..20}'
+    expect 0 "$here/bootstrap" build
+    output_has "building: step 2 of 20, 10 %"
+    output_has "building: step 20 of 20, 100 %"
+    [[ $output != *"Building CXX"* && $output != *"step 3 of"* ]] || fail "more than a line every tenth"
+    ;;
+  shows_what_a_failed_step_printed)
+    pretend cmake <<<'[[ $1 != --build ]] || { printf "[1/3] a.o\nFAILED: b.o\nb.cpp:1: error: no\n[2/3] c.o\n"; exit 1; }'
+    expect 1 "$here/bootstrap" build
+    output_has "b.cpp:1: error: no"
+    output_has "the build failed; the step that failed is above"
+    ;;
   passes_arguments_and_exit_status_of_a_run_through)
     cd / && touch "$here/mine.json"
     expect 3 "$here/bootstrap" run "$here/mine.json" -j 2

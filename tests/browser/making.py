@@ -9,7 +9,6 @@ import time
 
 import hostile
 
-DATA = "../../../shared/data"  # measurements that do not come with the sources: beside them, or in TUNICA_DATA_DIR
 # What ctest -L example runs in full is here for its pictures: budgets for which an example takes seconds.
 FEW = {"evaluations": 400, "realisations": 4, "starts": 2}
 BUDGETS = {"lamb_aorta": {}, "treloar": {}, "known_solution": {}, "lamb_aorta_stable": {**FEW, "evaluations": 200},
@@ -17,10 +16,6 @@ BUDGETS = {"lamb_aorta": {}, "treloar": {}, "known_solution": {}, "lamb_aorta_st
            "optimizer_comparison": {**FEW, "evaluations": 800, "realisations": 10},
            "es_assessment": {**FEW, "realisations": 20}, "murine_tube": {**FEW, "evaluations": 60, "starts": 1},
            "mechanisms": {**FEW, "starts": 1, "evaluations": 40}}
-
-
-class Missing(Exception):
-    pass
 
 
 def tunica(options, *arguments):
@@ -53,16 +48,11 @@ def lessened(value, budget):
 
 
 def experiment(options, source, output, change=lambda made: made):
-    """A copy with absolute paths, which can lie anywhere; Missing where its data are not here."""
+    """A copy with absolute paths, which can lie anywhere."""
     made = change(json.loads(without_comments(source.read_text())))
     made.pop("$schema", None)
     for test in made["tests"].values():
-        data, name = test["data"], test["data"]["file"]
-        home = os.environ.get("TUNICA_DATA_DIR") or options.source / "../shared/data"
-        path = (home / name[len(DATA) + 1:] if name.startswith(DATA) else source.parent / name)
-        if not os.path.exists(path):
-            raise Missing(f"{name} is neither in TUNICA_DATA_DIR nor in ../shared/data beside the sources")
-        data["file"] = os.path.abspath(path)
+        test["data"]["file"] = os.path.abspath(source.parent / test["data"]["file"])
     made.setdefault("stop", {}).setdefault("max_evaluations", 20000)
     file = output.with_suffix(".json")
     file.write_text(json.dumps(made))
@@ -73,11 +63,7 @@ def of_examples(options, output):
     reports = []
     for source in sorted(options.source.glob("examples/*/experiment.json")):
         name = source.parent.name
-        try:
-            file = experiment(options, source, output / name, lambda made: lessened(made, BUDGETS.get(name, FEW)))
-        except Missing as reason:
-            print(f"skipped: {name}: {reason}")
-            continue
+        file = experiment(options, source, output / name, lambda made: lessened(made, BUDGETS.get(name, FEW)))
         diagnosis = "diagnosis" in json.loads(file.read_text())
         seconds = tunica(options, *(["diagnose", file, "--quick"] if diagnosis else ["run", file]), "--quiet", "-o", output / name)
         print(f"{name}: made in {seconds:.1f} s")

@@ -254,8 +254,8 @@ MechanismFactory mechanism(const std::string& id, Stage stage, Parameter paramet
   return factory;
 }
 
-void add_model_mechanism(plugins::Catalogue::Stage& stage, const std::string& id, Stage at, const Parameter& parameter,
-                         WrappedModel::Kind kind) {
+void add_model_mechanism(plugins::Catalogue::Registration& stage, const std::string& id, Stage at,
+                         const Parameter& parameter, WrappedModel::Kind kind) {
   MechanismFactory factory = mechanism(id, at, parameter);
   factory.wrap_model = [kind, parameter](std::unique_ptr<Model> base, const Options&) {
     return std::make_unique<WrappedModel>(std::move(base), kind, parameter);
@@ -263,7 +263,7 @@ void add_model_mechanism(plugins::Catalogue::Stage& stage, const std::string& id
   stage.add(std::move(factory));
 }
 
-void add_test_mechanism(plugins::Catalogue::Stage& stage, const std::string& id, Stage at, bool scales,
+void add_test_mechanism(plugins::Catalogue::Registration& stage, const std::string& id, Stage at, bool scales,
                         std::vector<std::string> applies_to) {
   const Parameter parameter{"value", scales ? "1" : "kPa", 0, -1, 1, Scale::linear, "amplitude", ""};
   MechanismFactory factory = mechanism(id, at, parameter);
@@ -278,7 +278,7 @@ void add_test_mechanism(plugins::Catalogue::Stage& stage, const std::string& id,
 
 void set_behaviour(Behaviour wanted) { behaviour = std::move(wanted); }
 
-void register_all(plugins::Catalogue::Stage& stage) {
+void register_all(plugins::Catalogue::Registration& stage) {
   stage.add(ModelFactory{"parabola", "", "", {}, parabola});
   stage.add(ModelFactory{"bordered", "", "", {}, bordered});
   stage.add(ModelFactory{"jagged", "", "", {}, jagged});
@@ -315,7 +315,7 @@ void register_all(plugins::Catalogue::Stage& stage) {
 
 plugins::Catalogue catalogue() {
   plugins::Catalogue catalogue;
-  plugins::Catalogue::Stage stage;
+  plugins::Catalogue::Registration stage;
   register_all(stage);
   catalogue.commit(std::move(stage), "fakes 1");
   return catalogue;

@@ -23,7 +23,7 @@
 /// offset (test, y + value), scale_error (data, y·(1 + value)), strip_only (test, applies to "strip" alone).
 namespace tunica::fakes {
 
-void register_all(plugins::Catalogue::Stage& stage);
+void register_all(plugins::Catalogue::Registration& stage);
 plugins::Catalogue catalogue();
 
 /// What the fake test does at a given model parameter a, to provoke failures; thread-safe only if the function is.

@@ -8,7 +8,7 @@
 #include "calibration/assembly.hpp"
 #include "calibration/fakes.hpp"
 
-namespace tunica {
+namespace tunica::layers_test {
 namespace {
 
 using calibration::Assembly;
@@ -155,4 +155,4 @@ TEST_F(Layered, AParameterThatLayersExcludeIsRefused) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::layers_test

@@ -13,11 +13,11 @@ using ::testing::HasSubstr;
 
 namespace {
 
-const trial::Folder folder;
+const trial::Folder json_folder;
 
 /// What the command prints, parsed; throws where that is not exactly one JSON document.
 json printed(const std::vector<std::string>& arguments) {
-  const auto ended = trial::tunica(arguments, folder.path());
+  const auto ended = trial::tunica(arguments, json_folder.path());
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.err, "");
   return json::parse(ended.out);
@@ -52,7 +52,7 @@ TEST(Json, ListWithNamesIsALineEach) {
   std::vector<std::string> names;
   for (const char* shelf : {"models", "tests", "optimizers", "mechanisms"})
     for (const auto& one : all.at(shelf)) names.push_back(one.at("name"));
-  EXPECT_EQ(lines_of(trial::tunica({"list", "--names"}, folder.path()).out), names);
+  EXPECT_EQ(lines_of(trial::tunica({"list", "--names"}, json_folder.path()).out), names);
 }
 
 TEST(Json, OfDescribeHasWhatTheObjectDeclares) {
@@ -73,7 +73,7 @@ TEST(Json, OfDescribeHasWhatTheObjectDeclares) {
 }
 
 TEST(Json, OfDescribeParsesForEveryName) {
-  for (const auto& name : lines_of(trial::tunica({"list", "--names"}, folder.path()).out)) {
+  for (const auto& name : lines_of(trial::tunica({"list", "--names"}, json_folder.path()).out)) {
     const json described = printed({"describe", name, "--json"});
     ASSERT_GE(described.size(), 1u);
     EXPECT_EQ(described.begin()->at("name"), name);
@@ -132,7 +132,7 @@ TEST(Json, OfCertifyHasEveryRun) {
 }
 
 TEST(Json, LeavesErrorsOnStderr) {
-  const auto ended = trial::tunica({"describe", "unaxial", "--json"}, folder.path());
+  const auto ended = trial::tunica({"describe", "unaxial", "--json"}, json_folder.path());
   EXPECT_EQ(ended.code, 2);
   EXPECT_EQ(ended.out, "");
   EXPECT_THAT(ended.err, HasSubstr("Did you mean 'uniaxial'?"));

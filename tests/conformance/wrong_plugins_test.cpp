@@ -9,7 +9,7 @@
 #include "cli/process.hpp"
 #include "execution/folder.hpp"
 
-namespace tunica {
+namespace tunica::wrong_plugins_test {
 namespace {
 
 using ::testing::Contains;
@@ -147,4 +147,4 @@ TEST(PluginCheck, ReturnsTwoWhereThereIsNoSuchFileAndThreeForAPluginThatIsRefuse
   EXPECT_THAT(refused.err, HasSubstr("API"));
 }
 
-}  // namespace tunica
+}  // namespace tunica::wrong_plugins_test

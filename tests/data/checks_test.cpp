@@ -43,7 +43,7 @@ TEST(Checks, TellPercentFromAFraction) {
   EXPECT_NE(strip_refusal("stretch,stress [kPa]\n100,0\n120,1\n").find("Write the unit in the header: 'stretch [%]'."),
             std::string::npos);
   EXPECT_NE(only_warning("stretch [1],stress [kPa]\n1,0\n25,900\n")
-                .find("line 3, column 1 ('stretch'): a stretch of 25 is found"),
+                .find("line 3, column 1 ('stretch'): found a stretch of 25"),
             std::string::npos);
   EXPECT_NE(only_warning("stretch,stress [kPa]\n5,0\n10,900\n").find("every stretch is above 2 and none is near 1"),
             std::string::npos);
@@ -61,13 +61,13 @@ TEST(Checks, WarnOfTensionThatPushes) {
 TEST(Checks, WarnOfRepeatedRows) {
   EXPECT_EQ(only_warning("stretch,stress [kPa]\n1,0\n1.1,1\n1.1,1\n1.2,2\n"),
             "strip.csv, line 4: the same numbers as in an earlier row. Duplicates count twice in the fit; remove them "
-            "if they are no separate "
+            "if they are not separate "
             "measurements.");
 }
 
 TEST(Checks, WarnOfTwoResultsAtOneAbscissa) {
   EXPECT_NE(only_warning("stretch,stress [kPa]\n1,0\n1.1,1\n1.1,1.5\n1.2,2\n")
-                .find("strip.csv, line 4, column 1 ('stretch'): this abscissa occurs before with another result"),
+                .find("strip.csv, line 4, column 1 ('stretch'): an earlier row has this abscissa and another result"),
             std::string::npos);
 }
 
@@ -83,7 +83,7 @@ TEST(Checks, LetCyclesAndRelaxationRepeatAbscissae) {
 TEST(Checks, RefuseTimeThatRunsBackwards) {
   const testing::Mapping columns = {{"stretch", "stretch"}, {"stress", "stress"}, {"time", "time"}};
   EXPECT_EQ(strip_refusal("time [s],stretch,stress [kPa]\n0,1,0\n2,1.1,1\n1,1.2,2\n", columns),
-            "strip.csv, line 4, column 1 ('time'): the time 1 s comes after 2 s. Rows stand in loading order, so time "
+            "strip.csv, line 4, column 1 ('time'): the time 1 s comes after 2 s. Rows are in loading order, so time "
             "must not run backwards, "
             "and begins at rest at 0.");
   EXPECT_EQ(read_strip("time [min],stretch,stress [kPa]\n0,1,0\n2,1.1,1\n", columns).time,

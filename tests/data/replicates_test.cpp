@@ -31,9 +31,8 @@ TEST(Replicates, WithOtherAbscissaeAreInterpolatedWithAWarning) {
   ASSERT_EQ(strip.warnings.size(), 2u);
   EXPECT_NE(strip.warnings[0].find("strip.csv: 1 of 3 rows are left out because some replicate does not reach them"),
             std::string::npos);
-  EXPECT_EQ(
-      strip.warnings[1],
-      "strip2.csv: the abscissae differ from those of strip.csv; its rows are interpolated linearly at the latter.");
+  EXPECT_EQ(strip.warnings[1],
+            "strip2.csv: the abscissae differ from those of strip.csv; its rows are interpolated linearly there.");
   EXPECT_EQ(strip.lines, (std::vector<std::size_t>{2, 3}));
 }
 

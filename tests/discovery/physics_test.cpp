@@ -18,38 +18,39 @@ using tunica::trial::text_of;
 namespace {
 
 /// What the experiment file calls a mechanism's parameters; "channel" and "rows" are filled in from the target.
-struct Words {
+struct MechanismNames {
   std::string amplitude;
   std::map<std::string, std::string> nuisances = {};  ///< the generator's name → parameter
   std::map<std::string, std::string> options = {};    ///< the generator's name → option
 };
-const std::map<std::string, Words>& words() {
-  static const std::map<std::string, Words> all{{"fibre_dispersion", {"kappa"}},
-                                                {"axial_fibres", {"k", {{"k2", "k2"}}}},
-                                                {"circumferential_fibres", {"k", {{"k2", "k2"}}}},
-                                                {"matrix_stiffening", {"b"}},
-                                                {"chain_extensibility", {"inverse_limit"}},
-                                                {"second_invariant", {"c2"}},
-                                                {"fibre_recruitment", {"stretch"}},
-                                                {"active_tone", {"tone"}},
-                                                {"stress_softening", {"s", {{"m", "m"}}}},
-                                                {"viscoelasticity", {"g", {{"tau", "tau"}}}},
-                                                {"residual_stress", {"opening_angle"}},
-                                                {"axial_stretch_error", {"value"}},
-                                                {"tethering", {"stiffness"}},
-                                                {"geometry_error", {"gain"}},
-                                                {"layered_wall", {"ratio", {}, {{"interface", "layer_interface"}}}},
-                                                {"pressure_offset", {"value"}},
-                                                {"pressure_scale_error", {"gain"}},
-                                                {"diameter_scale_error", {"gain"}},
-                                                {"axial_force_offset", {"value"}},
-                                                {"axial_force_scale_error", {"gain"}},
-                                                {"reference_length_error", {"strain"}},
-                                                {"force_scale_error", {"gain"}},
-                                                {"force_offset", {"value"}},
-                                                {"specimen_misalignment", {"angle"}},
-                                                {"signal_drift", {"value"}},
-                                                {"outliers", {"value"}}};
+const std::map<std::string, MechanismNames>& words() {
+  static const std::map<std::string, MechanismNames> all{
+      {"fibre_dispersion", {"kappa"}},
+      {"axial_fibres", {"k", {{"k2", "k2"}}}},
+      {"circumferential_fibres", {"k", {{"k2", "k2"}}}},
+      {"matrix_stiffening", {"b"}},
+      {"chain_extensibility", {"inverse_limit"}},
+      {"second_invariant", {"c2"}},
+      {"fibre_recruitment", {"stretch"}},
+      {"active_tone", {"tone"}},
+      {"stress_softening", {"s", {{"m", "m"}}}},
+      {"viscoelasticity", {"g", {{"tau", "tau"}}}},
+      {"residual_stress", {"opening_angle"}},
+      {"axial_stretch_error", {"value"}},
+      {"tethering", {"stiffness"}},
+      {"geometry_error", {"gain"}},
+      {"layered_wall", {"ratio", {}, {{"interface", "layer_interface"}}}},
+      {"pressure_offset", {"value"}},
+      {"pressure_scale_error", {"gain"}},
+      {"diameter_scale_error", {"gain"}},
+      {"axial_force_offset", {"value"}},
+      {"axial_force_scale_error", {"gain"}},
+      {"reference_length_error", {"strain"}},
+      {"force_scale_error", {"gain"}},
+      {"force_offset", {"value"}},
+      {"specimen_misalignment", {"angle"}},
+      {"signal_drift", {"value"}},
+      {"outliers", {"value"}}};
   return all;
 }
 
@@ -78,9 +79,9 @@ json experiment_of(const blind::SealedCase& made, const std::filesystem::path& f
                                                {"k1", {{"fixed", base.k1}}},
                                                {"k2", {{"fixed", base.k2}}},
                                                {"theta", {{"fixed", base.theta}}}};
-  for (const blind::Dialled& one : made.hidden) {
-    const blind::Hidden& hidden = one.hidden;
-    const Words& of = words().at(hidden.effect->id);
+  for (const blind::ScaledEffect& one : made.hidden) {
+    const blind::HiddenEffect& hidden = one.hidden;
+    const MechanismNames& of = words().at(hidden.effect->id);
     json entry{{"type", hidden.effect->id}};
     entry["parameters"][of.amplitude]["fixed"] = hidden.amplitude();
     for (const auto& [name, parameter] : of.nuisances)
@@ -114,7 +115,7 @@ json experiment_of(const blind::SealedCase& made, const std::filesystem::path& f
 }
 
 /// Largest difference between what the program simulates and the truth of the case, in standard deviations.
-double largest_difference(const blind::Order& order) {
+double largest_difference(const blind::CaseOrder& order) {
   const Folder folder;
   blind::write(order, folder.path());
   const blind::SealedCase made = blind::make(order);

@@ -2,24 +2,21 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "execution/folder.hpp"
 #include "scorer/table.hpp"
-#include "seal.hpp"
 
 using namespace blind::score;
-using nlohmann::json;
 using ::testing::HasSubstr;
-using tunica::trial::Folder;
-using tunica::trial::message_of;
 
 namespace {
 
 /// A case as scored: what is hidden, and what was said of it.
 Case single(const std::string& id, double lambda, const std::string& verdict, const std::vector<std::string>& said) {
   Case one;
-  one.truth.set = "singles", one.truth.noise = "white", one.truth.asked = lambda;
+  one.truth.set = "singles";
+  one.truth.noise = "white";
+  one.truth.asked = lambda;
   one.truth.effects = {{.id = id, .target = {}, .amplitude = 2}};
   one.verdict.verdict = verdict;
   if (!said.empty())
@@ -30,9 +27,17 @@ Case single(const std::string& id, double lambda, const std::string& verdict, co
 }
 Case of_set(const std::string& set, const std::string& noise, const std::string& verdict) {
   Case one;
-  one.truth.set = set, one.truth.noise = noise;
+  one.truth.set = set;
+  one.truth.noise = noise;
   one.verdict.verdict = verdict;
   return one;
+}
+/// The amplitude of the first cause and its interval.
+void state_amplitude(Case& one, double amplitude, double low, double high) {
+  Cause& cause = one.verdict.causes.front();
+  cause.amplitude = amplitude;
+  cause.low = low;
+  cause.high = high;
 }
 std::vector<Case> times(std::size_t count, const Case& one) { return std::vector<Case>(count, one); }
 std::vector<Case> together(std::initializer_list<std::vector<Case>> parts) {
@@ -45,23 +50,6 @@ Figure figure(const std::vector<Case>& cases, const std::string& name, const Loo
   for (const Figure& one : figures(cases, look_alikes))
     if (one.name == name) return one;
   throw std::runtime_error("no figure " + name);
-}
-
-/// Writes one case and its sealed truth; a verdict unless empty.
-void write_case(const Folder& folder, const std::string& name, const json& truth, const json& diagnosis) {
-  std::filesystem::create_directories(folder.path() / name);
-  std::filesystem::create_directories(folder.path() / "sealed");
-  const std::string text = truth.dump();
-  folder.write("sealed/" + name + ".json", text);
-  folder.write(name + "/truth.sha256", blind::sha256(text) + "\n");
-  if (!diagnosis.is_null()) folder.write(name + "/result.json", json{{"diagnosis", diagnosis}}.dump());
-}
-json null_truth() {
-  return {{"set", "nulls"},
-          {"noise", {{"kind", "white"}}},
-          {"lambda_asked", 0},
-          {"gross_errors", json::array()},
-          {"effects", json::array()}};
 }
 
 }  // namespace
@@ -184,7 +172,10 @@ TEST(Scorer, ComparesDetectionWithTheOracleOnTheSameCases) {
 TEST(Scorer, WantsEveryEffectNamedInHalfOfItsCases) {
   const auto row = [](double lambda, std::size_t named, std::size_t cases) {
     EffectRow one;
-    one.id = "a", one.lambda = lambda, one.detected = {cases, cases}, one.named_or_look_alike = {named, cases};
+    one.id = "a";
+    one.lambda = lambda;
+    one.detected = {cases, cases};
+    one.named_or_look_alike = {named, cases};
     return one;
   };
   EXPECT_TRUE(unnamed({row(60, 2, 3), row(60, 1, 2), row(60, 0, 0), row(25, 0, 3)}).empty());
@@ -259,7 +250,8 @@ TEST(Scorer, SetsTheOraclesPairBesideThatOfTheVerdict) {
 
 TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
   Case far = single("friction", 60, "unknown", {});
-  far.truth.set = "outside", far.truth.remainder = 40;
+  far.truth.set = "outside";
+  far.truth.remainder = 40;
   Case set = far, name = far;
   set.verdict = single("", 0, "indistinguishable", {"a", "b"}).verdict;
   name.verdict = single("", 0, "named", {"a"}).verdict;
@@ -284,14 +276,14 @@ TEST(Scorer, WantsHonestyAboutWhatNoCatalogueLists) {
 
 TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
   Case one = single("a", 25, "named", {"a"});
-  one.truth.effects.front().amplitude = 1.5, one.truth.effects.front().null = 1;
-  Cause& cause = one.verdict.causes.front();
-  cause.amplitude = 1.6, cause.low = 1.4, cause.high = 1.8;
+  one.truth.effects.front().amplitude = 1.5;
+  one.truth.effects.front().null = 1;
+  state_amplitude(one, 1.6, 1.4, 1.8);
   Case off = one;
-  off.verdict.causes.front().amplitude = 1.4, off.verdict.causes.front().low = 1.3,
-  off.verdict.causes.front().high = 1.45;
+  state_amplitude(off, 1.4, 1.3, 1.45);
   Case elsewhere = one;
-  elsewhere.verdict.causes.front().target.test = "another", elsewhere.verdict.causes.front().amplitude = 100;
+  elsewhere.verdict.causes.front().target.test = "another";
+  elsewhere.verdict.causes.front().amplitude = 100;
   const std::vector<Case> cases{one, off, elsewhere};
   EXPECT_EQ(figure(cases, "amplitude, relative rms at Λ 25").cases, 2U);
   EXPECT_NEAR(figure(cases, "amplitude, relative rms at Λ 25").value, 0.2, 1e-12);
@@ -307,8 +299,7 @@ TEST(Scorer, MeasuresAmplitudesFromTheNullAndIntervals) {
 
   Case even = single("m", 60, "named", {"m"});
   even.truth.effects.front().even = true;
-  even.verdict.causes.front().amplitude = -2.2, even.verdict.causes.front().low = -2.5,
-  even.verdict.causes.front().high = -1.9;
+  state_amplitude(even, -2.2, -2.5, -1.9);
   EXPECT_NEAR(figure({even}, "amplitude, relative rms at Λ 60").value, 0.1, 1e-12) << "its sign means nothing";
   EXPECT_NEAR(figure({even}, "amplitude, coverage of the 95 % interval").value, 1, 1e-12);
 }
@@ -325,71 +316,9 @@ TEST(Scorer, HoldsStatedProbabilitiesAgainstWhatCameTrue) {
 
 TEST(Scorer, CountsHeldOutBlocksOfTheRightNames) {
   Case right = single("a", 60, "named", {"a"}), wrong = single("a", 60, "named", {"b"});
-  right.verdict.held_out = {0.3, 0.04, 0.9, 0.6}, wrong.verdict.held_out = {0.001};
+  right.verdict.held_out = {0.3, 0.04, 0.9, 0.6};
+  wrong.verdict.held_out = {0.001};
   const Figure blocks = figure({right, wrong}, "held-out predictive p-value above 0.05 with the named mechanism");
   EXPECT_EQ(blocks.cases, 4U);
   EXPECT_NEAR(blocks.value, 0.75, 1e-12);
-}
-
-TEST(Scorer, OpensATruthOnlyWithItsVerdictAndItsSeal) {
-  const Folder folder;
-  const auto open = [&](bool partial) {
-    return message_of<InputError>([&] { (void)open_cases(folder.path(), folder.path(), partial); });
-  };
-  EXPECT_THAT(open(false), HasSubstr("holds no case"));
-  const json verdict{{"verdict", "nothing_detected"}};
-  write_case(folder, "case-1", null_truth(), verdict);
-  write_case(folder, "case-2", null_truth(), {});
-  EXPECT_THAT(open(false), HasSubstr("1 of 2 cases have no verdict, the first being case-2"));
-  EXPECT_EQ(open(true), "");
-  EXPECT_EQ(open_cases(folder.path(), folder.path(), true).sealed, 1U);
-  folder.write("case-2/result.json", "{\"runs\": []}");
-  EXPECT_THAT(open(false), HasSubstr("there is no object 'diagnosis'"));
-  folder.write("case-2/result.json", json{{"diagnosis", {{"verdict", "maybe"}}}}.dump());
-  EXPECT_THAT(open(false), HasSubstr("found the verdict 'maybe', expected one of nothing_detected"));
-  folder.write("case-2/result.json", json{{"diagnosis", verdict}}.dump());
-  EXPECT_EQ(open_cases(folder.path(), folder.path(), false).cases.size(), 2U);
-  json changed = null_truth();
-  changed["lambda_asked"] = 60;
-  folder.write("sealed/case-1.json", changed.dump());
-  EXPECT_THAT(open(false), HasSubstr("the truth was changed after the data were written"));
-  EXPECT_THAT(message_of<InputError>([&] { (void)open_cases(folder.path() / "nowhere", folder.path(), false); }),
-              HasSubstr("is no folder of cases"));
-}
-
-TEST(Scorer, ReadsWhatAVerdictSays) {
-  const Folder folder;
-  json truth = null_truth();
-  truth["set"] = "singles", truth["lambda_asked"] = 25;
-  truth["effects"].push_back({{"id", "outliers"},
-                              {"target", {{"test", "t"}, {"channel", "axial_force"}, {"row", 4}}},
-                              {"amplitude", 2.0},
-                              {"null", 0},
-                              {"even", false},
-                              {"reached", true}});
-  const json diagnosis = json::parse(R"({"verdict": "indistinguishable", "ambiguity_set": ["outliers", "b"],
-    "causes": [{"id": "outliers", "target": {"test": "t", "channel": "axial_force", "row": 4}, "probability": 0.7,
-                "amplitude": {"value": 2.2, "unit": "mN", "ci95": [1.5, 2.9]}, "explanation": "consistent with"}],
-    "confusable": [{"id": "outliers", "with": "b", "correlation": 0.97}],
-    "gain": {"held_out": [{"block": "t", "p_value": 0.4}, {"block": "u", "p_value": null}]}})");
-  write_case(folder, "case-1", truth, diagnosis);
-  folder.write("case-1/oracle.json", R"({"detected": true, "first": "outliers", "pair": ["outliers", "b"],
-                                           "pair_likeness": [{}, {"c": 0.93}]})");
-  const Case one = open_cases(folder.path(), folder.path(), false).cases.at(0);
-  const Cause& cause = one.verdict.causes.at(0);
-  EXPECT_TRUE(one.truth.effects.at(0).target.met_by(cause.target));
-  EXPECT_FALSE(one.truth.effects.at(0).target.met_by({"t", "axial_force", 5}));
-  EXPECT_TRUE(cause.hedged);
-  EXPECT_EQ(cause.low, 1.5);
-  EXPECT_EQ(one.verdict.held_out, std::vector<double>{0.4});
-  EXPECT_EQ(one.verdict.confusable.at({"b", "outliers"}), 0.97);
-  EXPECT_EQ(one.oracle->first, "outliers");
-  ASSERT_EQ(one.oracle->pair.size(), 2U);
-  EXPECT_EQ(one.oracle->pair[0].id, "outliers");
-  EXPECT_EQ(one.oracle->pair[1].likeness.at("c"), 0.93);
-  folder.write("alike.json", R"({"a": ["b"]})");
-  EXPECT_EQ(read_look_alikes(folder.path() / "alike.json").at("a"), std::vector<std::string>{"b"});
-  folder.write("alike.json", R"(["b"])");
-  EXPECT_THAT(message_of<InputError>([&] { (void)read_look_alikes(folder.path() / "alike.json"); }),
-              HasSubstr("expected {\"id\": [\"look-alike\""));
 }

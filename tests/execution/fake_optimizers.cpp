@@ -103,7 +103,7 @@ OptimizerFactory factory(const std::string& type) {
 
 }  // namespace
 
-void register_optimizers(plugins::Catalogue::Stage& stage) {
+void register_optimizers(plugins::Catalogue::Registration& stage) {
   stage.add(factory<Walk>("walk"));
   stage.add(factory<Compass>("compass"));
   stage.add(factory<Residual>("residual"));
@@ -114,7 +114,7 @@ void register_optimizers(plugins::Catalogue::Stage& stage) {
 
 plugins::Catalogue full_catalogue() {
   plugins::Catalogue catalogue;
-  plugins::Catalogue::Stage stage;
+  plugins::Catalogue::Registration stage;
   register_all(stage);
   register_optimizers(stage);
   catalogue.commit(std::move(stage), "fakes 1");

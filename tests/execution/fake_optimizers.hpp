@@ -16,7 +16,7 @@
 ///   narrow    searches two parameters at most
 namespace tunica::fakes {
 
-void register_optimizers(plugins::Catalogue::Stage& stage);
+void register_optimizers(plugins::Catalogue::Registration& stage);
 /// The fakes of tests/calibration and these.
 plugins::Catalogue full_catalogue();
 

@@ -24,7 +24,7 @@ class Inside {
   std::filesystem::path before_;
 };
 
-std::string refusal(const std::filesystem::path& path) {
+std::string directory_refusal(const std::filesystem::path& path) {
   return trial::message_of<InputError>([&] { RunDirectory::create(path, "x"); });
 }
 
@@ -43,15 +43,15 @@ TEST(RunDirectory, NeverOverwrites) {
   const trial::Folder folder;
   EXPECT_EQ(RunDirectory::create(folder.path() / "a" / "b", "x").path(), folder.path() / "a" / "b");
   folder.write("a/b/note.txt", "mine");
-  EXPECT_THAT(refusal(folder.path() / "a" / "b"), HasSubstr("is not empty, and results are never overwritten"));
-  EXPECT_THAT(refusal(folder.path() / "a" / "b"), ::testing::Not(HasSubstr("--resume")));
+  EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), HasSubstr("is not empty, and results are never overwritten"));
+  EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), ::testing::Not(HasSubstr("--resume")));
   folder.write("a/b/checkpoint.json", "{}");
-  EXPECT_THAT(refusal(folder.path() / "a" / "b"), HasSubstr("go on with the run in it with --resume"));
-  EXPECT_THAT(refusal(folder.path() / "a/b/note.txt"), HasSubstr("is a file; name a folder with -o"));
+  EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), HasSubstr("go on with the run in it with --resume"));
+  EXPECT_THAT(directory_refusal(folder.path() / "a/b/note.txt"), HasSubstr("is a file; name a folder with -o"));
 }
 
 TEST(RunDirectory, SaysWhenItCannotBeCreated) {
-  EXPECT_THAT(refusal("/proc/tunica/results"), HasSubstr("/proc/tunica/results: cannot be created: "));
+  EXPECT_THAT(directory_refusal("/proc/tunica/results"), HasSubstr("/proc/tunica/results: cannot be created: "));
 }
 
 TEST(RunDirectory, IsHeldAgainstASecondProcess) {

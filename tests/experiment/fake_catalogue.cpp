@@ -154,7 +154,7 @@ void add_mechanisms(Registry& registry) {
 const plugins::Catalogue& fake_catalogue() {
   static const plugins::Catalogue catalogue = [] {
     plugins::Catalogue made;
-    plugins::Catalogue::Stage stage;
+    plugins::Catalogue::Registration stage;
     add_models(stage);
     add_tests(stage);
     add_optimizers(stage);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "data/written_file.hpp"
 #include "tunica/error.hpp"
 
@@ -37,7 +39,7 @@ TEST(JsonDocument, KnowsWhereEveryValueStands) {
 
 TEST(JsonDocument, RefusesDuplicateKeys) {
   EXPECT_EQ(refusal("{\"a\": {\"x\": 1},\n \"b\": 2,\n \"a\": 3}"),
-            "e.json: the key 'a' stands twice in the same object (/a, line 3, column 2). It was given before in line "
+            "e.json: the key 'a' appears twice in the same object (/a, line 3, column 2). It was given before in line "
             "1; names must differ. "
             "Remove or rename one.");
   EXPECT_EQ(refusal("{\"a\": {\"a\": 1}, \"b\": {\"a\": 1}}"), "") << "the same key in different objects is fine";
@@ -61,7 +63,7 @@ TEST(JsonDocument, SaysInPlainWordsWhatWasExpected) {
       std::string::npos);
   EXPECT_NE(refusal("[1 2]").find("found '2' where ',' or ']' is expected (line 1, column 4)"), std::string::npos);
   EXPECT_NE(refusal("{\"a\": soft}")
-                .find("found 'soft' where a value is expected (line 1, column 7). Text stands in double quotes."),
+                .find("found 'soft' where a value is expected (line 1, column 7). Put text in double quotes."),
             std::string::npos);
   EXPECT_NE(refusal("{\"a\": 3.71 mm}").find("found 'mm' where ',' or '}' is expected"), std::string::npos);
   EXPECT_NE(refusal("{\"a\": 3.71mm}")
@@ -74,16 +76,16 @@ TEST(JsonDocument, SaysInPlainWordsWhatWasExpected) {
                       "line 1 is not closed: a '}' is missing."),
             std::string::npos);
   EXPECT_NE(refusal("{\"a\": [1").find("a ']' is missing"), std::string::npos);
-  EXPECT_NE(refusal("{\"a\": \"x}\n").find("a text is opened with \" and not closed in its line (line 1, column 7)"),
+  EXPECT_NE(refusal("{\"a\": \"x}\n").find("a text opens with \" and does not close in its line (line 1, column 7)"),
             std::string::npos);
   EXPECT_NE(refusal("{} }").find("found '}' after the end of the JSON text"), std::string::npos);
-  EXPECT_NE(refusal("{ /* never").find("a comment is opened and never closed (line 1, column 3)"), std::string::npos);
+  EXPECT_NE(refusal("{ /* never").find("a comment opens and never closes (line 1, column 3)"), std::string::npos);
   EXPECT_NE(refusal("").find("the file is empty"), std::string::npos);
   EXPECT_NE(refusal("{\"a\": 1e999}")
                 .find("'1e999' is not a number as JSON writes it, or too large for one (line 1, column 7)"),
             std::string::npos);
   EXPECT_NE(refusal("{\"a\": \"\\q\"}").find("has an escape that JSON does not know"), std::string::npos);
-  EXPECT_NE(refusal("{\"a\": \"\xC3(\"}").find("this is no JSON text (line 1"), std::string::npos)
+  EXPECT_NE(refusal("{\"a\": \"\xC3(\"}").find("this is not JSON (line 1"), std::string::npos)
       << refusal("{\"a\": \"\xC3(\"}");
   EXPECT_NE(refusal(std::string(100, '[')).find("more than 64 levels of nesting"), std::string::npos);
 }

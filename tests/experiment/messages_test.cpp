@@ -121,16 +121,17 @@ TEST_F(Messages, AnswerUnknownNamesInRunsWithTheNearest) {
 }
 
 TEST_F(Messages, RefuseNamesThatCannotBePartOfParameterNames) {
-  EXPECT_EQ(refusal(R"("gho": {)", R"("g.ho": {)"),
-            "experiment.json: the model name 'g.ho' has a dot (/models/g.ho, line 5, column 5). Dots join the parts of "
-            "parameter names, as in "
-            "viscoelasticity.tau; use '_' or '-' instead.");
+  EXPECT_EQ(
+      refusal(R"("gho": {)", R"("g.ho": {)"),
+      "experiment.json: the model name 'g.ho' contains a dot (/models/g.ho, line 5, column 5). Dots join the parts of "
+      "parameter names, as in "
+      "viscoelasticity.tau; use '_' or '-' instead.");
   expect_within(refusal(R"("inflation": {)", R"("in/flation": {)"),
                 "the test name 'in/flation' cannot be part of file and parameter names (/tests/in~1flation, line 28");
   expect_within(refusal(R"("hybrid": {)", R"("": {)"),
                 "the optimizer name '' cannot be part of file and parameter names");
   expect_within(refusal(R"("inflation": {)", R"("circumferential_strip": {)"),
-                "the key 'circumferential_strip' stands twice in the same object (/tests/circumferential_strip, line "
+                "the key 'circumferential_strip' appears twice in the same object (/tests/circumferential_strip, line "
                 "28, column 5). It was given before in line 15");
 }
 
@@ -144,7 +145,7 @@ TEST_F(Messages, NameMissingDataFiles) {
   expect_within(refusal(R"("file": "circ.csv")", R"("file": "circ.csv", "files": ["circ.csv"])"),
                 "have \"file\" and \"files\"");
   expect_within(refusal(R"("file": "circ.csv")", R"("files": ["circ.csv", "circ.csv"])"),
-                "this file stands twice in the list");
+                "this file appears twice in the list");
 }
 
 TEST_F(Messages, CheckTheMappingOfColumns) {
@@ -171,13 +172,13 @@ TEST_F(Messages, CheckWeights) {
 
 TEST_F(Messages, CheckRowRanges) {
   EXPECT_EQ(refusal(R"("hold_out": false)", R"("hold_out": "200-240")"),
-            "experiment.json: '200-240' is no row range: '200-240' is not a row number "
+            "experiment.json: '200-240' is not a row range: '200-240' is not a row number "
             "(/tests/circumferential_strip/hold_out, line 26, column 7). "
             "Expected \"first:last\" or \"first:last:step\" as in \"0:240:6\": rows count from 0, last is not "
             "included, and each number may be left out.");
   expect_within(refusal(R"("hold_out": false)", R"("hold_out": 3)"),
                 "found the number 3 where true, false or a row range such as \"200:240\" is expected");
-  expect_within(refusal("0:240:6", "5"), "'5' is no row range: it has 1 part");
+  expect_within(refusal("0:240:6", "5"), "'5' is not a row range: it has 1 part");
   expect_within(refusal("0:240:6", "0:240:6:1"), "it has 4 parts");
   expect_within(refusal("0:240:6", "0:240:0"), "the step is 0");
   expect_within(refusal("0:240:6", "240:0"), "it ends before it begins");
@@ -201,7 +202,8 @@ TEST_F(Messages, CheckNoise) {
   expect_within(noise(R"({"relativ": 0.02})"),
                 "unknown key 'relativ' in the noise of 'stress' (/tests/circumferential_strip/data/noise/relativ, line "
                 "23, column 19). Did you mean 'relative'?");
-  expect_within(noise(R"({"strain": {"relative": 0.02}})"), "noise is given for 'strain', which is no mapped channel");
+  expect_within(noise(R"({"strain": {"relative": 0.02}})"),
+                "noise is given for 'strain', which is not a mapped channel");
   expect_within(noise(R"({"relative": -0.02})"), "the relative noise is -0.02");
   expect_within(noise(R"({"absolute": "-1 Pa"})"), "the absolute noise is -0.001");
   expect_within(noise(R"({"correlation": 0.5})"), "the noise of 'stress' is zero");
@@ -224,13 +226,13 @@ TEST_F(Messages, CheckTimeFromARate) {
 TEST_F(Messages, CheckStages) {
   constexpr std::string_view stages = R"(["es", "lm"])";
   EXPECT_EQ(refusal(stages, R"(["es", "hybrid"])"),
-            "experiment.json: the stages of the optimizer 'hybrid' name itself (/optimizers/hybrid/stages/1, line 42, "
+            "experiment.json: the optimizer 'hybrid' names itself as a stage (/optimizers/hybrid/stages/1, line 42, "
             "column 33). A stage is another "
             "entry of \"optimizers\".");
   expect_within(refusal(stages, R"(["es", "ml"])"), "unknown optimizer 'ml' (/optimizers/hybrid/stages/1");
   expect_within(refusal(stages, "[]"), "the optimizer 'hybrid' has no stages");
   expect_within(refusal(stages, R"(["other"]}, "other": {"stages": ["es"])"),
-                "the stage 'other' of 'hybrid' is staged itself");
+                "the stage 'other' of 'hybrid' has stages itself");
   expect_within(refusal(R"("hybrid": {)", R"("hybrid": {"type": "es", )"), "unknown type of a staged optimizer 'es'");
 }
 
@@ -240,7 +242,7 @@ TEST_F(Messages, CheckMechanisms) {
                 "23). Write it in the \"mechanisms\" of a test.");
   expect_within(
       refusal(R"({"type": "viscoelasticity"})", R"({"type": "viscoelasticity"}, {"type": "viscoelasticity"})"),
-      "the mechanism 'viscoelasticity' stands twice in model 'gho'");
+      "the mechanism 'viscoelasticity' appears twice in model 'gho'");
   expect_within(refusal(R"("weight": 1,)", R"("mechanisms": [{"type": "viscoelasticity"}],)"),
                 "the mechanism 'viscoelasticity' acts on models, not on tests");
   expect_within(refusal(R"("axial_stretch": 1.2,)", R"("mechanisms": [{"type": "force_offset"}],)"),

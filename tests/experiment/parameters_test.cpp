@@ -76,7 +76,7 @@ TEST_F(Parameters, RefuseALogarithmicScaleFromZero) {
 
 TEST_F(Parameters, RefuseFixedTogetherWithOtherKeys) {
   EXPECT_EQ(refusal(kappa, R"("kappa": {"fixed": 0.1, "min": 0, "share": "k"})"),
-            "experiment.json: parameter 'kappa' is fixed and has 'min', 'share' too (/models/gho/parameters/kappa, "
+            "experiment.json: parameter 'kappa' is fixed but has 'min', 'share' as well (/models/gho/parameters/kappa, "
             "line 9, column 9). A fixed "
             "parameter is held at its value, so the other keys mean nothing: remove them, or \"fixed\".");
 }
@@ -133,7 +133,7 @@ TEST_F(Parameters, AreTiedByShareGroups) {
   expect_within(refusal(two_models(R"("share": "stif")", R"("share": "stiff")")),
                 "the share group 'stif' has only this one member (/models/gho/parameters/k1/share, line 9, column 16). "
                 "Did you mean 'stiff'?");
-  expect_within(refusal(with(kappa, R"("kappa": {"share": "a.b"})")), "the share group name 'a.b' has a dot");
+  expect_within(refusal(with(kappa, R"("kappa": {"share": "a.b"})")), "the share group name 'a.b' contains a dot");
   expect_within(refusal(with(R"("min": "0.5 kPa", "max": "200 kPa", "scale": "log")", R"("share": "s")",
                              with(kappa, R"("theta": {"share": "s"})"))),
                 "have different units: deg here, kPa at /models/gho/parameters/mu");

@@ -47,14 +47,21 @@ TEST_F(ReadExperiment, ReadsTheExampleOfTheDesign) {
   EXPECT_EQ(e.runs[1].stop.stall, 500u);
   ASSERT_EQ(e.runs[1].constraints.size(), 1u);
   EXPECT_EQ(e.runs[1].constraints[0].json, R"({"type":"transverse_stability","h":0.7})");
-  EXPECT_EQ(e.diagnosis_json, R"({"model":"gho","optimizer":"lm","alpha":0.05,"mechanisms":"all"})");
+  ASSERT_TRUE(e.diagnosis);
+  EXPECT_EQ(e.diagnosis->model, "gho");
+  EXPECT_EQ(e.diagnosis->optimizer, "lm");
+  EXPECT_EQ(e.diagnosis->alpha, 0.05);
+  EXPECT_TRUE(e.diagnosis->all_mechanisms);
+  EXPECT_TRUE(e.diagnosis->mechanisms.empty());
+  EXPECT_FALSE(e.diagnosis->admissibility);
 }
 
 TEST_F(ReadExperiment, WritesAnInputFileThatReadsAsTheSameExperiment) {
   const Experiment first = read(testing::design_example);
   const Experiment again = read(first.input_json);
   EXPECT_EQ(again.input_json, first.input_json);
-  EXPECT_EQ(again.diagnosis_json, first.diagnosis_json);
+  ASSERT_TRUE(again.diagnosis);
+  EXPECT_EQ(again.diagnosis->alpha, first.diagnosis->alpha);
 }
 
 TEST_F(ReadExperiment, ReadsTheExampleOfTheManual) {
@@ -132,7 +139,7 @@ TEST_F(ReadExperiment, FillsDefaultsIn) {
   EXPECT_EQ(e.test("t").data.stress_measure, "cauchy");
   EXPECT_EQ(e.test("t").weights, std::vector<double>{1});
   EXPECT_TRUE(e.test("t").data.noise.empty());
-  EXPECT_TRUE(e.diagnosis_json.empty());
+  EXPECT_FALSE(e.diagnosis);
 }
 
 TEST_F(ReadExperiment, ResolvesPathsFromItsOwnFolder) {

@@ -9,7 +9,7 @@
 
 #include "kernel.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::assembly_test {
 namespace {
 
 struct Case {
@@ -196,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(Both, FiniteElementAssembly,
                          [](const auto& at) { return std::string(at.param.name); });
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::assembly_test

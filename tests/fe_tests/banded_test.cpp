@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-namespace tunica::testing {
+namespace tunica::testing::banded_test {
 namespace {
 
 struct Case {
@@ -108,4 +108,4 @@ TEST(BandedMatrix, AZeroPivotLeavesNumbersThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::banded_test

@@ -6,7 +6,7 @@
 #include "curve.hpp"
 #include "mesh.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::element_test {
 namespace {
 
 template <class T>
@@ -108,4 +108,4 @@ TEST(ChebyshevCurve, TheTailIsTheLargestOfTheLastThreeCoefficients) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::element_test

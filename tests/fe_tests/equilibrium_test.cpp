@@ -8,7 +8,7 @@
 
 #include "kernel.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::equilibrium_test {
 namespace {
 
 constexpr double cross_section = std::numbers::pi * (5.77 * 5.77 - 3.71 * 3.71);
@@ -123,4 +123,4 @@ INSTANTIATE_TEST_SUITE_P(Both, FiniteElementTube, ::testing::Values(1, 2),
                          [](const auto& at) { return at.param == 1 ? "FourNodes" : "NineNodes"; });
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::equilibrium_test

@@ -9,7 +9,7 @@
 #include "support/tensors_only.hpp"
 #include "support/tube.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::material_test {
 namespace {
 
 constexpr std::size_t n = 20;
@@ -78,4 +78,4 @@ TEST(FiniteElementMaterial, TensorsGiveWhatTheAxesGive) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::material_test

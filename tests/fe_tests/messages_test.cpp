@@ -9,7 +9,7 @@
 #include "support/strip.hpp"
 #include "support/tensors_only.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::messages_test {
 namespace {
 
 std::string refusal(const std::vector<double>& pressure, const FeSetup& setup) {
@@ -140,4 +140,4 @@ TEST(FiniteElementMessages, TheEquilibriaOfATubeThatBalloonsAreNotPassedBy) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::messages_test

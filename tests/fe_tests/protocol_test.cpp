@@ -8,7 +8,7 @@
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::protocol_test {
 using namespace conformance;
 namespace {
 
@@ -140,4 +140,4 @@ TEST(FiniteElementConformance, ThreadsGetTheSameNumbersBitForBit) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::protocol_test

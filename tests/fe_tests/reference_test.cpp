@@ -7,7 +7,7 @@
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::reference_test {
 namespace {
 
 constexpr double most = 22.66474;  // kPa, 170 mmHg
@@ -92,8 +92,8 @@ TEST(FiniteElementReference, ConvergesWithClampedEnds) {
 }
 
 TEST(FiniteElementReference, ClampedEndsGiveTheReferenceCurve) {
-  const auto columns = shared_columns("reference/tube_set_s.csv");
-  if (!columns) GTEST_SKIP() << "reference/tube_set_s.csv is neither in TUNICA_DATA_DIR nor in ../shared/data";
+  const auto columns = columns_of(TUNICA_SOURCE_DIR "/tests/support/tube_set_s.csv");
+  ASSERT_EQ(columns.size(), 6u);
   const auto gho = make_model("gho");
   struct Case {
     const char *element, *elements;
@@ -101,12 +101,12 @@ TEST(FiniteElementReference, ClampedEndsGiveTheReferenceCurve) {
   };
   for (const Case& mesh : {Case{"quadrilateral_4", "[25, 50]", 7e-5}, Case{"quadrilateral_4", "[25, 100]", 7e-5},
                            Case{"quadrilateral_9", "[12, 25]", 1.5e-5}}) {
-    const Inflated out = inflate(*make_fe_tube((*columns)[0], {.element = mesh.element, .elements = mesh.elements}),
-                                 *gho, set_s, bare_fe);
+    const Inflated out =
+        inflate(*make_fe_tube(columns[0], {.element = mesh.element, .elements = mesh.elements}), *gho, set_s, bare_fe);
     ASSERT_TRUE(out.status.ok()) << out.status.reason();
     double worst = 0;
-    for (std::size_t i = 0; i < (*columns)[0].size(); ++i)
-      worst = std::max(worst, std::abs(out.values[i] - (*columns)[5][i]));
+    for (std::size_t i = 0; i < columns[0].size(); ++i)
+      worst = std::max(worst, std::abs(out.values[i] - columns[5][i]));
     std::printf("  clamped %s %s: %.2e from the reference\n", mesh.element, mesh.elements, worst);
     EXPECT_LE(worst, mesh.allowed) << mesh.element;
   }
@@ -127,4 +127,4 @@ TEST(FiniteElementReference, EndsHeldAfterStretchingLieBetweenFreeAndClamped) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::reference_test

@@ -9,7 +9,7 @@
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::robustness_test {
 namespace {
 
 /// The number after `words` in a reason.
@@ -101,4 +101,4 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::robustness_test

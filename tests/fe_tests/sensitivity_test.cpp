@@ -9,7 +9,7 @@
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::sensitivity_test {
 namespace {
 
 const std::vector<std::string> all_channels{"axial_force", "outer_diameter_stretch", "inner_diameter", "outer_diameter",
@@ -153,4 +153,4 @@ TEST(FiniteElementCurve, IsAndDifferentiatesAsEveryRowAlone) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::sensitivity_test

@@ -182,7 +182,7 @@ def refusals():
              (compiled("longer", change=[("const char* version;", "const char* version;\n  const char* licence;"),
                                          ("plugin_version, ", 'plugin_version, "", ')]),
               "bytes; expected")]
-    texts = {"missing_symbol": "no exported symbol", "no_name": "has no name", "null_header": "null pointer",
+    texts = {"missing_symbol": "exports no symbol", "no_name": "has no name", "null_header": "null pointer",
              "no_register_function": "no register function", "non_standard_throw": "threw something",
              "other_fingerprint": "binary interface differs", "other_struct_size": "bytes; expected",
              "throwing_registration": "registration of plugin", "undefined_symbol": "needs the symbol",

@@ -6,7 +6,7 @@
 
 #include "subject.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::abscissa_errors_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -172,4 +172,4 @@ TEST(ReferenceLengthError, RefusesAStressThatIsNoStripS) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::abscissa_errors_test

@@ -5,7 +5,7 @@
 #include "deformations.hpp"
 #include "shelf.hpp"
 
-namespace tunica {
+namespace tunica::added_energy_test {
 namespace {
 
 using testing::evaluate;
@@ -139,4 +139,4 @@ INSTANTIATE_TEST_SUITE_P(AddedEnergy, EveryAddition,
                          [](const auto& at) { return std::string(at.param); });
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::added_energy_test

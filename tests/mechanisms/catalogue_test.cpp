@@ -9,7 +9,7 @@
 
 #include "shelf.hpp"
 
-namespace tunica {
+namespace tunica::catalogue_test {
 namespace {
 
 using Side = MechanismFactory::Side;
@@ -120,4 +120,4 @@ INSTANTIATE_TEST_SUITE_P(Catalogue, EveryMechanism, ::testing::ValuesIn([] {
                          [](const auto& at) { return at.param; });
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::catalogue_test

@@ -5,7 +5,7 @@
 #include "deformations.hpp"
 #include "shelf.hpp"
 
-namespace tunica {
+namespace tunica::changed_parts_test {
 namespace {
 
 using testing::evaluate;
@@ -136,4 +136,4 @@ TEST(ChangedParts, RefuseModelsWithoutSuchParts) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::changed_parts_test

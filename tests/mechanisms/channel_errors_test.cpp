@@ -7,7 +7,7 @@
 
 #include "subject.hpp"
 
-namespace tunica {
+namespace tunica::channel_errors_test {
 namespace {
 
 const std::vector<double> stretches{1.0, 1.1, 1.3, 1.5};
@@ -151,4 +151,4 @@ INSTANTIATE_TEST_SUITE_P(ForceErrors, EveryForceError,
                          [](const auto& at) { return std::string(at.param.mechanism); });
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::channel_errors_test

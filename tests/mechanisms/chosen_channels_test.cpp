@@ -5,7 +5,7 @@
 
 #include "subject.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::chosen_channels_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -132,4 +132,4 @@ TEST(SignalDrift, NeedsATestThatLasts) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::chosen_channels_test

@@ -7,7 +7,7 @@
 #include "conformance/model_properties.hpp"
 #include "shelf.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::conformance_test {
 using namespace conformance;
 namespace {
 
@@ -37,4 +37,4 @@ INSTANTIATE_TEST_SUITE_P(Recruitment, DecoratedModel,
                          [](const auto& at) { return std::string(std::get<2>(at.param).name); });
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::conformance_test

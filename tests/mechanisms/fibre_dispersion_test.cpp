@@ -5,7 +5,7 @@
 #include "deformations.hpp"
 #include "shelf.hpp"
 
-namespace tunica {
+namespace tunica::fibre_dispersion_test {
 namespace {
 
 using testing::evaluate;
@@ -149,4 +149,4 @@ TEST(FibreDispersion, RefusesModelsWithoutFibres) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::fibre_dispersion_test

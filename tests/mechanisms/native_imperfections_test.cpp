@@ -5,7 +5,7 @@
 
 #include "shelf.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::native_imperfections_test {
 namespace {
 
 /// A file that fixes or bounds the amplitude is read with the mechanism's declaration, and bound to the test's.
@@ -58,4 +58,4 @@ TEST(NativeImperfections, LeaveNoneOfTheTestsOut) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::native_imperfections_test

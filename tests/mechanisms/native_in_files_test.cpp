@@ -13,7 +13,7 @@
 #include "experiment/experiment.hpp"
 #include "shelf.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::native_in_files_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -205,4 +205,4 @@ TEST_F(NativeInFiles, ExtendedExperimentsAreCheckedAndRun) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::native_in_files_test

@@ -9,7 +9,7 @@
 #include "deformations.hpp"
 #include "shelf.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::null_of_models_test {
 using namespace conformance;
 namespace {
 
@@ -74,4 +74,4 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, OnAModel, ::testing::ValuesIn([] {
                          [](const auto& at) { return at.param; });
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::null_of_models_test

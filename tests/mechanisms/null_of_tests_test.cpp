@@ -9,7 +9,7 @@
 #include "conformance/mechanism_properties.hpp"
 #include "subject.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::null_of_tests_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -133,4 +133,4 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, OnATest, ::testing::ValuesIn([] {
                          [](const auto& at) { return at.param.first + "_" + at.param.second; });
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::null_of_tests_test

@@ -7,7 +7,7 @@
 #include "shelf.hpp"
 #include "support/strip.hpp"
 
-namespace tunica {
+namespace tunica::stress_softening_test {
 namespace {
 
 using testing::evaluate;
@@ -213,4 +213,4 @@ TEST(StressSoftening, DeclaresItsStateAndHasNoParameterDerivativesOfAStep) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::stress_softening_test

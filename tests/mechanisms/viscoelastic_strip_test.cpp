@@ -6,7 +6,7 @@
 #include "support/strip.hpp"
 
 // The mechanism inside a simulated test: state carried from row to row, lateral equilibrium with the overstress.
-namespace tunica {
+namespace tunica::viscoelastic_strip_test {
 namespace {
 
 using testing::make_strip;
@@ -54,4 +54,4 @@ TEST(ViscoelasticStrip, IsStifferTheFasterItIsPulled) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::viscoelastic_strip_test

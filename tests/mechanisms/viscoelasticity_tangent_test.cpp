@@ -5,7 +5,7 @@
 #include "shelf.hpp"
 
 // The overstress does not see a function of the volume in the energy, and its tangent is that of the step.
-namespace tunica {
+namespace tunica::viscoelasticity_tangent_test {
 namespace {
 
 using testing::evaluate;
@@ -115,4 +115,4 @@ TEST(ViscoelasticityTangent, NeedsNoOtherOutput) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::viscoelasticity_tangent_test

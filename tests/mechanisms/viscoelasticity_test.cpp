@@ -6,7 +6,7 @@
 #include "deformations.hpp"
 #include "shelf.hpp"
 
-namespace tunica {
+namespace tunica::viscoelasticity_test {
 namespace {
 
 using testing::evaluate;
@@ -178,4 +178,4 @@ TEST(Viscoelasticity, SaysThatAStepHasNoParameterDerivatives) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::viscoelasticity_test

@@ -11,7 +11,7 @@
 #include "tunica/autodiff.hpp"
 #include "tunica/rubber_laws.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::rubber_test {
 using namespace conformance;
 namespace {
 
@@ -141,4 +141,4 @@ TEST(RubberLaws, HandWrittenDerivativesAgreeWithAutodiff) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::rubber_test

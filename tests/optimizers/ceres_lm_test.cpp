@@ -65,7 +65,9 @@ TEST(CeresLm, EndsAtTheOptimumWhereBoundsAreActive) {
     const Eigen::Vector4d c = Eigen::Vector4d::NullaryExpr([&] { return unit(engine); });
     const double least = least_in_box(A, c);
     Function function;
-    function.name = "valley", function.dimension = 4, function.residual_count = 4;
+    function.name = "valley";
+    function.dimension = 4;
+    function.residual_count = 4;
     function.blocks = {{0, 4, 1, ResidualBlock::Loss::quadratic}};
     function.start = {0.5, 0.5, 0.5, 0.5};
     function.residuals = [&](std::span<const double> x, std::span<double> r, std::span<double> jacobian) {

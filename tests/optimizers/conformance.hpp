@@ -8,37 +8,73 @@
 #include "optimizers/plugin_under_test.hpp"
 
 // The shared property checks of every Optimizer. Include in one file of a test executable and instantiate:
-//   INSTANTIATE_TEST_SUITE_P(Es, OptimizerConformance, testing::Values(Subject{.label = "plus", .type = "es"}), label);
+//   TUNICA_OPTIMIZER_CONFORMANCE(Es, Subject{.label = "plus", .type = "es"});
+// A property that a subject cannot have, as it says itself, is not instantiated for it.
 
 namespace tunica::testing {
 
 using namespace conformance;
+
+/// What an optimiser can do beyond what every optimiser does. The last two are what Optimizer::Needs declares.
+struct Abilities {
+  bool oblique = true;      ///< adapts to directions, and so solves the ill-conditioned functions too
+  bool random = true;       ///< results depend on the seed
+  bool infeasible = false;  ///< needs the full objective of infeasible points
+};
 
 struct Subject {
   std::string label;  ///< letters, digits, underscores
   std::string type;   ///< plugin and optimiser
   Given options = {};
   std::uint64_t budget = 60000;  ///< evaluations that suffice for each of the standard functions
-  bool oblique = true;           ///< expected to solve the ill-conditioned functions too
-  double boundary = 1e-3;        ///< expected relative closeness to an optimum on the boundary of the feasible set
+  Abilities abilities = {};
+  double boundary = 1e-3;  ///< expected relative closeness to an optimum on the boundary of the feasible set
 };
 
 inline std::string label(const ::testing::TestParamInfo<Subject>& info) { return info.param.label; }
 inline void PrintTo(const Subject& subject, std::ostream* out) { *out << subject.type << " " << subject.label; }
 
+/// The subjects that have an ability.
+template <class Ability>
+std::vector<Subject> those_that(std::vector<Subject> subjects, Ability able) {
+  std::erase_if(subjects, [&](const Subject& subject) { return !able(subject.abilities); });
+  return subjects;
+}
+
 class OptimizerConformance : public ::testing::TestWithParam<Subject> {
  protected:
   static std::unique_ptr<Optimizer> make() { return make_optimizer(GetParam().type, GetParam().options); }
   static Candidate candidate() {
-    return {[] { return make(); }, GetParam().budget, 1e-8, GetParam().boundary, GetParam().oblique};
+    return {[] { return make(); }, GetParam().budget, 1e-8, GetParam().boundary, GetParam().abilities.oblique};
   }
   static void expect_held(const Verdict& verdict) {
-    if (!verdict.skipped.empty()) GTEST_SKIP() << verdict.skipped;
+    EXPECT_EQ(verdict.skipped, "") << verdict.compared;
     EXPECT_EQ(verdict.counter_example, "") << verdict.compared;
   }
   /// How the search of a problem of its own ends, for what the host relies on in the words of built-in optimisers.
   static std::string reason(FunctionProblem& problem) { return make()->minimise(problem).reason; }
 };
+
+/// Those that adapt to directions.
+class ObliqueConformance : public OptimizerConformance {};
+/// Those whose results depend on the seed.
+class RandomConformance : public OptimizerConformance {};
+/// Those that do without the full objective of infeasible points.
+class FeasibleConformance : public OptimizerConformance {};
+
+/// Instantiates for each subject the properties that it can have.
+#define TUNICA_OPTIMIZER_CONFORMANCE(name, ...)                                                                     \
+  static const std::vector<Subject> name##_subjects{__VA_ARGS__};                                                   \
+  INSTANTIATE_TEST_SUITE_P(name, OptimizerConformance, ::testing::ValuesIn(name##_subjects), label);                \
+  INSTANTIATE_TEST_SUITE_P(                                                                                         \
+      name, ObliqueConformance,                                                                                     \
+      ::testing::ValuesIn(those_that(name##_subjects, [](const Abilities& able) { return able.oblique; })), label); \
+  INSTANTIATE_TEST_SUITE_P(                                                                                         \
+      name, RandomConformance,                                                                                      \
+      ::testing::ValuesIn(those_that(name##_subjects, [](const Abilities& able) { return able.random; })), label);  \
+  INSTANTIATE_TEST_SUITE_P(                                                                                         \
+      name, FeasibleConformance,                                                                                    \
+      ::testing::ValuesIn(those_that(name##_subjects, [](const Abilities& able) { return !able.infeasible; })), label)
 
 TEST_P(OptimizerConformance, DeclaresItselfInFull) {
   const OptimizerFactory factory = factory_of(GetParam().type);
@@ -51,14 +87,19 @@ TEST_P(OptimizerConformance, DeclaresItselfInFull) {
   }
 }
 
+TEST_P(OptimizerConformance, DeclaresTheAbilitiesOfTheSubject) {
+  const Optimizer::Needs needs = make()->needs();
+  EXPECT_EQ(needs.random, GetParam().abilities.random);
+  EXPECT_EQ(needs.infeasible, GetParam().abilities.infeasible);
+}
+
 TEST_P(OptimizerConformance, FindsTheOptimumOfTheSphere) { expect_held(solves(candidate(), sphere(4))); }
 
-TEST_P(OptimizerConformance, FindsTheOptimumOfAnObliqueEllipsoidOfConditionOneMillion) {
-  if (!GetParam().oblique) GTEST_SKIP() << "adapts to no directions";
+TEST_P(ObliqueConformance, FindsTheOptimumOfAnObliqueEllipsoidOfConditionOneMillion) {
   expect_held(solves(candidate(), ellipsoid(4)));
 }
 
-TEST_P(OptimizerConformance, FindsTheOptimumAtTheEndOfACurvedValley) {
+TEST_P(ObliqueConformance, FindsTheOptimumAtTheEndOfACurvedValley) {
   expect_held(follows_a_curved_valley(candidate()));
 }
 
@@ -76,7 +117,7 @@ TEST_P(OptimizerConformance, RepeatsItselfBitForBitWithTheSameSeed) {
   expect_held(repeats_itself_with_the_same_seed(candidate()));
 }
 
-TEST_P(OptimizerConformance, TakesAnotherCourseWithAnotherSeed) {
+TEST_P(RandomConformance, TakesAnotherCourseWithAnotherSeed) {
   expect_held(takes_another_course_with_another_seed(candidate()));
 }
 
@@ -106,7 +147,7 @@ TEST_P(OptimizerConformance, ReachesAnOptimumOnTheBoundaryOfWhatIsFeasible) {
   expect_held(reaches_the_boundary_of_what_is_feasible(candidate()));
 }
 
-TEST_P(OptimizerConformance, IsNotMisledByObjectivesOfInfeasiblePointsThatLackCostlyTests) {
+TEST_P(FeasibleConformance, IsNotMisledByObjectivesOfInfeasiblePointsThatLackCostlyTests) {
   expect_held(is_not_misled_where_costly_tests_are_left_out(candidate()));
 }
 

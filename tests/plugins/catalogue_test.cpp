@@ -20,7 +20,7 @@ MechanismFactory mechanism(const std::string& id, tunica::Stage stage) {
   return factory;
 }
 
-std::string refusal(Catalogue& catalogue, Catalogue::Stage stage, const std::string& plugin) {
+std::string refusal(Catalogue& catalogue, Catalogue::Registration stage, const std::string& plugin) {
   try {
     catalogue.commit(std::move(stage), plugin);
   } catch (const std::invalid_argument& problem) {
@@ -31,7 +31,7 @@ std::string refusal(Catalogue& catalogue, Catalogue::Stage stage, const std::str
 
 TEST(Catalogue, RemembersWhichPluginAnEntryCameFrom) {
   Catalogue catalogue;
-  Catalogue::Stage stage;
+  Catalogue::Registration stage;
   stage.add(model("gho"));
   catalogue.commit(std::move(stage), "gho 0.1.0");
   ASSERT_EQ(catalogue.models().size(), 1u);
@@ -40,20 +40,20 @@ TEST(Catalogue, RemembersWhichPluginAnEntryCameFrom) {
 
 TEST(Catalogue, RefusesATakenNameAndNamesItsOwner) {
   Catalogue catalogue;
-  Catalogue::Stage first, second;
+  Catalogue::Registration first, second;
   first.add(model("gho"));
   catalogue.commit(std::move(first), "gho 0.1.0");
   second.add(model("hgo"));
   second.add(model("gho"));
   EXPECT_EQ(refusal(catalogue, std::move(second), "copycat 9.9"),
-            "the model 'gho' is already provided by plugin 'gho 0.1.0', and a name can be taken once; rename it, or "
+            "the model 'gho' is already provided by plugin 'gho 0.1.0', and names must be unique; rename it, or "
             "leave one of the two plugins out of the plugin path");
   EXPECT_EQ(catalogue.models().count("hgo"), 0u) << "all or nothing";
 }
 
 TEST(Catalogue, TakesNothingWhenALaterKindIsRefused) {
   Catalogue catalogue;
-  Catalogue::Stage stage;
+  Catalogue::Registration stage;
   stage.add(model("gho"));
   stage.add(mechanism("fibre_dispersion", tunica::Stage::invariants));
   EXPECT_THAT(refusal(catalogue, std::move(stage), "x 1"), HasSubstr("no wrap_model function"));
@@ -62,7 +62,7 @@ TEST(Catalogue, TakesNothingWhenALaterKindIsRefused) {
 
 TEST(Catalogue, RefusesANameThatOnePluginRegistersTwice) {
   Catalogue catalogue;
-  Catalogue::Stage stage;
+  Catalogue::Registration stage;
   stage.add(model("gho"));
   stage.add(model("gho"));
   EXPECT_EQ(refusal(catalogue, std::move(stage), "x 1"),
@@ -71,7 +71,7 @@ TEST(Catalogue, RefusesANameThatOnePluginRegistersTwice) {
 
 TEST(Catalogue, AllowsTheSameNameForDifferentKinds) {
   Catalogue catalogue;
-  Catalogue::Stage stage;
+  Catalogue::Registration stage;
   stage.add(model("identity"));
   stage.add(
       OptimizerFactory{"identity", "", "", {}, [](const Options&) -> std::unique_ptr<Optimizer> { return nullptr; }});
@@ -81,17 +81,17 @@ TEST(Catalogue, AllowsTheSameNameForDifferentKinds) {
 TEST(Catalogue, RefusesNamesThatAreNoPlainIdentifiers) {
   for (const char* name : {"", "a.b", "4fibre", "neo hooke", "gho-2", "µ"}) {
     Catalogue catalogue;
-    Catalogue::Stage stage;
+    Catalogue::Registration stage;
     stage.add(model(name));
     EXPECT_EQ(refusal(catalogue, std::move(stage), "x 1"),
               std::string("the model name '") + name +
-                  "' is no plain identifier; expected letters, digits and underscores, with a letter first");
+                  "' is not a plain identifier; expected letters, digits and underscores, with a letter first");
   }
 }
 
 TEST(Catalogue, RefusesFactoriesThatCannotBeCalled) {
   Catalogue catalogue;
-  Catalogue::Stage uncreatable, unwrappable;
+  Catalogue::Registration uncreatable, unwrappable;
   uncreatable.add(ModelFactory{"gho", "", "", {}, {}});
   EXPECT_EQ(refusal(catalogue, std::move(uncreatable), "x 1"),
             "the model 'gho' has no create function; set it before registering");

@@ -33,7 +33,7 @@ TEST(Guarded, KeepsWrongInputApartFromBrokenPromises) {
   EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", [] { throw std::out_of_range("index 7"); }); }),
             "plugin 'x 1' failed: index 7");
   EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", [] { throw 42; }); }),
-            "plugin 'x 1' threw something that is no std::exception");
+            "plugin 'x 1' threw something that is not a std::exception");
 }
 
 TEST(Guarded, ANullObjectIsABrokenPromise) {

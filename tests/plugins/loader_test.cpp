@@ -17,9 +17,9 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::TemporaryFolder;
 
-std::vector<std::string> names(const std::vector<Loaded>& loaded) {
+std::vector<std::string> names(const std::vector<LoadedPlugin>& loaded) {
   std::vector<std::string> names;
-  for (const Loaded& plugin : loaded) names.push_back(plugin.name);
+  for (const LoadedPlugin& plugin : loaded) names.push_back(plugin.name);
   return names;
 }
 
@@ -27,7 +27,7 @@ TEST(Loader, ReportsNameVersionAndFileOfAPlugin) {
   const TemporaryFolder folder;
   const auto file = copy_plugin("good", folder.path());
   Catalogue catalogue;
-  const Loaded loaded = load_file(file, catalogue);
+  const LoadedPlugin loaded = load_file(file, catalogue);
   EXPECT_EQ(loaded.name, "good");
   EXPECT_EQ(loaded.version, "1.2.3");
   EXPECT_EQ(loaded.file, file);
@@ -47,12 +47,12 @@ TEST(Loader, LoadsTheGoodOnesOfAFolderFullOfBadOnes) {
   const LoadReport report = load_all({{folder.path()}}, catalogue);
   EXPECT_THAT(names(report.loaded), ElementsAre("good"));
   std::map<std::string, std::string> reasons;
-  for (const Refusal& refusal : report.refused) reasons[refusal.file.filename()] = refusal.reason;
+  for (const RefusedPlugin& refusal : report.refused) reasons[refusal.file.filename()] = refusal.reason;
   EXPECT_EQ(reasons.size(), 12u) << "each with a reason";
   EXPECT_THAT(reasons.at("a_text.so"), HasSubstr("not a shared library"));
   EXPECT_EQ(reasons.at("zz_duplicate_name.so"),
             "plugin 'duplicate_name 0.1.0': the optimiser 'does_nothing' is already provided by plugin 'good 1.2.3', "
-            "and a name can be taken once; rename it, or leave one of the two plugins out of the plugin path");
+            "and names must be unique; rename it, or leave one of the two plugins out of the plugin path");
   // Nothing of a refused plugin stays, neither the half-registered nor the one with one name taken.
   EXPECT_EQ(catalogue.optimizers().size(), 1u);
   EXPECT_EQ(catalogue.models().size(), 2u);
@@ -87,7 +87,7 @@ TEST(Loader, ReportsFoldersThatAreMissingOrNoFolders) {
 TEST(Loader, TakesEveryPluginOfTheBuild) {
   Catalogue catalogue;
   const LoadReport report = load_all({{TUNICA_PLUGIN_DIR}, true}, catalogue);
-  for (const Refusal& refusal : report.refused) ADD_FAILURE() << refusal.file << ": " << refusal.reason;
+  for (const RefusedPlugin& refusal : report.refused) ADD_FAILURE() << refusal.file << ": " << refusal.reason;
   EXPECT_FALSE(report.loaded.empty());
 }
 

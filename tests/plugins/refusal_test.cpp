@@ -18,7 +18,7 @@ std::string reason_for(const fs::path& file, bool allow_world_writable = false) 
   Catalogue catalogue;
   try {
     load_file(file, catalogue, allow_world_writable);
-  } catch (const Refused& refusal) {
+  } catch (const LoadError& refusal) {
     EXPECT_TRUE(catalogue.optimizers().empty()) << "nothing of a refused plugin is taken";
     return refusal.what();
   }
@@ -55,7 +55,7 @@ TEST(Refusal, HeaderOfAnotherSize) {
 
 TEST(Refusal, MissingSymbol) {
   EXPECT_EQ(reason_for_bad("missing_symbol"),
-            "a shared library, but no plugin: found no exported symbol 'tunica_plugin'; define the plugin with "
+            "a shared library, but not a plugin: it exports no symbol 'tunica_plugin'; define the plugin with "
             "TUNICA_PLUGIN(), or take the file out of the plugin path");
 }
 
@@ -81,9 +81,10 @@ TEST(Refusal, RegistrationThatThrows) {
 }
 
 TEST(Refusal, RegistrationThatThrowsANumber) {
-  EXPECT_EQ(reason_for_bad("non_standard_throw"),
-            "registration of plugin 'non_standard_throw 0.1.0' threw something that is no std::exception; expected it "
-            "to return normally; nothing of the plugin was taken");
+  EXPECT_EQ(
+      reason_for_bad("non_standard_throw"),
+      "registration of plugin 'non_standard_throw 0.1.0' threw something that is not a std::exception; expected it "
+      "to return normally; nothing of the plugin was taken");
 }
 
 TEST(Refusal, UndefinedSymbolIsNamed) {

@@ -7,7 +7,7 @@
 #include "conformance/test_properties.hpp"
 #include "support/strip.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::uniaxial_test {
 using namespace conformance;
 namespace {
 
@@ -206,4 +206,4 @@ TEST(Uniaxial, RefusesRowsItCannotSimulate) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::uniaxial_test

@@ -90,12 +90,12 @@ TEST(Ellipticity, IsLostWhereFibresArePressed) {
 
 TEST(Drucker, HoldsForNeoHookeAndIsLostWithANegativeSecondModulus) {
   const auto neo_hooke = testing::model("neo_hooke");
-  const auto good = stability::judge(*neo_hooke, std::vector<double>{100}, rubber);
+  const auto good = stability::judge_admissibility(*neo_hooke, std::vector<double>{100}, rubber);
   ASSERT_TRUE(good.drucker);
   EXPECT_FALSE(good.drucker->first_lost);
   EXPECT_FALSE(good.ellipticity.first_lost);
   const auto rivlin = testing::model("mooney_rivlin");
-  const auto bad = stability::judge(*rivlin, std::vector<double>{60, -10}, rubber);
+  const auto bad = stability::judge_admissibility(*rivlin, std::vector<double>{60, -10}, rubber);
   ASSERT_TRUE(bad.drucker && bad.drucker->first_lost);
   // In equibiaxial extension dσ/dλ of W = c10 (I1 − 3) + c01 (I2 − 3) is 0 where c10 (λ + 2 λ⁻⁵) + c01 (2 λ³ + λ⁻³) is,
   // that is where λ d(σ)/dλ, σ = 2 (λ² − λ⁻⁴)(c10 + c01 λ²), vanishes: it bounds the loss from above.
@@ -114,29 +114,30 @@ TEST(Drucker, IsOnlyAskedOfIsotropicModels) {
 
 TEST(Admissibility, SaysWhatIsLostAndWhere) {
   const auto gho = testing::model("gho");
-  const auto unstable = stability::judge(*gho, set_u, strips_to(1.8));
+  const auto unstable = stability::judge_admissibility(*gho, set_u, strips_to(1.8));
   EXPECT_EQ(unstable.transversely_stable(), false);
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("circumferential strip: UNSTABLE"));
   EXPECT_THAT(unstable.sentences().front(), HasSubstr("from stretch 1.166"));
-  const auto stable = stability::judge(*gho, set_s, strips_to(1.8));
+  const auto stable = stability::judge_admissibility(*gho, set_s, strips_to(1.8));
   EXPECT_EQ(stable.transversely_stable(), true);
   EXPECT_THAT(stable.sentences().front(), HasSubstr("falls up to stretch"));
   // Measured only where it is still stable: said, and no verdict of instability.
-  const auto short_of_it = stability::judge(*gho, set_u, strips_to(1.1));
+  const auto short_of_it = stability::judge_admissibility(*gho, set_u, strips_to(1.1));
   EXPECT_EQ(short_of_it.transversely_stable(), true);
-  EXPECT_THAT(short_of_it.sentences().front(), HasSubstr("beyond that domain (measured to 1.1)"));
+  EXPECT_THAT(short_of_it.sentences().front(),
+              HasSubstr("stable (measured to 1.1); beyond that domain the transverse stretch"));
 }
 
 TEST(Admissibility, IsNotCertifiedWhereNothingWasMeasured) {
   const auto gho = testing::model("gho");
   stability::Domain none = strips_to(1.8);
   none.strips = {};
-  const auto unasked = stability::judge(*gho, set_u, none);
+  const auto unasked = stability::judge_admissibility(*gho, set_u, none);
   EXPECT_EQ(unasked.transversely_stable(), std::nullopt);
   EXPECT_THAT(unasked.sentences().front(), HasSubstr("(no strip was measured)"));
   // A constraint's range is asked for.
   none.asked[0] = {1.1, 1.3};
-  const auto asked = stability::judge(*gho, set_u, none);
+  const auto asked = stability::judge_admissibility(*gho, set_u, none);
   EXPECT_EQ(asked.transversely_stable(), false);
   EXPECT_THAT(asked.sentences().front(), HasSubstr("UNSTABLE, the transverse stretch λ3 grows from stretch 1.166"));
   EXPECT_THAT(asked.sentences().front(), HasSubstr("(judged to 1.3)"));
@@ -146,7 +147,7 @@ TEST(Admissibility, IsNotCertifiedWhereNothingWasMeasured) {
 TEST(Admissibility, IsReportedAsFarAsTheResponseCanBeFollowed) {
   const auto gent = testing::model("gent");
   stability::Domain far{.strips = {}, .largest = 1000};
-  const auto nowhere = stability::judge(*gent, std::vector<double>{10, 0.2}, far);
+  const auto nowhere = stability::judge_admissibility(*gent, std::vector<double>{10, 0.2}, far);
   EXPECT_EQ(nowhere.ellipticity.followed.size(), 5u);
   for (const auto& path : nowhere.ellipticity.followed) EXPECT_EQ(path.to, 1) << path.path;
   EXPECT_THAT(nowhere.sentences(),
@@ -154,7 +155,7 @@ TEST(Admissibility, IsReportedAsFarAsTheResponseCanBeFollowed) {
   EXPECT_THAT(nowhere.sentences(),
               ::testing::Contains("Drucker's condition NOT ASSESSED: the response cannot be evaluated on any path"));
   far.largest = 3;
-  const auto some = stability::judge(*gent, std::vector<double>{10, 3}, far);
+  const auto some = stability::judge_admissibility(*gent, std::vector<double>{10, 3}, far);
   EXPECT_FALSE(some.ellipticity.first_lost);
   for (const auto& path : some.ellipticity.followed) {
     const bool equibiaxial = path.path == "equibiaxial extension";

@@ -9,11 +9,11 @@
 #include "mechanisms/shelf.hpp"
 #include "stability/transverse.hpp"
 
-namespace tunica {
+namespace tunica::transverse_test {
 namespace {
 
 using stability::FreePath;
-using stability::judge;
+using stability::judge_transverse;
 
 // Canales et al. 2023, Table 6: with (S) and without (U) stabilisation. Order mu, kappa, k1, k2, theta.
 const std::vector<double> set_s{18.668, 0.1367, 24.905, 0.2912, 46.44};
@@ -46,7 +46,8 @@ long double normal_stretch(long double mu, long double kappa, long double k1, lo
 
 TEST(TransverseStability, FlagsSetUWithItsFirstUnstableStretch) {
   const auto gho = testing::model("gho");
-  const auto circumferential = judge(*gho, set_u, 0, to(1.8), 10), axial = judge(*gho, set_u, 1, to(1.8), 10);
+  const auto circumferential = judge_transverse(*gho, set_u, 0, to(1.8), 10),
+             axial = judge_transverse(*gho, set_u, 1, to(1.8), 10);
   EXPECT_EQ(circumferential.stable, false);
   ASSERT_TRUE(circumferential.first_unstable);
   EXPECT_NEAR(*circumferential.first_unstable, 1.166, 1e-3);
@@ -59,7 +60,7 @@ TEST(TransverseStability, FlagsSetUWithItsFirstUnstableStretch) {
 TEST(TransverseStability, FindsSetSStable) {
   const auto gho = testing::model("gho");
   for (const std::size_t axis : {0, 1}) {
-    const auto verdict = judge(*gho, set_s, axis, to(1.8), 10);
+    const auto verdict = judge_transverse(*gho, set_s, axis, to(1.8), 10);
     EXPECT_EQ(verdict.stable, true);
     EXPECT_FALSE(verdict.first_unstable) << *verdict.first_unstable;
     EXPECT_GT(verdict.checked_to, 3);
@@ -72,7 +73,7 @@ TEST(TransverseStability, IsJudgedUnderCompressionTooWhereThatWasMeasured) {
   const std::vector<double> p{10, 40, 1e-6, 30};
   std::vector<double> pressed;
   for (int k = 1; k <= 30; ++k) pressed.push_back(1 - 0.01 * k);
-  const auto verdict = judge(*hgo, p, 1, pressed, 10);
+  const auto verdict = judge_transverse(*hgo, p, 1, pressed, 10);
   EXPECT_EQ(verdict.judged_from, pressed.back());
   EXPECT_EQ(verdict.judged_to, 1);
   EXPECT_NEAR(verdict.checked_from, 0.7, 1e-12);
@@ -84,7 +85,7 @@ TEST(TransverseStability, IsJudgedUnderCompressionTooWhereThatWasMeasured) {
   ASSERT_TRUE(falls);
   EXPECT_EQ(verdict.stable, false);
   ASSERT_TRUE(verdict.first_unstable_pressed);
-  const auto rubber = judge(*testing::model("neo_hooke"), std::vector<double>{10}, 1, pressed, 10);
+  const auto rubber = judge_transverse(*testing::model("neo_hooke"), std::vector<double>{10}, 1, pressed, 10);
   EXPECT_EQ(rubber.stable, true);
   EXPECT_FALSE(rubber.first_unstable_pressed);
 }
@@ -92,9 +93,9 @@ TEST(TransverseStability, IsJudgedUnderCompressionTooWhereThatWasMeasured) {
 TEST(TransverseStability, IsNoVerdictWhereNothingIsAskedOrTheResponseEnds) {
   const auto gent = testing::model("gent");
   const std::vector<double> p{10, 3};  // I1 < 6: a strip ends at stretch 2.3
-  EXPECT_EQ(judge(*gent, p, 0, {}, 10).stable, std::nullopt);
-  EXPECT_EQ(judge(*gent, p, 0, {1.5, 2}, 10).stable, true);
-  const auto beyond = judge(*gent, p, 0, {1.5, 2, 5}, 10);
+  EXPECT_EQ(judge_transverse(*gent, p, 0, {}, 10).stable, std::nullopt);
+  EXPECT_EQ(judge_transverse(*gent, p, 0, {1.5, 2}, 10).stable, true);
+  const auto beyond = judge_transverse(*gent, p, 0, {1.5, 2, 5}, 10);
   EXPECT_EQ(beyond.stable, std::nullopt);
   EXPECT_LT(beyond.checked_to, 2.5);
 }
@@ -122,7 +123,7 @@ TEST(TransverseStability, AnisotropyReachesItsLimitAtLargeStretch) {
 
 TEST(TransverseStability, HgoLosesItForEveryObliqueAngle) {
   const auto hgo = testing::model("hgo");
-  const auto steepest = judge(*hgo, std::vector<double>{10, 10, 1, 89}, 1, {}, 100);
+  const auto steepest = judge_transverse(*hgo, std::vector<double>{10, 10, 1, 89}, 1, {}, 100);
   ASSERT_TRUE(steepest.first_unstable);
   EXPECT_NEAR(*steepest.first_unstable, 57, 1.5);
 }
@@ -140,7 +141,7 @@ TEST(TransverseStability, HgoLosesItAtRandomParameters) {
     const std::vector<double> p{std::exp(uniform(std::log(0.1), std::log(1000))),
                                 std::exp(uniform(std::log(0.1), std::log(1000))),
                                 std::exp(uniform(std::log(0.05), std::log(20))), uniform(5, 80)};
-    const auto verdict = judge(*hgo, p, 1, {}, 1000);
+    const auto verdict = judge_transverse(*hgo, p, 1, {}, 1000);
     EXPECT_TRUE(verdict.first_unstable) << p[0] << " " << p[1] << " " << p[2] << " " << p[3] << ", checked to "
                                         << verdict.checked_to;
   }
@@ -150,7 +151,7 @@ TEST(TransverseStability, HgoKeepsItWithFibresAlongOrAcrossThePull) {
   const auto hgo = testing::model("hgo");
   for (const double angle : {0.0, 90.0})
     for (const std::size_t axis : {0, 1}) {
-      const auto verdict = judge(*hgo, std::vector<double>{10, 10, 1, angle}, axis, {}, 50);
+      const auto verdict = judge_transverse(*hgo, std::vector<double>{10, 10, 1, angle}, axis, {}, 50);
       EXPECT_FALSE(verdict.first_unstable) << angle << " at " << verdict.first_unstable.value_or(0);
       EXPECT_GT(verdict.checked_to, 3);
     }
@@ -162,7 +163,7 @@ TEST(TransverseStability, AlmostLinearFibresLoseItOnlyWhenStiffEnough) {
   const double theta = 40, s2 = std::pow(std::sin(theta * std::numbers::pi / 180), 2);
   for (const double ratio : {0.9, 1.1}) {
     const double mu = 10, k1 = ratio * mu / (4 * s2);
-    const auto verdict = judge(*hgo, std::vector<double>{mu, k1, 1e-12, theta}, 1, {}, 20);
+    const auto verdict = judge_transverse(*hgo, std::vector<double>{mu, k1, 1e-12, theta}, 1, {}, 20);
     EXPECT_EQ(verdict.first_unstable.has_value(), ratio > 1) << ratio;
   }
 }
@@ -245,4 +246,4 @@ TEST(TransverseStability, FailsWithAReasonWhereTheEnergyOverflows) {
 }
 
 }  // namespace
-}  // namespace tunica
+}  // namespace tunica::transverse_test

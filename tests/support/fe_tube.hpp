@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 
 #include "support/tube.hpp"
@@ -26,9 +24,12 @@ inline std::unique_ptr<Test> make_fe_tube(const std::vector<double>& pressure, c
   const auto& entry = catalogue().tests().at("fe_pressurisation");
   TestSetup setup;
   setup.options = defaults(entry.factory.options);
-  setup.options.set("inner_radius", 3.71), setup.options.set("thickness", 2.06), setup.options.set("length", 14.);
+  setup.options.set("inner_radius", 3.71);
+  setup.options.set("thickness", 2.06);
+  setup.options.set("length", 14.);
   if (tube.axial_stretches.empty()) setup.options.set("axial_stretch", tube.axial_stretch);
-  setup.options.set("element", tube.element), setup.options.set("elements", tube.elements);
+  setup.options.set("element", tube.element);
+  setup.options.set("elements", tube.elements);
   setup.options.set("ends", tube.ends);
   for (const auto& [name, value] : tube.options.values()) setup.options.set(name, value);
   setup.rows.count = pressure.size();
@@ -38,18 +39,17 @@ inline std::unique_ptr<Test> make_fe_tube(const std::vector<double>& pressure, c
   return plugins::create(entry, setup);
 }
 
-/// Columns of shared data, which do not come with the sources: TUNICA_DATA_DIR, or ../shared/data beside them.
-inline std::optional<std::vector<std::vector<double>>> shared_columns(const std::string& file) {
-  const char* const given = std::getenv("TUNICA_DATA_DIR");
-  const std::filesystem::path folder =
-      given != nullptr ? std::filesystem::path(given) : std::filesystem::path(TUNICA_SOURCE_DIR) / "../shared/data";
-  std::ifstream in(folder / file);
-  if (!in) return std::nullopt;
+/// Columns of a table of numbers with one header line; lines that begin with # are comments.
+inline std::vector<std::vector<double>> columns_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
   std::vector<std::vector<double>> columns;
   bool header = true;
   for (std::string line; std::getline(in, line);) {
     if (line.empty() || line[0] == '#') continue;
-    if (std::exchange(header, false)) continue;
+    if (header) {
+      header = false;
+      continue;
+    }
     std::stringstream cells(line);
     std::size_t k = 0;
     for (std::string cell; std::getline(cells, cell, ','); ++k) {

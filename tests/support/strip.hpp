@@ -38,7 +38,10 @@ inline Predicted predict(const Test& test, const Model& model, const std::vector
   Predicted out;
   out.values.resize(rows);
   out.diagnostics.resize(n * test.describe().diagnostics.size());
-  if (derivatives) out.jacobian.resize((p.size() + 1) * rows), out.abscissa_derivative.resize(rows);
+  if (derivatives) {
+    out.jacobian.resize((p.size() + 1) * rows);
+    out.abscissa_derivative.resize(rows);
+  }
   out.status = test.predict({model, p, {&misalignment, 1}},
                             {out.values, out.jacobian, out.abscissa_derivative, out.diagnostics});
   return out;

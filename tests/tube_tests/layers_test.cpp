@@ -9,7 +9,7 @@
 #include "support/strip.hpp"
 #include "support/tube.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::layers_test {
 using namespace conformance;
 namespace {
 
@@ -284,4 +284,4 @@ TEST(TubeLayers, ReplaceTheRatioOfTwoLayersOfOneModel) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::layers_test

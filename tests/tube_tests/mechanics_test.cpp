@@ -7,7 +7,7 @@
 #include "support/strip.hpp"
 #include "support/tube.hpp"
 
-namespace tunica::testing {
+namespace tunica::testing::mechanics_test {
 namespace {
 
 constexpr double inner = 3.71, outer = 5.77;
@@ -250,4 +250,4 @@ TEST(Tube, ShowsNoWallThatRemembers) {
 }
 
 }  // namespace
-}  // namespace tunica::testing
+}  // namespace tunica::testing::mechanics_test

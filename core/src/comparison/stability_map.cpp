@@ -46,7 +46,7 @@ Strips judge_strips(const calibration::Assembly& assembly, std::span<const doubl
   for (std::size_t m = 0; m < assembly.model_count(); ++m) {
     const auto parameters = assembly.model_parameters(m, free);
     for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
-      const auto verdict = stability::judge(assembly.model(m), parameters, axis, {}, limit);
+      const auto verdict = stability::judge_transverse(assembly.model(m), parameters, axis, {}, limit);
       auto& first = worst.first_unstable[axis];
       if (verdict.first_unstable) first = std::min(first.value_or(*verdict.first_unstable), *verdict.first_unstable);
       worst.worst_slope = std::max(worst.worst_slope, verdict.worst_slope);

@@ -63,14 +63,14 @@ void add_asked(const experiment::RunEntry& run, stability::Domain& domain) {
 }
 
 /// The least stretch that all paths were followed to; null where one was not at all.
-json reached(const std::vector<stability::Followed>& followed) {
+json reached(const std::vector<stability::PathReach>& followed) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& path : followed) least = std::min(least, path.to);
   return std::isfinite(least) && least > 1 ? json(least) : json(nullptr);
 }
 
 json condition(const std::optional<double>& first_lost, const std::string& path,
-               const std::vector<stability::Followed>& followed) {
+               const std::vector<stability::PathReach>& followed) {
   const bool any = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return one.to > 1; });
   json paths = json::object();
   for (const auto& one : followed) paths[one.path] = one.to > 1 ? json(one.to) : json(nullptr);
@@ -135,7 +135,8 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
       auto domain = domain_of(assembly, m);
       add_asked(*plan.runs[run].entry, domain);
       domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-      found.models.push_back({assembly.model_name(m), stability::judge(assembly.model(m), parameters, domain), {}});
+      found.models.push_back(
+          {assembly.model_name(m), stability::judge_admissibility(assembly.model(m), parameters, domain), {}});
       for (const auto& inequality : assembly.model(m).describe().admissible) {
         const double value = inequality.value(parameters);
         if (value < -1e-9)

@@ -67,15 +67,15 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
   for (const auto& name : analysis.profiles)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("{}: no run searches for the parameter '{}' that a profile is asked of. {}",
-                                   analysis.place("profiles", name), name, data::suggestion(name, known)));
+                                   analysis.profile_place(name), name, data::suggestion(name, known)));
   for (const auto& name : analysis.stability_map)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(fmt::format("{}: no run searches for the parameter '{}' of the stability map. {}",
-                                   analysis.place("map", name), name, data::suggestion(name, known)));
+                                   analysis.map_places.at(name), name, data::suggestion(name, known)));
   if (const auto& map = analysis.stability_map; !map.empty()) {
     if (map[0] == map[1])
       throw InputError(fmt::format("{}: '{}' is named twice in the stability map; a map has two parameters",
-                                   analysis.place("map", map[0]), map[0]));
+                                   analysis.map_places.at(map[0]), map[0]));
     const bool possible = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const auto& run) {
       const auto& free = run.assembly->parameters();
       return std::all_of(map.begin(), map.end(), [&](const auto& name) {
@@ -85,7 +85,7 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
     if (!possible)
       throw InputError(fmt::format(
           "{}: no run searches for both '{}' and '{}', the parameters of the stability map; free both in one",
-          analysis.place("map", map[0]), map[0], map[1]));
+          analysis.map_places.at(map[0]), map[0], map[1]));
   }
   if (analysis.wanted()) static_cast<void>(local_optimizer(*plan.experiment, catalogue));
 }

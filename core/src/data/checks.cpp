@@ -39,7 +39,7 @@ void check_stretch(const Series& series, const Series::Column& column, std::vect
         fmt::format("{}: found a stretch of {}; expected a positive number, 1 at rest, less in compression.",
                     series.place(row(low), column), *low));
   if (*high > largest_stretch)
-    warnings.push_back(fmt::format("{}: a stretch of {} is found, more than any tissue or rubber bears. Is it percent?",
+    warnings.push_back(fmt::format("{}: found a stretch of {}, more than any tissue or rubber bears. Is it percent?",
                                    series.place(row(high), column), *high));
   else if (*low > 2)
     warnings.push_back(
@@ -67,7 +67,7 @@ void check_time(const Series& series, const Series::Column& column) {
   for (std::size_t row = 0; row < column.values.size(); ++row)
     if (column.values[row] < (row == 0 ? 0 : column.values[row - 1]))
       throw InputError(
-          fmt::format("{}: the time {} s comes after {} s. Rows stand in loading order, so time must not run "
+          fmt::format("{}: the time {} s comes after {} s. Rows are in loading order, so time must not run "
                       "backwards, and begins at rest at 0.",
                       series.place(row, column), column.values[row], row == 0 ? 0 : column.values[row - 1]));
 }
@@ -109,11 +109,11 @@ void check_duplicates(const Series& series, std::vector<std::string>& warnings) 
   if (!repeated.empty() && (rising || clock))
     warnings.push_back(
         fmt::format("{}, {}: the same numbers as in an earlier row. Duplicates count twice in the fit; remove "
-                    "them if they are no separate measurements.",
+                    "them if they are not separate measurements.",
                     series.file.string(), some_lines(repeated)));
   if (!ambiguous.empty() && rising && !clock)
     warnings.push_back(
-        fmt::format("{}, {}, column {} ('{}'): this abscissa occurs before with another result. A simulation "
+        fmt::format("{}, {}, column {} ('{}'): an earlier row has this abscissa and another result. A simulation "
                     "gives one value at both; is a time column missing, or are specimens mixed (\"where\")?",
                     series.file.string(), some_lines(ambiguous), abscissa->index + 1, abscissa->name));
 }

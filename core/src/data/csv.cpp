@@ -56,8 +56,10 @@ class Cutter {
       if (delimiter == ' ' && cell.empty() && !more) break;  // white space at the end of the line
       cells.push_back(std::move(cell));
       if (more) ++at_;  // the delimiter
-      if (more && delimiter != ' ' && (at_end() || text_[at_] == '\r' || text_[at_] == '\n'))
-        cells.emplace_back(), more = false;
+      if (more && delimiter != ' ' && (at_end() || text_[at_] == '\r' || text_[at_] == '\n')) {
+        cells.emplace_back();
+        more = false;
+      }
     }
     end_line();
     return cells;
@@ -76,7 +78,10 @@ class Cutter {
   std::string field(char delimiter) {
     std::size_t begin = at_;
     while (begin < text_.size() && text_[begin] == ' ') ++begin;
-    if (begin < text_.size() && text_[begin] == '"') return at_ = begin, quoted(delimiter);
+    if (begin < text_.size() && text_[begin] == '"') {
+      at_ = begin;
+      return quoted(delimiter);
+    }
     const std::size_t start = at_;
     while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter)) ++at_;
     return std::string(trimmed(text_.substr(start, at_ - start)));
@@ -95,7 +100,7 @@ class Cutter {
       cell += text_[at_];
     }
     if (at_end())
-      throw InputError(fmt::format("{}, line {}: a quoted field is opened here and never closed. Close it with \".",
+      throw InputError(fmt::format("{}, line {}: a quoted field opens here and never closes. Close it with \".",
                                    file_.string(), opened));
     ++at_;
     while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter))
@@ -106,7 +111,8 @@ class Cutter {
   void end_line() {
     if (at_end()) return;
     if (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ++at_;
-    ++at_, ++line_;
+    ++at_;
+    ++line_;
   }
 
   const std::filesystem::path& file_;
@@ -124,7 +130,9 @@ char sniff_delimiter(std::string_view header) {
     if (quoted) continue;
     bracket += c == '[' ? 1 : c == ']' && bracket > 0 ? -1 : 0;
     if (bracket > 0) continue;
-    tabs += c == '\t', semicolons += c == ';', commas += c == ',';
+    tabs += c == '\t';
+    semicolons += c == ';';
+    commas += c == ',';
   }
   return tabs > 0 ? '\t' : semicolons > 0 ? ';' : commas > 0 ? ',' : ' ';
 }
@@ -162,7 +170,7 @@ void refuse_encodings(const std::filesystem::path& file, std::string_view text) 
   const std::size_t zero = text.find('\0');
   if (zero != std::string_view::npos)
     throw InputError(fmt::format(
-        "{}, line {}: found a zero byte, so this is no text file. Expected CSV: a header line "
+        "{}, line {}: found a zero byte, so this is not a text file. Expected CSV: a header line "
         "`name [unit]` and rows of numbers.",
         file.string(), 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n')));
 }
@@ -177,7 +185,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error))
     throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
   if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(fmt::format("{}: this is no regular file. Name a text file.", file.string()));
+    throw InputError(fmt::format("{}: this is not a regular file. Name a text file.", file.string()));
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
   if (stream) bytes << stream.rdbuf();

@@ -2,7 +2,6 @@
 #include "data/dataset.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -31,10 +30,10 @@ const Observable& find_observable(const std::string& name, const std::vector<Obs
 // The experiment file is checked with its own line numbers; these checks serve callers without one.
 void check_request(const DataRequest& request, const std::vector<Observable>& observables) {
   if (request.files.empty()) throw InputError("no data file is named. Give \"file\" or \"files\".");
-  constexpr std::array measures = {"cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"};
+  const auto& measures = stress_measures();
   if (std::find(measures.begin(), measures.end(), request.stress_measure) == measures.end())
     throw InputError(fmt::format("unknown stress measure '{}'. {}", excerpt(request.stress_measure),
-                                 suggestion(request.stress_measure, {measures.begin(), measures.end()})));
+                                 suggestion(request.stress_measure, measures)));
   std::set<std::string> mapped;
   bool channel = false, time = false;
   for (const auto& [name, column] : request.columns) {
@@ -125,6 +124,11 @@ std::vector<double> time_along(const std::vector<double>& path, double rest, dou
 }
 
 }  // namespace
+
+const std::vector<std::string>& stress_measures() {
+  static const std::vector<std::string> names = {"cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"};
+  return names;
+}
 
 std::string Series::place(std::size_t row, const Column& column) const {
   return fmt::format("{}, line {}, column {} ('{}')", file.string(), lines[row], column.index + 1,

@@ -63,6 +63,9 @@ struct Dataset {
   [[nodiscard]] TestRows rows() const;
 };
 
+/// The names that DataRequest::stress_measure may have.
+const std::vector<std::string>& stress_measures();
+
 /// Reads and checks the data of one test; `observables` are those the test declares. Throws InputError whose message
 /// names file, line and column.
 Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& observables);

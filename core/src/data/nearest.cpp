@@ -42,7 +42,10 @@ std::string nearest(std::string_view found, const std::vector<std::string>& know
   std::size_t best_distance = 5;  // two steps and a case
   for (const std::string& name : known) {
     const std::size_t d = distance(found, name);
-    if (d < best_distance && d <= std::max(found.size(), name.size())) best = name, best_distance = d;
+    if (d < best_distance && d <= std::max(found.size(), name.size())) {
+      best = name;
+      best_distance = d;
+    }
   }
   if (!best.empty()) return best;
   // A shortened or lengthened name: "transverse" for "transverse_stretch".

@@ -46,8 +46,8 @@ const Series::Column& path_of(const Series& series) {
   for (std::size_t row = 1; row < path->values.size(); ++row)
     if (!(path->values[row] > path->values[row - 1]))
       throw InputError(
-          fmt::format("{}: replicates with other abscissae are interpolated, and for that the abscissa must "
-                      "rise from row to row; here it does not. Select the loading branch with \"rows\", or "
+          fmt::format("{}: replicates with other abscissae are interpolated, which needs an abscissa that "
+                      "rises from row to row; here it does not. Select the loading branch with \"rows\", or "
                       "give each file a test of its own.",
                       series.place(row, *path)));
   return *path;
@@ -112,7 +112,7 @@ void align(std::vector<Series>& replicates, std::vector<std::string>& warnings) 
     other->lines = first.lines;
     if (!other->time.empty()) other->time = first.time;
     warnings.push_back(
-        fmt::format("{}: the abscissae differ from those of {}; its rows are interpolated linearly at the latter.",
+        fmt::format("{}: the abscissae differ from those of {}; its rows are interpolated linearly there.",
                     other->file.string(), first.file.filename().string()));
   }
   for (Series& series : replicates) keep_rows(series, common);

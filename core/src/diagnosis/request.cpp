@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/request.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace tunica::diagnosis {
 
 Request request_of(const experiment::Experiment& experiment) {
   Request request;
   request.seed = experiment.seed;
   if (!experiment.runs.empty()) request.model = experiment.runs.front().model;
-  if (experiment.diagnosis_json.empty()) return request;
-  const auto json = nlohmann::json::parse(experiment.diagnosis_json);
-  request.model = json.value("model", request.model);
-  request.optimizer = json.value("optimizer", std::string());
-  request.alpha = json.value("alpha", request.alpha);
-  request.admissibility = json.value("admissibility", false);
-  if (const auto names = json.find("mechanisms"); names != json.end() && names->is_array())
-    request.mechanisms = names->get<std::vector<std::string>>();
+  if (!experiment.diagnosis) return request;
+  const experiment::DiagnosisEntry& entry = *experiment.diagnosis;
+  request.model = entry.model.value_or(request.model);
+  request.optimizer = entry.optimizer.value_or("");
+  request.alpha = entry.alpha.value_or(request.alpha);
+  request.admissibility = entry.admissibility.value_or(false);
+  request.mechanisms = entry.mechanisms;
   return request;
 }
 

@@ -46,8 +46,8 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   if (!root.is_object()) root.fail_expected("an experiment, { \"format\": 1, … },");
   // The version first: where it differs, other messages would mislead.
   const Node format = root.require("format", "the experiment file");
-  if (format.json() != 1)
-    format.fail(fmt::format("found format {} where 1 is expected", format.json().dump()),
+  if (!format.is_number() || format.number("") != 1)
+    format.fail(fmt::format("found format {} where 1 is expected", format.dumped()),
                 "This version of tunica reads format 1 only.");
   root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
                    "stop", "initial", "runs", "on_failure", "analysis", "diagnosis"},
@@ -58,7 +58,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   if (const auto node = root.find("$schema")) node->text("the name of a schema");
   if (const auto node = root.find("name")) experiment.name = node->text("a name");
   if (const auto node = root.find("seed")) experiment.seed = node->count("a whole number from 0");
-  std::vector<Shared> shared;
+  std::vector<SharedParameter> shared;
   const Node models = root.require("models", "the experiment file");
   for (const auto& [name, entry] : models.members("an object with one entry per model"))
     experiment.models.push_back(read_model(name, entry, catalogue, shared));
@@ -80,10 +80,7 @@ Experiment read_experiment(const std::filesystem::path& file, const plugins::Cat
   read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
   check_shared(shared);
   if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
-  if (const auto node = root.find("diagnosis")) {
-    check_diagnosis(*node, experiment, catalogue);
-    experiment.diagnosis_json = node->json().dump();
-  }
+  if (const auto node = root.find("diagnosis")) experiment.diagnosis = read_diagnosis(*node, experiment, catalogue);
   experiment.input_json = write_input(experiment, catalogue);
   return experiment;
 }

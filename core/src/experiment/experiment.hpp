@@ -118,12 +118,19 @@ struct RunEntry {
   Stop stop;
 };
 
+/// The block "diagnosis"; an absent member leaves the diagnosis its default.
+struct DiagnosisEntry {
+  std::optional<std::string> model, optimizer;  ///< entries of "models", "optimizers"
+  std::optional<double> alpha;                  ///< level of significance
+  bool all_mechanisms = false;                  ///< "all", said outright
+  std::vector<std::string> mechanisms;          ///< those to consider; empty = all
+  std::optional<bool> admissibility;            ///< whether lost stability changes the verdict
+};
+
 /// What is to be said about the uncertainty of every run's best point beyond the Laplace intervals.
 struct Analysis {
   bool all_profiles = false;
   std::vector<std::string> profiles;  ///< parameters as results name them; checked where the run is planned
-  /// Where the file names a parameter, "profiles mu" or "map mu": for messages.
-  std::map<std::string, std::string> places;
   std::uint64_t bootstrap_draws = 0;  ///< 0 = no bootstrap
   std::string optimizer;              ///< an entry of "optimizers"; empty = ceres_lm from the best point
   std::optional<double>
@@ -131,15 +138,13 @@ struct Analysis {
   std::vector<std::string> stability_map;  ///< two parameters, or none
   std::size_t map_points = 41;             ///< along each
 
-  void add_profile(const std::string& name, const std::string& place) {
-    profiles.push_back(name), places.emplace("profiles " + name, place);
-  }
-  void add_map(const std::string& name, const std::string& place) {
-    stability_map.push_back(name), places.emplace("map " + name, place);
-  }
-  [[nodiscard]] std::string place(const std::string& use, const std::string& name) const {
-    const auto found = places.find(use + ' ' + name);
-    return found == places.end() ? "--profiles" : found->second;
+  /// Where the file names a parameter of `profiles` or of `stability_map`, for messages; the command line names the
+  /// rest.
+  std::map<std::string, std::string, std::less<>> profile_places, map_places;
+
+  [[nodiscard]] std::string profile_place(std::string_view name) const {
+    const auto found = profile_places.find(name);
+    return found == profile_places.end() ? "--profiles" : found->second;
   }
   [[nodiscard]] bool wanted() const { return all_profiles || !profiles.empty() || bootstrap_draws > 0; }
 };
@@ -155,8 +160,8 @@ struct Experiment {
   OnFailure on_failure = OnFailure::penalise;
   double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
   Analysis analysis;
-  std::string diagnosis_json;  ///< the "diagnosis" block as text; empty = none
-  std::string input_json;      ///< the file with defaults filled in: input.json
+  std::optional<DiagnosisEntry> diagnosis;
+  std::string input_json;  ///< the file with defaults filled in: input.json
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;

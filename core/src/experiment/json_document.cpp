@@ -2,6 +2,7 @@
 #include "experiment/json_document.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
@@ -14,9 +15,10 @@ constexpr std::size_t deepest = 64;  // levels of nesting; the experiment file n
 JsonDocument::Place place_of(std::string_view text, std::size_t offset) {
   JsonDocument::Place place{1, 1};
   for (const char c : text.substr(0, offset)) {
-    if (c == '\n')
-      ++place.line, place.column = 1;
-    else if ((static_cast<unsigned char>(c) & 0xC0u) != 0x80u)
+    if (c == '\n') {
+      ++place.line;
+      place.column = 1;
+    } else if ((static_cast<unsigned char>(c) & 0xC0u) != 0x80u)
       ++place.column;
   }
   return place;
@@ -67,7 +69,7 @@ class Scanner {
         at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
       else if (at("/*")) {
         const std::size_t end = text_.find("*/", at_ + 2);
-        if (end == std::string_view::npos) fail(at_, "a comment is opened and never closed", "Close it with */.");
+        if (end == std::string_view::npos) fail(at_, "a comment opens and never closes", "Close it with */.");
         at_ = end + 2;
       } else
         return;
@@ -103,7 +105,7 @@ class Scanner {
       const std::string key = string();
       const std::string child = child_pointer(pointer, key);
       if (const auto first = offsets_.find(child); first != offsets_.end())
-        fail(key_at, fmt::format("the key '{}' stands twice in the same object", excerpt(key)),
+        fail(key_at, fmt::format("the key '{}' appears twice in the same object", excerpt(key)),
              fmt::format("It was given before in line {}; names must differ. Remove or rename one.",
                          place_of(text_, first->second).line),
              child);
@@ -151,7 +153,7 @@ class Scanner {
     const std::size_t begin = at_++;
     while (at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\n') at_ += text_[at_] == '\\' ? 2 : 1;
     if (at_ >= text_.size() || text_[at_] != '"')
-      fail(begin, "a text is opened with \" and not closed in its line", "Close it with \".");
+      fail(begin, "a text opens with \" and does not close in its line", "Close it with \".");
     ++at_;
     const std::string_view raw = text_.substr(begin, at_ - begin);
     if (raw.find('\\') == std::string_view::npos) return std::string(raw.substr(1, raw.size() - 2));
@@ -172,14 +174,14 @@ class Scanner {
     if (!token.empty() && (token[0] == '-' || (token[0] >= '0' && token[0] <= '9'))) {
       if (Json::accept(token)) return;
       fail(begin, fmt::format("'{}' is not a number as JSON writes it, or too large for one", excerpt(token)),
-           "Quantities with units stand in double quotes: \"3.71 mm\".");
+           "Put quantities with units in double quotes: \"3.71 mm\".");
     }
     at_ = begin;
     fail(begin, fmt::format("found {} where a value is expected", found()),
          here() == '\''                   ? "JSON has double quotes only."
          : here() == ',' || here() == '}' ? "Is a value missing, or a comma too many?"
          : at_ >= text_.size()            ? "The file ends too early."
-                                          : "Text stands in double quotes.");
+                                          : "Put text in double quotes.");
   }
 
   const std::filesystem::path& file_;
@@ -195,13 +197,13 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   Scanner(file_, text_, offsets_).scan();
   try {
-    root_ = Json::parse(text_, nullptr, true, true);
+    root_ = std::make_shared<const Json>(Json::parse(text_, nullptr, true, true));
   } catch (const nlohmann::json::exception& error) {
     const auto* parse_error = dynamic_cast<const nlohmann::json::parse_error*>(&error);
     const auto [line, column] =
         place_of(text_, parse_error != nullptr && parse_error->byte > 0 ? parse_error->byte - 1 : 0);
     throw InputError(
-        fmt::format("{}: this is no JSON text (line {}, column {}). The parser says: {}", file_.string(), line, column,
+        fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(), line, column,
                     excerpt(std::string_view(error.what()).substr(std::string_view(error.what()).find("] ") + 2))));
   }
 }

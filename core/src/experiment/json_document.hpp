@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace tunica::experiment {
 
@@ -25,14 +26,14 @@ class JsonDocument {
   JsonDocument(std::filesystem::path file, std::string text);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] const Json& root() const { return root_; }
+  [[nodiscard]] const Json& root() const { return *root_; }
   /// Of a value in an array, or of the key of a member; where nothing stands, of the nearest enclosing value.
   [[nodiscard]] Place place(std::string_view pointer) const;
 
  private:
   std::filesystem::path file_;
   std::string text_;
-  Json root_;
+  std::shared_ptr<const Json> root_;
   std::unordered_map<std::string, std::size_t> offsets_;  ///< JSON pointer → byte offset
 };
 

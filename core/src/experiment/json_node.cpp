@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "data/units.hpp"
 #include "experiment/suggest.hpp"
@@ -46,6 +48,14 @@ void Node::fail(std::string_view what, std::string_view help) const {
 void Node::fail_expected(std::string_view expected) const {
   fail(fmt::format("found {} where {} is expected", described(*value_), expected));
 }
+
+bool Node::is_object() const { return value_->is_object(); }
+bool Node::is_array() const { return value_->is_array(); }
+bool Node::is_text() const { return value_->is_string(); }
+bool Node::is_number() const { return value_->is_number(); }
+bool Node::is_flag() const { return value_->is_boolean(); }
+std::size_t Node::size() const { return value_->size(); }
+std::string Node::dumped() const { return value_->dump(); }
 
 std::optional<Node> Node::find(const std::string& key) const {
   const auto found = value_->find(key);
@@ -100,6 +110,12 @@ double Node::number(std::string_view expected) const {
   return value_->get<double>();  // finite: the parser refuses what overflows
 }
 
+std::int64_t Node::integer(std::string_view expected) const {
+  if (value_->is_number_integer() && !value_->is_number_unsigned()) return value_->get<std::int64_t>();
+  constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>(std::min(count(expected), largest));
+}
+
 std::uint64_t Node::count(std::string_view expected, std::uint64_t at_least) const {
   constexpr double exact = 9007199254740992.0;  // 2^53: 6e4 is a fine way to write 60000
   std::uint64_t value = 0;
@@ -140,7 +156,7 @@ void Node::check_name(const std::string& name, std::string_view noun) const {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
   };
   if (name.find('.') != std::string::npos)
-    fail(fmt::format("the {} name '{}' has a dot", noun, excerpt(name)),
+    fail(fmt::format("the {} name '{}' contains a dot", noun, excerpt(name)),
          "Dots join the parts of parameter names, as in viscoelasticity.tau; use '_' or '-' instead.");
   if (name.empty() || name.size() > 100 || name.front() == '-' || !std::all_of(name.begin(), name.end(), usual))
     fail(fmt::format("the {} name '{}' cannot be part of file and parameter names", noun, excerpt(name)),

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiment/json_document.hpp"
@@ -18,7 +19,6 @@ class Node {
  public:
   explicit Node(const JsonDocument& document) : Node(document, document.root(), "") {}
 
-  [[nodiscard]] const Json& json() const { return *value_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
   /// "file (/pointer, line 4, column 7)", for messages about it later on.
@@ -27,11 +27,13 @@ class Node {
   [[noreturn]] void fail(std::string_view what, std::string_view help = {}) const;
   [[noreturn]] void fail_expected(std::string_view expected) const;
 
-  [[nodiscard]] bool is_object() const { return value_->is_object(); }
-  [[nodiscard]] bool is_array() const { return value_->is_array(); }
-  [[nodiscard]] bool is_text() const { return value_->is_string(); }
-  [[nodiscard]] bool is_number() const { return value_->is_number(); }
-  [[nodiscard]] bool is_flag() const { return value_->is_boolean(); }
+  [[nodiscard]] bool is_object() const;
+  [[nodiscard]] bool is_array() const;
+  [[nodiscard]] bool is_text() const;
+  [[nodiscard]] bool is_number() const;
+  [[nodiscard]] bool is_flag() const;
+  [[nodiscard]] std::size_t size() const;    ///< members of an object, elements of an array
+  [[nodiscard]] std::string dumped() const;  ///< the value as JSON text
 
   [[nodiscard]] std::optional<Node> find(const std::string& key) const;
   [[nodiscard]] Node require(const std::string& key, std::string_view owner) const;
@@ -48,6 +50,7 @@ class Node {
   const std::string& text(std::string_view expected) const;
   bool flag(std::string_view expected) const;
   [[nodiscard]] double number(std::string_view expected) const;
+  [[nodiscard]] std::int64_t integer(std::string_view expected) const;  ///< what is too large becomes the largest
   [[nodiscard]] std::uint64_t count(std::string_view expected, std::uint64_t at_least = 0) const;
   /// A number in the base unit, or text with a unit that converts to it.
   [[nodiscard]] double quantity(std::string_view base_unit, std::string_view expected) const;

@@ -11,12 +11,12 @@
 /// The parts of the reader; each takes the node of its block and gives it typed, or throws through the node.
 namespace tunica::experiment {
 
-/// The keys of a shelf of the catalogue, for messages and look-up.
-template <class Shelf>
-std::vector<std::string> names_of(const Shelf& shelf) {
+/// The names in one part of the catalogue, for messages and look-up.
+template <class Entries>
+std::vector<std::string> names_of(const Entries& entries) {
   std::vector<std::string> names;
-  names.reserve(shelf.size());
-  for (const auto& entry : shelf) names.push_back(entry.first);
+  names.reserve(entries.size());
+  for (const auto& entry : entries) names.push_back(entry.first);
   return names;
 }
 
@@ -36,7 +36,7 @@ Options read_options(const Node& entry, const std::vector<Option>& declared, std
 
 // reader_parameters.cpp
 /// One parameter in a share group, wherever in the file it stands.
-struct Shared {
+struct SharedParameter {
   std::string group, unit;  ///< unit "" = not known before the test is built
   ParameterSetting setting;
   Node node;
@@ -44,26 +44,26 @@ struct Shared {
 
 /// The block "parameters" of `entry`, completed: every declared parameter is fixed, or has bounds, initial and scale.
 ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter>& declared, std::string_view owner,
-                                  std::vector<Shared>& shared);
+                                  std::vector<SharedParameter>& shared);
 /// The same for the own parameters of a test, but those that the file mentions only: an imperfection that it does not
 /// mention stays at its null.
 ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector<Parameter>& declared,
-                                            std::string_view owner, std::vector<Shared>& shared);
-void check_shared(const std::vector<Shared>& shared);
+                                            std::string_view owner, std::vector<SharedParameter>& shared);
+void check_shared(const std::vector<SharedParameter>& shared);
 
 // reader_models.cpp
 ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
-                      std::vector<Shared>& shared);
+                      std::vector<SharedParameter>& shared);
 /// Test mechanisms; `test_type` decides which apply.
 std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
                                                  std::string_view owner, const plugins::Catalogue& catalogue,
-                                                 std::vector<Shared>& shared);
+                                                 std::vector<SharedParameter>& shared);
 
 // reader_tests.cpp
 /// `models`: the names that layers may have.
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
                     const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
-                    std::vector<Shared>& shared);
+                    std::vector<SharedParameter>& shared);
 /// "0:240:6".
 data::RowRange read_row_range(const Node& node);
 
@@ -73,9 +73,6 @@ Stop read_stop(const Node& node, std::uint64_t default_evaluations = Stop{}.max_
 std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Catalogue& catalogue);
 
 // reader_runs.cpp
-const std::vector<std::string>& objective_names();
-const std::vector<std::string>& on_failure_names();
-const std::vector<std::string>& stress_measure_names();
 ObjectiveType read_objective(const Node& node);
 std::vector<ConstraintEntry> read_constraints(const Node& node);
 void read_on_failure(const Node& node, Experiment& experiment);
@@ -91,10 +88,10 @@ struct RunDefaults {
 bool read_initial(const Node& node);
 /// Tests that a run defines for itself are added to the experiment.
 void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
-               std::vector<Shared>& shared, Experiment& experiment);
+               std::vector<SharedParameter>& shared, Experiment& experiment);
 /// "analysis": profiles, bootstrap, optimizer; needs the optimizers.
 void read_analysis(const Node& node, Experiment& experiment);
-void check_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue);
+DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue);
 
 // writer.cpp
 /// input.json: the experiment with every default filled in, numbers in base units, file names absolute.

@@ -21,7 +21,7 @@ bool acts_on_model(const MechanismFactory& mechanism) { return mechanism.stage <
 /// The mechanisms of one list, checked by themselves; `suits` refuses those that do not belong there.
 template <class Suits>
 std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string& owner,
-                                            const plugins::Catalogue& catalogue, std::vector<Shared>& shared,
+                                            const plugins::Catalogue& catalogue, std::vector<SharedParameter>& shared,
                                             Suits suits) {
   std::vector<MechanismEntry> mechanisms;
   const auto list = entry.find("mechanisms");
@@ -33,7 +33,7 @@ std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string
     const MechanismFactory& factory = catalogue.mechanisms().find(type)->second.factory;
     suits(node, factory);
     if (std::any_of(mechanisms.begin(), mechanisms.end(), [&](const MechanismEntry& m) { return m.type == type; }))
-      node.fail(fmt::format("the mechanism '{}' stands twice in {}", type, owner),
+      node.fail(fmt::format("the mechanism '{}' appears twice in {}", type, owner),
                 "Its parameters would share their names; remove one.");
     const std::string name = fmt::format("mechanism '{}'", type);
     MechanismEntry mechanism{type, read_options(node, factory.options, {"type", "parameters"}, name), {}};
@@ -68,17 +68,17 @@ void try_mechanisms(const Node& entry, std::unique_ptr<Model> model, const std::
 }  // namespace
 
 ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
-                      std::vector<Shared>& shared) {
+                      std::vector<SharedParameter>& shared) {
   entry.expect_object("a model, {\"type\": …},");
   entry.check_name(name, "model");
   const std::string owner = fmt::format("model '{}'", name);
   const std::string type = entry.require("type", owner).one_of(names_of(catalogue.models()), "model type");
-  const auto& on_shelf = catalogue.models().find(type)->second;
-  const Options options = read_options(entry, on_shelf.factory.options, {"type", "parameters", "mechanisms"}, owner);
+  const auto& available = catalogue.models().find(type)->second;
+  const Options options = read_options(entry, available.factory.options, {"type", "parameters", "mechanisms"}, owner);
   ModelEntry model{name, type, options, {}, {}};
   std::unique_ptr<Model> instance;
   try {
-    instance = plugins::create(on_shelf, options);
+    instance = plugins::create(available, options);
   } catch (const InputError& error) {
     entry.fail(fmt::format("{} is refused", owner), error.what());
   }
@@ -96,7 +96,7 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
 
 std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
                                                  std::string_view owner, const plugins::Catalogue& catalogue,
-                                                 std::vector<Shared>& shared) {
+                                                 std::vector<SharedParameter>& shared) {
   return read_mechanisms(
       entry, std::string(owner), catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {
         if (acts_on_model(mechanism))

@@ -27,7 +27,7 @@ OptimizerEntry read_stages(const std::string& name, const Node& entry, const std
       stage.optimizer = node.one_of(names, "optimizer");
     }
     if (stage.optimizer == name)
-      node.fail(fmt::format("the stages of the optimizer '{}' name itself", name),
+      node.fail(fmt::format("the optimizer '{}' names itself as a stage", name),
                 "A stage is another entry of \"optimizers\".");
     optimizer.stages.push_back(std::move(stage));
   }
@@ -73,11 +73,11 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
     OptimizerEntry optimizer;
     optimizer.name = name;
     optimizer.type = entry.require("type", owner).one_of(names_of(catalogue.optimizers()), "optimizer type");
-    const auto& on_shelf = catalogue.optimizers().find(optimizer.type)->second;
-    optimizer.options = read_options(entry, on_shelf.factory.options, {"type"}, owner);
+    const auto& available = catalogue.optimizers().find(optimizer.type)->second;
+    optimizer.options = read_options(entry, available.factory.options, {"type"}, owner);
     try {
       static_cast<void>(
-          plugins::create(on_shelf, optimizer.options));  // the plugin may know more than its declaration says
+          plugins::create(available, optimizer.options));  // the plugin may know more than its declaration says
     } catch (const InputError& error) {
       entry.fail(fmt::format("{} is refused", owner), error.what());
     }
@@ -93,7 +93,7 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
         node.require(optimizer.name, "")
             .require("stages", "")
             .element(i)
-            .fail(fmt::format("the stage '{}' of '{}' is staged itself", stage, optimizer.name),
+            .fail(fmt::format("the stage '{}' of '{}' has stages itself", stage, optimizer.name),
                   "Name the optimizers one by one.");
     }
   return optimizers;
@@ -107,8 +107,11 @@ void read_analysis(const Node& node, Experiment& experiment) {
       profiles->one_of({"all"}, "set of profiles");
       analysis.all_profiles = true;
     } else {
-      for (const Node& name : profiles->elements("\"all\" or a list of parameter names"))
-        analysis.add_profile(name.text("the name of a parameter, as in results"), name.place());
+      for (const Node& entry : profiles->elements("\"all\" or a list of parameter names")) {
+        const std::string& name = entry.text("the name of a parameter, as in results");
+        analysis.profiles.push_back(name);
+        analysis.profile_places.emplace(name, entry.place());
+      }
     }
   }
   if (const auto bootstrap = node.find("bootstrap")) {
@@ -131,8 +134,11 @@ void read_analysis(const Node& node, Experiment& experiment) {
         to->fail(fmt::format("the stretch is {}", *analysis.stability_to), "Expected a stretch above 1, up to 100.");
     }
     if (const auto map = stability->find("map")) {
-      for (const Node& name : map->elements("two names of parameters, as in results,"))
-        analysis.add_map(name.text("the name of a parameter, as in results"), name.place());
+      for (const Node& entry : map->elements("two names of parameters, as in results,")) {
+        const std::string& name = entry.text("the name of a parameter, as in results");
+        analysis.stability_map.push_back(name);
+        analysis.map_places.emplace(name, entry.place());
+      }
       if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
     }
     if (const auto points = stability->find("points"))

@@ -23,11 +23,7 @@ Option::Value read_option(const Node& node, const Option& option) {
     case Kind::flag:
       return node.flag(what + ", true or false,");
     case Kind::integer: {
-      std::int64_t value = 0;
-      if (node.json().is_number_integer() && !node.json().is_number_unsigned())
-        value = node.json().get<std::int64_t>();
-      else
-        value = static_cast<std::int64_t>(std::min<std::uint64_t>(node.count(what + ", a whole number,"), INT64_MAX));
+      const std::int64_t value = node.integer(what + ", a whole number,");
       check_range(node, option, static_cast<double>(value));
       return value;
     }
@@ -45,7 +41,7 @@ Option::Value read_option(const Node& node, const Option& option) {
     case Kind::json:
       break;
   }
-  return node.json().dump();
+  return node.dumped();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/enum_names.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
@@ -27,7 +28,7 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
   setting.initial = value("initial");
   setting.fixed = value("fixed");
   if (const auto scale = node.find("scale"))
-    setting.scale = scale->one_of({"linear", "log"}, "scale") == "log" ? Scale::log : Scale::linear;
+    setting.scale = value_in(scale_names, scale->one_of(names_in(scale_names), "scale"));
   if (const auto share = node.find("share")) {
     setting.share = share->text("the name of a share group");
     share->check_name(*setting.share, "share group");
@@ -40,11 +41,11 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
       prior->child_or_self("sd").fail(fmt::format("the prior standard deviation of {} is {}", what, setting.prior->sd),
                                       "It must be greater than zero; to hold a parameter, use \"fixed\".");
   }
-  if (setting.fixed && node.json().size() > 1) {
+  if (setting.fixed && node.size() > 1) {
     std::string others;
     for (const auto& [key, child] : node.members("an object"))
       if (key != "fixed") others += (others.empty() ? "'" : ", '") + key + "'";
-    node.fail(fmt::format("{} is fixed and has {} too", what, others),
+    node.fail(fmt::format("{} is fixed but has {} as well", what, others),
               "A fixed parameter is held at its value, so the other keys mean nothing: remove them, or \"fixed\".");
   }
   return setting;
@@ -96,7 +97,7 @@ ParameterSetting completed(ParameterSetting setting, const Parameter& declared) 
 }  // namespace
 
 ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter>& declared, std::string_view owner,
-                                  std::vector<Shared>& shared) {
+                                  std::vector<SharedParameter>& shared) {
   const auto block = entry.find("parameters");
   std::vector<std::string> known;
   for (const Parameter& parameter : declared) known.push_back(parameter.name);
@@ -124,7 +125,7 @@ ParameterSettings read_parameters(const Node& entry, const std::vector<Parameter
 }
 
 ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector<Parameter>& declared,
-                                            std::string_view owner, std::vector<Shared>& shared) {
+                                            std::string_view owner, std::vector<SharedParameter>& shared) {
   ParameterSettings settings = read_parameters(entry, declared, owner, shared);
   const auto block = entry.find("parameters");
   std::erase_if(settings, [&](const auto& setting) { return !block || !block->find(setting.first); });
@@ -132,13 +133,13 @@ ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector
 }
 
 /// Tied parameters are one unknown, so what is said of one must hold for all.
-void check_shared(const std::vector<Shared>& shared) {
-  std::map<std::string, std::vector<const Shared*>, std::less<>> groups;
-  for (const Shared& member : shared) groups[member.group].push_back(&member);
+void check_shared(const std::vector<SharedParameter>& shared) {
+  std::map<std::string, std::vector<const SharedParameter*>, std::less<>> groups;
+  for (const SharedParameter& member : shared) groups[member.group].push_back(&member);
   for (const auto& entry : groups) {
     const std::string& group = entry.first;
-    const std::vector<const Shared*>& members = entry.second;
-    const Shared& first = *members.front();
+    const std::vector<const SharedParameter*>& members = entry.second;
+    const SharedParameter& first = *members.front();
     if (members.size() == 1) {
       std::vector<std::string> others;
       for (const auto& other : groups)
@@ -149,8 +150,8 @@ void check_shared(const std::vector<Shared>& shared) {
           near.empty() ? "Give the other parameters to be tied the same group, or remove \"share\"."
                        : fmt::format("Did you mean '{}'?", near));
     }
-    for (const Shared* member : members) {
-      const auto conflict = [&](std::string_view what, const std::string& here, const std::string& there) {
+    for (const SharedParameter* member : members) {
+      const auto conflict = [&](std::string_view what, std::string_view here, std::string_view there) {
         member->node.fail(fmt::format("parameters of the share group '{}' have different {}: {} here, {} at {}", group,
                                       what, here, there, first.node.pointer()),
                           "They are one unknown: make them agree.");
@@ -165,8 +166,7 @@ void check_shared(const std::vector<Shared>& shared) {
       compare("upper bounds", member->setting.max, first.setting.max);
       compare("initial values", member->setting.initial, first.setting.initial);
       if (member->setting.scale && first.setting.scale && *member->setting.scale != *first.setting.scale)
-        conflict("scales", *member->setting.scale == Scale::log ? "log" : "linear",
-                 *first.setting.scale == Scale::log ? "log" : "linear");
+        conflict("scales", name_in(scale_names, *member->setting.scale), name_in(scale_names, *first.setting.scale));
       if (member->setting.prior && first.setting.prior &&
           (member->setting.prior->mean != first.setting.prior->mean ||
            member->setting.prior->sd != first.setting.prior->sd))

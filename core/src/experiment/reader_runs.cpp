@@ -3,33 +3,16 @@
 
 #include <fmt/format.h>
 
+#include "experiment/enum_names.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 
 namespace tunica::experiment {
-
-const std::vector<std::string>& objective_names() {
-  static const std::vector<std::string> names = {"standardised_quadratic", "least_squares", "sum_of_norms"};
-  return names;
-}
-
-const std::vector<std::string>& on_failure_names() {
-  static const std::vector<std::string> names = {"penalise", "stop", "retry"};
-  return names;
-}
-
-const std::vector<std::string>& stress_measure_names() {
-  static const std::vector<std::string> names = {"cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"};
-  return names;
-}
-
 namespace {
 
-// The index of a name in one of the lists above is the value of the enumeration.
-template <class Enumeration>
-Enumeration read_choice(const Node& node, const std::vector<std::string>& names, std::string_view noun) {
-  const std::string& name = node.one_of(names, noun);
-  return static_cast<Enumeration>(std::find(names.begin(), names.end(), name) - names.begin());
+template <class Enumeration, std::size_t count>
+Enumeration read_choice(const Node& node, const EnumNames<Enumeration, count>& table, std::string_view noun) {
+  return value_in(table, node.one_of(names_in(table), noun));
 }
 
 // The sub-critical factor h of the stability constraint: a number, or a table over stretch.
@@ -44,7 +27,7 @@ StabilityFactor read_stability_factor(const Node& node) {
   if (rows.empty()) node.fail_expected(expected);
   StabilityFactor table;
   for (const Node& row : rows) {
-    if (!row.is_array() || row.json().size() != 2) row.fail_expected("a pair [stretch, h]");
+    if (!row.is_array() || row.size() != 2) row.fail_expected("a pair [stretch, h]");
     const double stretch = row.element(0).number("a stretch");
     if (!(stretch > (table.empty() ? 0 : table.back().first)))
       row.element(0).fail(
@@ -59,7 +42,7 @@ void read_transverse_stability(const Node& entry, ConstraintEntry& constraint) {
   if (const auto h = entry.find("h")) constraint.h = read_stability_factor(*h);
   if (const auto range = entry.find("range")) {
     constexpr std::string_view expected = "two stretches [from, to], 0 < from < to,";
-    if (!range->is_array() || range->json().size() != 2) range->fail_expected(expected);
+    if (!range->is_array() || range->size() != 2) range->fail_expected(expected);
     constraint.range = {range->element(0).number(expected), range->element(1).number(expected)};
     if (!(constraint.range->first > 0 && constraint.range->first < constraint.range->second))
       range->fail(fmt::format("the range goes from {} to {}", constraint.range->first, constraint.range->second),
@@ -81,14 +64,14 @@ void read_transverse_stability(const Node& entry, ConstraintEntry& constraint) {
 }
 
 std::vector<std::string> read_test_list(const Node& node, const std::filesystem::path& folder,
-                                        const plugins::Catalogue& catalogue, std::vector<Shared>& shared,
+                                        const plugins::Catalogue& catalogue, std::vector<SharedParameter>& shared,
                                         Experiment& experiment) {
   std::vector<std::string> names;
   if (node.is_object()) {  // tests of this run's own
     for (const auto& [name, entry] : node.members("")) {
       const auto known = entry_names(experiment.tests);
       if (std::find(known.begin(), known.end(), name) != known.end())
-        entry.fail(fmt::format("the test '{}' is defined before", name),
+        entry.fail(fmt::format("the test '{}' is already defined", name),
                    "Results carry the names of tests, so a test that differs needs another name; to use the same test, "
                    "list its name.");
       experiment.tests.push_back(read_test(name, entry, folder, entry_names(experiment.models), catalogue, shared));
@@ -98,7 +81,7 @@ std::vector<std::string> read_test_list(const Node& node, const std::filesystem:
     for (const Node& child : node.elements("a list of test names, or an object of tests,")) {
       names.push_back(child.one_of(entry_names(experiment.tests), "test"));
       if (std::count(names.begin(), names.end(), names.back()) > 1)
-        child.fail(fmt::format("the test '{}' stands twice in the list", names.back()),
+        child.fail(fmt::format("the test '{}' appears twice in the list", names.back()),
                    "To count it twice, give it \"weight\": 2.");
     }
   }
@@ -124,9 +107,9 @@ void read_model_of_run(const Node& entry, const Experiment& experiment, RunEntry
 }  // namespace
 
 ObjectiveType read_objective(const Node& node) {
-  if (!node.is_object()) return read_choice<ObjectiveType>(node, objective_names(), "objective");
+  if (!node.is_object()) return read_choice(node, objective_names, "objective");
   node.allow_only({"type"}, "the objective");
-  return read_choice<ObjectiveType>(node.require("type", "the objective"), objective_names(), "objective");
+  return read_choice(node.require("type", "the objective"), objective_names, "objective");
 }
 
 std::vector<ConstraintEntry> read_constraints(const Node& node) {
@@ -136,7 +119,8 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
     ConstraintEntry constraint;
     constraint.type =
         entry.require("type", "a constraint").one_of({"transverse_stability", "admissible_parameters"}, "constraint");
-    constraint.json = entry.json().dump(), constraint.pointer = entry.place();
+    constraint.json = entry.dumped();
+    constraint.pointer = entry.place();
     const std::string owner = fmt::format("the constraint '{}'", constraint.type);
     if (constraint.type == "transverse_stability") {
       entry.allow_only({"type", "h", "range", "points", "directions"}, owner);
@@ -153,12 +137,12 @@ bool read_initial(const Node& node) { return node.one_of({"given", "random"}, "s
 
 void read_on_failure(const Node& node, Experiment& experiment) {
   if (!node.is_object()) {
-    experiment.on_failure = read_choice<OnFailure>(node, on_failure_names(), "failure policy");
+    experiment.on_failure = read_choice(node, on_failure_names, "failure policy");
     return;
   }
   node.allow_only({"policy", "max_rate"}, "\"on_failure\"");
   if (const auto policy = node.find("policy"))
-    experiment.on_failure = read_choice<OnFailure>(*policy, on_failure_names(), "failure policy");
+    experiment.on_failure = read_choice(*policy, on_failure_names, "failure policy");
   if (const auto rate = node.find("max_rate")) {
     experiment.max_failure_rate = rate->quantity("1", "a share of failed evaluations");
     if (!(experiment.max_failure_rate >= 0 && experiment.max_failure_rate <= 1))
@@ -168,7 +152,7 @@ void read_on_failure(const Node& node, Experiment& experiment) {
 }
 
 void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Catalogue& catalogue,
-               std::vector<Shared>& shared, Experiment& experiment) {
+               std::vector<SharedParameter>& shared, Experiment& experiment) {
   const auto entries = node.elements("a list of runs, [ {\"model\": …, \"optimizer\": …}, … ],");
   if (entries.empty()) node.fail("no run is given", "Give at least one: {\"model\": …, \"optimizer\": …}.");
   for (const Node& entry : entries) {
@@ -196,29 +180,35 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
   }
 }
 
-void check_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
+DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
   node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility"}, "\"diagnosis\"");
-  if (const auto child = node.find("model")) child->one_of(entry_names(experiment.models), "model");
-  if (const auto child = node.find("optimizer")) child->one_of(entry_names(experiment.optimizers), "optimizer");
-  if (const auto child = node.find("admissibility")) child->flag("true or false");
-  if (const auto child = node.find("alpha");
-      child && !(child->number("a significance level") >= 0.0001 && child->number("") <= 0.5))
-    child->fail(
-        fmt::format("the significance level is {}", child->number("")),
-        "Expected a number from 0.0001, below which the draws of noise tell nothing, to 0.5; for example 0.05.");
-  if (const auto child = node.find("mechanisms")) {
-    if (child->is_text()) {
-      if (child->text("") != "all")
-        child->fail(fmt::format("unknown set of mechanisms '{}'", child->text("")),
-                    fmt::format("Give \"all\" or a list, for example [\"{}\"].", child->text("")));
-      return;
-    }
-    std::vector<std::string> known;
-    for (const auto& [id, entry] : catalogue.mechanisms()) known.push_back(id);
-    const auto names = child->elements("\"all\" or a list of mechanism names");
-    if (names.empty()) child->fail("the list is empty", "Leave \"mechanisms\" out, or give \"all\", to try every one.");
-    for (const Node& name : names) name.one_of(known, "mechanism");
+  DiagnosisEntry diagnosis;
+  if (const auto child = node.find("model")) diagnosis.model = child->one_of(entry_names(experiment.models), "model");
+  if (const auto child = node.find("optimizer"))
+    diagnosis.optimizer = child->one_of(entry_names(experiment.optimizers), "optimizer");
+  if (const auto child = node.find("admissibility")) diagnosis.admissibility = child->flag("true or false");
+  if (const auto child = node.find("alpha")) {
+    diagnosis.alpha = child->number("a significance level");
+    if (!(*diagnosis.alpha >= 0.0001 && *diagnosis.alpha <= 0.5))
+      child->fail(
+          fmt::format("the significance level is {}", *diagnosis.alpha),
+          "Expected a number from 0.0001 to 0.5, for example 0.05. The draws of noise are too few for a smaller one.");
   }
+  const auto child = node.find("mechanisms");
+  if (!child) return diagnosis;
+  if (child->is_text()) {
+    const std::string& set = child->text("");
+    if (set != "all")
+      child->fail(fmt::format("unknown set of mechanisms '{}'", set),
+                  fmt::format("Give \"all\" or a list, for example [\"{}\"].", set));
+    diagnosis.all_mechanisms = true;
+    return diagnosis;
+  }
+  const auto names = child->elements("\"all\" or a list of mechanism names");
+  if (names.empty()) child->fail("the list is empty", "Leave \"mechanisms\" out, or give \"all\", to try every one.");
+  for (const Node& name : names)
+    diagnosis.mechanisms.push_back(name.one_of(names_of(catalogue.mechanisms()), "mechanism"));
+  return diagnosis;
 }
 
 }  // namespace tunica::experiment

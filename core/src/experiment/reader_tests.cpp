@@ -102,7 +102,7 @@ void read_noise(const Node& node, const std::vector<Observable>& observables, da
   }
   for (const auto& [name, child] : members) {
     if (std::find(mapped.begin(), mapped.end(), name) == mapped.end())
-      child.fail(fmt::format("noise is given for '{}', which is no mapped channel", excerpt(name)),
+      child.fail(fmt::format("noise is given for '{}', which is not a mapped channel", excerpt(name)),
                  suggestion(name, mapped));
     data.noise.emplace_back(name, read_noise_of(child, observable_named(observables, name)));
   }
@@ -145,17 +145,17 @@ data::DataRequest read_data(const Node& block, const std::vector<Observable>& ob
     for (const Node& node : files->elements("a list of data files")) {
       data.files.push_back(read_file_name(node, folder));
       if (std::find(data.files.begin(), data.files.end() - 1, data.files.back()) != data.files.end() - 1)
-        node.fail("this file stands twice in the list", "A replicate is another measurement; remove one.");
+        node.fail("this file appears twice in the list", "A replicate is another measurement; remove one.");
     }
   if (data.files.empty()) files->fail("the list of files is empty");
   read_columns(block, observables, owner, data);
   if (const auto node = block.find("stress_measure"))
-    data.stress_measure = node->one_of(stress_measure_names(), "stress measure");
+    data.stress_measure = node->one_of(data::stress_measures(), "stress measure");
   if (const auto node = block.find("rows")) data.rows = read_row_range(*node);
   if (const auto node = block.find("where"))
     for (const auto& [column, value] : node->members("an object of column names and values")) {
       if (!value.is_text() && !value.is_number()) value.fail_expected("the text or number to look for in the column");
-      data.where.emplace_back(column, value.is_text() ? value.text("") : value.json().dump());
+      data.where.emplace_back(column, value.is_text() ? value.text("") : value.dumped());
     }
   if (const auto node = block.find("time_from")) read_time_from(*node, observables, data);
   if (const auto node = block.find("noise")) read_noise(*node, observables, data);
@@ -226,7 +226,7 @@ std::vector<LayerEntry> read_layers(const Node& entry, const std::string& type, 
 data::RowRange read_row_range(const Node& node) {
   const std::string& text = node.text("a row range such as \"0:240:6\"");
   const auto refuse = [&](std::string_view reason) {
-    node.fail(fmt::format("'{}' is no row range: {}", excerpt(text), reason),
+    node.fail(fmt::format("'{}' is not a row range: {}", excerpt(text), reason),
               "Expected \"first:last\" or \"first:last:step\" as in \"0:240:6\": rows count from 0, last is not "
               "included, and each number may be left out.");
   };
@@ -250,7 +250,7 @@ data::RowRange read_row_range(const Node& node) {
 
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
                     const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
-                    std::vector<Shared>& shared) {
+                    std::vector<SharedParameter>& shared) {
   entry.expect_object("a test, {\"type\": …},");
   entry.check_name(name, "test");
   const std::string owner = fmt::format("test '{}'", name);

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "experiment/enum_names.hpp"
 #include "experiment/experiment.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/schema_parts.hpp"
@@ -37,7 +40,7 @@ void define_parameter(Json& definitions) {
   free["max"] = quantity_schema("Upper bound.");
   free["initial"] = quantity_schema("Start of the search.");
   free["scale"] =
-      choice_schema("How the search divides the range; log needs a lower bound above zero.", {"linear", "log"});
+      choice_schema("How the search divides the range; log needs a lower bound above zero.", names_in(scale_names));
   free["share"] = {{"description", "Parameters with the same group are one unknown."},
                    {"type", "string"},
                    {"pattern", name_pattern}};
@@ -52,7 +55,8 @@ void define_parameter(Json& definitions) {
 }
 
 void define_data(Json& definitions) {
-  definitions["stress_measure"] = choice_schema("Which stress the data give (default cauchy).", stress_measure_names());
+  definitions["stress_measure"] =
+      choice_schema("Which stress the data give (default cauchy).", data::stress_measures());
   definitions["row_range"] = {{"description", "first:last:step, counted from 0, last not included."},
                               {"type", "string"},
                               {"pattern", "^[0-9]*:[0-9]*(:[0-9]*)?$"}};
@@ -102,8 +106,8 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
 
   definitions["objective"] = {{"description", "What is minimised (default standardised_quadratic)."}};
   definitions["objective"]["anyOf"] = Json::array(
-      {choice_schema("Its type.", objective_names()),
-       object_schema("As an object.", {{"type", choice_schema("Its type.", objective_names())}}, {"type"})});
+      {choice_schema("Its type.", names_in(objective_names)),
+       object_schema("As an object.", {{"type", choice_schema("Its type.", names_in(objective_names))}}, {"type"})});
   Json factor = {{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
   Json pair = {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}};
   pair["items"] = Json::array({{{"type", "number"}, {"exclusiveMinimum", 0}}, factor});
@@ -112,7 +116,8 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
   table["minItems"] = 1;
   h["anyOf"] = Json::array({std::move(factor), std::move(table)});
   Json range = list_schema("Stretches from, to: besides those that were measured.", {{"type", "number"}});
-  range["minItems"] = 2, range["maxItems"] = 2;
+  range["minItems"] = 2;
+  range["maxItems"] = 2;
   Json directions = {{"description", "Strips along which axes (default both)."}};
   directions["anyOf"] = Json::array(
       {{{"enum", {"circumferential", "axial"}}}, list_schema("Several.", {{"enum", {"circumferential", "axial"}}})});
@@ -157,7 +162,8 @@ Json analysis_schema() {
   profiles["anyOf"] = Json::array({choice_schema("Every one.", {"all"}), list_schema("Names.", {{"type", "string"}})});
   Json map =
       list_schema("Two free parameters: where between their bounds is the material stable?", {{"type", "string"}});
-  map["minItems"] = 2, map["maxItems"] = 2;
+  map["minItems"] = 2;
+  map["maxItems"] = 2;
   return object_schema(
       "Uncertainty of every run's best point, beyond the intervals that are always given.",
       {{"profiles", std::move(profiles)},
@@ -195,9 +201,9 @@ Json diagnosis_schema() {
 Json on_failure_schema() {
   Json schema = {{"description", "What to do when an evaluation fails (default penalise)."}};
   schema["anyOf"] = Json::array(
-      {choice_schema("The policy.", on_failure_names()),
+      {choice_schema("The policy.", names_in(on_failure_names)),
        object_schema("With a limit.",
-                     {{"policy", choice_schema("The policy.", on_failure_names())},
+                     {{"policy", choice_schema("The policy.", names_in(on_failure_names))},
                       {"max_rate", quantity_schema("Share of failed evaluations above which a run stops.")}})});
   return schema;
 }

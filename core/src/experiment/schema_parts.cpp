@@ -2,6 +2,9 @@
 #include "experiment/schema_parts.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "experiment/enum_names.hpp"
 
 namespace tunica::experiment {
 
@@ -75,7 +78,7 @@ Json parameters_schema(const std::vector<Parameter>& parameters) {
   for (const Parameter& p : parameters)
     properties[p.name] =
         reference("parameter", fmt::format("{}. Default: {} within {} to {}, scale {}.{}{}", with_unit(p.doc, p.unit),
-                                           p.initial, p.min, p.max, p.scale == Scale::log ? "log" : "linear",
+                                           p.initial, p.min, p.max, name_in(scale_names, p.scale),
                                            p.reference.empty() ? "" : " ", p.reference));
   return object_schema("Bounds, start, scale of parameters, by name; what is left out keeps its default.",
                        std::move(properties));

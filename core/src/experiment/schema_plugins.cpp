@@ -3,6 +3,7 @@
 #include <exception>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "experiment/schema_parts.hpp"
 #include "plugins/guarded.hpp"
@@ -11,7 +12,7 @@ namespace tunica::experiment {
 namespace {
 
 using Role = Observable::Role;
-using OnShelf = plugins::Catalogue::Entry<ModelFactory>;
+using ModelInCatalogue = plugins::Catalogue::Entry<ModelFactory>;
 
 std::string described(const std::string& doc, const std::string& reference, const std::string& plugin) {
   return fmt::format("{}{}{} (plugin {})", doc, reference.empty() ? "" : " – ", reference, plugin);
@@ -44,9 +45,9 @@ std::vector<Option::Value> alternatives(const Option& option) {
   return values;
 }
 
-void add_parameters(const OnShelf& shelved, const Options& options, std::vector<Parameter>& parameters) {
+void add_parameters(const ModelInCatalogue& entry, const Options& options, std::vector<Parameter>& parameters) {
   try {
-    const auto model = plugins::create(shelved, options);
+    const auto model = plugins::create(entry, options);
     for (const Parameter& parameter : model->describe().parameters)
       if (std::none_of(parameters.begin(), parameters.end(),
                        [&](const Parameter& p) { return p.name == parameter.name; }))
@@ -56,20 +57,20 @@ void add_parameters(const OnShelf& shelved, const Options& options, std::vector<
 }
 
 /// Every parameter the model has under its default options or with one of them changed.
-std::vector<Parameter> possible_parameters(const OnShelf& shelved) {
-  const ModelFactory& factory = shelved.factory;
+std::vector<Parameter> possible_parameters(const ModelInCatalogue& entry) {
+  const ModelFactory& factory = entry.factory;
   Options defaults;
   for (const Option& option : factory.options) {
     const auto values = alternatives(option);
     if (!values.empty()) defaults.set(option.name, values.front());
   }
   std::vector<Parameter> parameters;
-  add_parameters(shelved, defaults, parameters);
+  add_parameters(entry, defaults, parameters);
   for (const Option& option : factory.options)
     for (const Option::Value& value : alternatives(option)) {
       Options changed = defaults;
       changed.set(option.name, value);
-      add_parameters(shelved, changed, parameters);
+      add_parameters(entry, changed, parameters);
     }
   return parameters;
 }

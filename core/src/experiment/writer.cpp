@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "experiment/enum_names.hpp"
 #include "experiment/reader.hpp"
 
 namespace tunica::experiment {
@@ -16,7 +18,7 @@ void add_options(Json& json, const Options& options, const std::vector<Option>& 
   }
 }
 
-Json written(const ParameterSetting& setting) {
+Json to_json(const ParameterSetting& setting) {
   Json json = Json::object();
   const auto add = [&json](const char* key, const std::optional<double>& value) {
     if (value) json[key] = *value;
@@ -25,23 +27,23 @@ Json written(const ParameterSetting& setting) {
   add("max", setting.max);
   add("initial", setting.initial);
   add("fixed", setting.fixed);
-  if (setting.scale) json["scale"] = *setting.scale == Scale::log ? "log" : "linear";
+  if (setting.scale) json["scale"] = name_in(scale_names, *setting.scale);
   if (setting.share) json["share"] = *setting.share;
   if (setting.prior) json["prior"] = {{"mean", setting.prior->mean}, {"sd", setting.prior->sd}};
   return json;
 }
 
-Json written(const ParameterSettings& settings) {
+Json to_json(const ParameterSettings& settings) {
   Json json = Json::object();
-  for (const auto& [name, setting] : settings) json[name] = written(setting);
+  for (const auto& [name, setting] : settings) json[name] = to_json(setting);
   return json;
 }
 
-std::string written(const data::RowRange& range) {
+std::string to_json(const data::RowRange& range) {
   return fmt::format("{}:{}:{}", range.first, range.last ? fmt::format("{}", *range.last) : "", range.step);
 }
 
-Json written(const data::DataRequest& data) {
+Json to_json(const data::DataRequest& data) {
   Json json = Json::object();
   std::vector<std::string> files;
   for (const auto& file : data.files) files.push_back(std::filesystem::absolute(file).lexically_normal().string());
@@ -51,7 +53,7 @@ Json written(const data::DataRequest& data) {
     json["files"] = files;
   for (const auto& [observable, column] : data.columns) json["columns"][observable] = column;
   json["stress_measure"] = data.stress_measure;
-  json["rows"] = written(data.rows);
+  json["rows"] = to_json(data.rows);
   for (const auto& [column, value] : data.where) json["where"][column] = value;
   if (data.time_rate) json["time_from"] = {{"rate", *data.time_rate}};
   for (const auto& [channel, noise] : data.noise)
@@ -60,7 +62,7 @@ Json written(const data::DataRequest& data) {
   return json;
 }
 
-Json written(const Stop& stop) {
+Json to_json(const Stop& stop) {
   Json json = Json::object();
   if (stop.max_evaluations != no_own_limit) json["max_evaluations"] = stop.max_evaluations;
   if (stop.max_time) json["max_time"] = *stop.max_time;
@@ -78,7 +80,7 @@ class Writer {
     for (const MechanismEntry& entry : entries) {
       Json json = {{"type", entry.type}};
       add_options(json, entry.options, catalogue_.mechanisms().find(entry.type)->second.factory.options);
-      json["parameters"] = written(entry.parameters);
+      json["parameters"] = to_json(entry.parameters);
       list.push_back(std::move(json));
     }
     return list;
@@ -87,7 +89,7 @@ class Writer {
   [[nodiscard]] Json model(const ModelEntry& entry) const {
     Json json = {{"type", entry.type}};
     add_options(json, entry.options, catalogue_.models().find(entry.type)->second.factory.options);
-    json["parameters"] = written(entry.parameters);
+    json["parameters"] = to_json(entry.parameters);
     json["mechanisms"] = mechanisms(entry.mechanisms);
     return json;
   }
@@ -97,13 +99,13 @@ class Writer {
     add_options(json, entry.options, catalogue_.tests().find(entry.type)->second.factory.options);
     for (const LayerEntry& layer : entry.layers)
       json["layers"].push_back({{"model", layer.model}, {"thickness", layer.thickness}});
-    json["data"] = written(entry.data);
+    json["data"] = to_json(entry.data);
     json["weight"] = entry.weights;
     if (entry.hold_out.rows)
-      json["hold_out"] = written(*entry.hold_out.rows);
+      json["hold_out"] = to_json(*entry.hold_out.rows);
     else
       json["hold_out"] = entry.hold_out.all;
-    json["parameters"] = written(entry.parameters);
+    json["parameters"] = to_json(entry.parameters);
     json["mechanisms"] = mechanisms(entry.mechanisms);
     return json;
   }
@@ -116,7 +118,7 @@ class Writer {
     }
     for (const OptimizerEntry::Stage& stage : entry.stages) {
       Json one = {{"optimizer", stage.optimizer}};
-      if (stage.stop) one["stop"] = written(*stage.stop);
+      if (stage.stop) one["stop"] = to_json(*stage.stop);
       json["stages"].push_back(std::move(one));
     }
     return json;
@@ -126,7 +128,7 @@ class Writer {
   const plugins::Catalogue& catalogue_;
 };
 
-Json written(const RunEntry& run) {
+Json to_json(const RunEntry& run) {
   Json constraints = Json::array();
   for (const ConstraintEntry& constraint : run.constraints) constraints.push_back(Json::parse(constraint.json));
   Json json = Json::object();
@@ -135,13 +137,13 @@ Json written(const RunEntry& run) {
   json["realisations"] = run.realisations;
   json["initial"] = run.random_start ? "random" : "given";
   json["tests"] = run.tests;
-  json["objective"] = objective_names()[static_cast<std::size_t>(run.objective)];
+  json["objective"] = name_in(objective_names, run.objective);
   json["constraints"] = std::move(constraints);
-  json["stop"] = written(run.stop);
+  json["stop"] = to_json(run.stop);
   return json;
 }
 
-Json written(const Analysis& analysis) {
+Json to_json(const Analysis& analysis) {
   Json json = Json::object();
   if (analysis.all_profiles)
     json["profiles"] = "all";
@@ -150,8 +152,21 @@ Json written(const Analysis& analysis) {
   if (analysis.bootstrap_draws > 0) json["bootstrap"] = {{"draws", analysis.bootstrap_draws}};
   if (!analysis.optimizer.empty()) json["optimizer"] = analysis.optimizer;
   if (analysis.stability_to) json["stability"]["to"] = *analysis.stability_to;
-  if (!analysis.stability_map.empty())
-    json["stability"]["map"] = analysis.stability_map, json["stability"]["points"] = analysis.map_points;
+  if (!analysis.stability_map.empty()) {
+    json["stability"]["map"] = analysis.stability_map;
+    json["stability"]["points"] = analysis.map_points;
+  }
+  return json;
+}
+
+Json to_json(const DiagnosisEntry& diagnosis) {
+  Json json = Json::object();
+  if (diagnosis.model) json["model"] = *diagnosis.model;
+  if (diagnosis.optimizer) json["optimizer"] = *diagnosis.optimizer;
+  if (diagnosis.alpha) json["alpha"] = *diagnosis.alpha;
+  if (diagnosis.all_mechanisms) json["mechanisms"] = "all";
+  if (!diagnosis.mechanisms.empty()) json["mechanisms"] = diagnosis.mechanisms;
+  if (diagnosis.admissibility) json["admissibility"] = *diagnosis.admissibility;
   return json;
 }
 
@@ -166,11 +181,11 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const ModelEntry& entry : experiment.models) json["models"][entry.name] = writer.model(entry);
   for (const TestEntry& entry : experiment.tests) json["tests"][entry.name] = writer.test(entry);
   for (const OptimizerEntry& entry : experiment.optimizers) json["optimizers"][entry.name] = writer.optimizer(entry);
-  for (const RunEntry& run : experiment.runs) json["runs"].push_back(written(run));
-  json["on_failure"] = {{"policy", on_failure_names()[static_cast<std::size_t>(experiment.on_failure)]},
+  for (const RunEntry& run : experiment.runs) json["runs"].push_back(to_json(run));
+  json["on_failure"] = {{"policy", name_in(on_failure_names, experiment.on_failure)},
                         {"max_rate", experiment.max_failure_rate}};
-  if (Json analysis = written(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
-  if (!experiment.diagnosis_json.empty()) json["diagnosis"] = Json::parse(experiment.diagnosis_json);
+  if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
+  if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);
   return json.dump(2) + "\n";
 }
 

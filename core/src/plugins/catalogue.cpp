@@ -39,8 +39,8 @@ void check_callable(const MechanismFactory& factory, std::string_view kind) {
   if (!factory.native.empty()) {
     if (!on_model && !factory.wrap_model && !factory.wrap_test && factory.parameters.size() == 1) return;
     throw std::invalid_argument(
-        fmt::format("the {} '{}' stands for a test's own parameter '{}', and then acts at stage 'test', wraps nothing "
-                    "and has that one parameter; mend its factory before registering",
+        fmt::format("the {} '{}' stands for a test's own parameter '{}'; such a mechanism acts at stage 'test', wraps "
+                    "nothing and has that one parameter; correct its factory before registering",
                     kind, factory.id, factory.native));
   }
   if (on_model ? !factory.wrap_model : !factory.wrap_test) {
@@ -53,38 +53,38 @@ void check_callable(const MechanismFactory& factory, std::string_view kind) {
 
 /// Checks what one plugin brings against what is there; the result merges without a chance of failure.
 template <class Factory>
-Catalogue::Shelf<Factory> shelve(std::vector<Factory>&& factories, const Catalogue::Shelf<Factory>& taken,
-                                 const std::string& plugin, std::string_view kind) {
-  Catalogue::Shelf<Factory> shelf;
+Catalogue::Entries<Factory> checked_entries(std::vector<Factory>&& factories, const Catalogue::Entries<Factory>& taken,
+                                            const std::string& plugin, std::string_view kind) {
+  Catalogue::Entries<Factory> entries;
   for (Factory& factory : factories) {
     const std::string name = name_of(factory);
     if (!is_plain_identifier(name)) {
       throw std::invalid_argument(fmt::format(
-          "the {} name '{}' is no plain identifier; expected letters, digits and underscores, with a letter first",
+          "the {} name '{}' is not a plain identifier; expected letters, digits and underscores, with a letter first",
           kind, name));
     }
     check_callable(factory, kind);
     if (const auto found = taken.find(name); found != taken.end()) {
       throw std::invalid_argument(
-          fmt::format("the {} '{}' is already provided by plugin '{}', and a name can be taken "
-                      "once; rename it, or leave one of the two plugins out of the plugin path",
+          fmt::format("the {} '{}' is already provided by plugin '{}', and names must be "
+                      "unique; rename it, or leave one of the two plugins out of the plugin path",
                       kind, name, found->second.plugin));
     }
-    if (!shelf.emplace(name, Catalogue::Entry<Factory>{std::move(factory), plugin}).second) {
+    if (!entries.emplace(name, Catalogue::Entry<Factory>{std::move(factory), plugin}).second) {
       throw std::invalid_argument(
           fmt::format("the plugin registers the {} '{}' twice; rename one of them", kind, name));
     }
   }
-  return shelf;
+  return entries;
 }
 
 }  // namespace
 
-void Catalogue::commit(Stage&& stage, const std::string& plugin) {
-  auto models = shelve(std::move(stage.models), models_, plugin, "model");
-  auto tests = shelve(std::move(stage.tests), tests_, plugin, "test");
-  auto optimizers = shelve(std::move(stage.optimizers), optimizers_, plugin, "optimiser");
-  auto mechanisms = shelve(std::move(stage.mechanisms), mechanisms_, plugin, "mechanism");
+void Catalogue::commit(Registration&& registration, const std::string& plugin) {
+  auto models = checked_entries(std::move(registration.models), models_, plugin, "model");
+  auto tests = checked_entries(std::move(registration.tests), tests_, plugin, "test");
+  auto optimizers = checked_entries(std::move(registration.optimizers), optimizers_, plugin, "optimiser");
+  auto mechanisms = checked_entries(std::move(registration.mechanisms), mechanisms_, plugin, "mechanism");
   // Nodes change hands without allocating: from here on nothing can fail, so it is all or nothing.
   models_.merge(models);
   tests_.merge(tests);

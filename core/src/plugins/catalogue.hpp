@@ -18,27 +18,27 @@ class Catalogue {
     std::string plugin;  ///< "gho 0.1.0"
   };
   template <class Factory>
-  using Shelf = std::map<std::string, Entry<Factory>, std::less<>>;
+  using Entries = std::map<std::string, Entry<Factory>, std::less<>>;
 
-  [[nodiscard]] const Shelf<ModelFactory>& models() const { return models_; }
-  [[nodiscard]] const Shelf<TestFactory>& tests() const { return tests_; }
-  [[nodiscard]] const Shelf<OptimizerFactory>& optimizers() const { return optimizers_; }
-  [[nodiscard]] const Shelf<MechanismFactory>& mechanisms() const { return mechanisms_; }
+  [[nodiscard]] const Entries<ModelFactory>& models() const { return models_; }
+  [[nodiscard]] const Entries<TestFactory>& tests() const { return tests_; }
+  [[nodiscard]] const Entries<OptimizerFactory>& optimizers() const { return optimizers_; }
+  [[nodiscard]] const Entries<MechanismFactory>& mechanisms() const { return mechanisms_; }
 
   /// Takes over what one plugin has registered, all or nothing; throws std::invalid_argument on a name that is
   /// taken (by which plugin is in the message) or not a plain identifier.
-  class Stage;
-  void commit(Stage&& stage, const std::string& plugin);
+  class Registration;
+  void commit(Registration&& registration, const std::string& plugin);
 
  private:
-  Shelf<ModelFactory> models_;
-  Shelf<TestFactory> tests_;
-  Shelf<OptimizerFactory> optimizers_;
-  Shelf<MechanismFactory> mechanisms_;
+  Entries<ModelFactory> models_;
+  Entries<TestFactory> tests_;
+  Entries<OptimizerFactory> optimizers_;
+  Entries<MechanismFactory> mechanisms_;
 };
 
 /// The registry a plugin sees while it registers; nothing counts until commit().
-class Catalogue::Stage : public Registry {
+class Catalogue::Registration : public Registry {
  public:
   void add(ModelFactory factory) override { models.push_back(std::move(factory)); }
   void add(TestFactory factory) override { tests.push_back(std::move(factory)); }

@@ -38,7 +38,7 @@ std::invoke_result_t<Call> guarded(const std::string& plugin, Call&& call) {
   } catch (const std::exception& problem) {
     throw PluginFailure("plugin '" + plugin + "' failed: " + problem.what());
   } catch (...) {
-    throw PluginFailure("plugin '" + plugin + "' threw something that is no std::exception");
+    throw PluginFailure("plugin '" + plugin + "' threw something that is not a std::exception");
   }
 }
 

@@ -35,22 +35,22 @@ const boost::dll::shared_library& map_for_good(const fs::path& file) {
   if (error) {
     // Boost says "Bad file descriptor" whatever happened; the linker's own text names the reason.
     const char* text = dlerror();
-    throw Refused(explain_load_failure(file, text == nullptr ? error.message() : text));
+    throw LoadError(explain_load_failure(file, text == nullptr ? error.message() : text));
   }
   return mapped.emplace_back(std::move(library));
 }
 
-/// Runs a piece of the plugin and turns whatever it throws into Refused.
+/// Runs a piece of the plugin and turns whatever it throws into LoadError.
 template <class Call>
 auto shielded(std::string_view doing, const Call& call) {
   try {
     return call();
   } catch (const std::exception& problem) {
-    throw Refused(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
-                              problem.what()));
+    throw LoadError(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
+                                problem.what()));
   } catch (...) {
-    throw Refused(
-        fmt::format("{} threw something that is no std::exception; expected it to return normally; nothing "
+    throw LoadError(
+        fmt::format("{} threw something that is not a std::exception; expected it to return normally; nothing "
                     "of the plugin was taken",
                     doing));
   }
@@ -89,11 +89,10 @@ SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
   boost::dll::fs::error_code unknown;
   const fs::path program = boost::dll::program_location(unknown).string();
   if (unknown && path.folders.empty())
-    throw InputError(
-        fmt::format("where this program is cannot be found out ({}), and so neither where its plugins are; mount "
-                    "/proc, or name their "
-                    "folder in TUNICA_PLUGIN_PATH or with --plugin-path",
-                    unknown.message()));
+    throw InputError(fmt::format(
+        "cannot find out where this program is ({}), and so not where its plugins are; mount /proc, or name "
+        "their folder in TUNICA_PLUGIN_PATH or with --plugin-path",
+        unknown.message()));
   if (unknown) return path;
   const fs::path installed = program.parent_path() / TUNICA_PLUGINS_FROM_BIN;
   if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
@@ -114,7 +113,7 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
       for (const fs::path& file : plugins_in(folder)) {
         try {
           report.loaded.push_back(load_file(file, catalogue, path.allow_world_writable));
-        } catch (const Refused& refusal) {
+        } catch (const LoadError& refusal) {
           report.refused.push_back({file, refusal.what()});
         }
       }
@@ -126,26 +125,26 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
   return report;
 }
 
-Loaded load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
-  if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw Refused(reason);
+LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
+  if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
-    throw Refused(
-        fmt::format("a shared library, but no plugin: found no exported symbol '{}'; define the plugin with "
+    throw LoadError(
+        fmt::format("a shared library, but not a plugin: it exports no symbol '{}'; define the plugin with "
                     "TUNICA_PLUGIN(), or take the file out of the plugin path",
                     entry_symbol));
   }
   const auto entry = library.get<const PluginHeader*()>(entry_symbol);
   const PluginHeader* header = shielded("tunica_plugin()", [&] { return entry(); });
-  if (const std::string reason = refuse_header(header); !reason.empty()) throw Refused(reason);
+  if (const std::string reason = refuse_header(header); !reason.empty()) throw LoadError(reason);
 
   const std::string plugin = fmt::format("{} {}", header->name, header->version);
-  Catalogue::Stage stage;
-  shielded(fmt::format("registration of plugin '{}'", plugin), [&] { header->register_into(stage); });
+  Catalogue::Registration registration;
+  shielded(fmt::format("registration of plugin '{}'", plugin), [&] { header->register_into(registration); });
   try {
-    catalogue.commit(std::move(stage), plugin);
+    catalogue.commit(std::move(registration), plugin);
   } catch (const std::invalid_argument& problem) {
-    throw Refused(fmt::format("plugin '{}': {}", plugin, problem.what()));
+    throw LoadError(fmt::format("plugin '{}': {}", plugin, problem.what()));
   }
   return {header->name, header->version, file};
 }

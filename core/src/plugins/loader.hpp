@@ -14,20 +14,20 @@ struct SearchPath {
   bool allow_world_writable = false;
 };
 
-struct Loaded {
+struct LoadedPlugin {
   std::string name, version;
   std::filesystem::path file;
 };
 
 /// A plugin that was not taken: what was expected, what was found, what to do.
-struct Refusal {
+struct RefusedPlugin {
   std::filesystem::path file;
   std::string reason;
 };
 
 struct LoadReport {
-  std::vector<Loaded> loaded;
-  std::vector<Refusal> refused;
+  std::vector<LoadedPlugin> loaded;
+  std::vector<RefusedPlugin> refused;
 };
 
 /// --plugin-path folders, then TUNICA_PLUGIN_PATH (colon-separated), then the folder beside the executable
@@ -38,10 +38,10 @@ SearchPath default_search_path(const std::vector<std::filesystem::path>& from_co
 /// reason while the others load. Libraries stay mapped for the life of the process.
 LoadReport load_all(const SearchPath& path, Catalogue& catalogue);
 
-/// Loads one file; returns its name and version, or throws Refused.
-struct Refused : std::runtime_error {
+/// Loads one file; returns its name and version, or throws LoadError.
+struct LoadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-Loaded load_file(const std::filesystem::path& file, Catalogue& catalogue, bool allow_world_writable = false);
+LoadedPlugin load_file(const std::filesystem::path& file, Catalogue& catalogue, bool allow_world_writable = false);
 
 }  // namespace tunica::plugins

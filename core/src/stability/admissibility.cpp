@@ -20,15 +20,20 @@ std::string reach(const TransverseVerdict& verdict, const Domain& domain) {
                                  : fmt::format("{} to {:.4g}", how, verdict.judged_to);
 }
 
+std::string onset_of(double stretch) {
+  return stretch > 1 ? fmt::format("from stretch {:.4g}", stretch) : "from the start";
+}
+
 std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   const std::string name = fmt::format("{} strip: ", direction(verdict.axis)), range = reach(verdict, domain);
   if (verdict.checked_from == 1 && verdict.checked_to == 1)
     return fmt::format("{}NOT ASSESSED, the response cannot be followed from rest ({})", name, range);
   const bool pulled = verdict.first_unstable.has_value(), pressed = verdict.first_unstable_pressed.has_value();
   const std::string until = verdict.stable_again ? fmt::format(" to {:.4g}", *verdict.stable_again) : " on";
+  const std::string growth =
+      pulled ? fmt::format("the transverse stretch λ3 grows {}{}", onset_of(*verdict.first_unstable), until) : "";
   if (verdict.stable == false && pulled && *verdict.first_unstable < verdict.judged_to)
-    return fmt::format("{}UNSTABLE, the transverse stretch λ3 grows from stretch {:.4g}{} ({})", name,
-                       *verdict.first_unstable, until, range);
+    return fmt::format("{}UNSTABLE, {} ({})", name, growth, range);
   if (verdict.stable == false)
     return fmt::format("{}UNSTABLE, the transverse stretch λ3 falls as the strip is pressed{} ({})", name,
                        pressed ? fmt::format(" below stretch {:.4g}", *verdict.first_unstable_pressed) : "", range);
@@ -40,17 +45,16 @@ std::string words(const TransverseVerdict& verdict, const Domain& domain) {
   if (*verdict.first_unstable < verdict.judged_to)
     return fmt::format("{}stable at every measured stretch ({}); between them λ3 grows from stretch {:.5g}{}", name,
                        range, *verdict.first_unstable, until);
-  return fmt::format(
-      "{}the transverse stretch λ3 falls at first and grows from stretch {:.4g}{}, beyond that domain ({})", name,
-      *verdict.first_unstable, until, range);
+  if (!verdict.asked()) return fmt::format("{}{} ({})", name, growth, range);
+  return fmt::format("{}stable ({}); beyond that domain {}", name, range, growth);
 }
 
 /// "up to stretch 1.5 in strips, equibiaxial extension and pure shear", or path by path where one ends before; empty
 /// where none could be followed at all.
-std::string followed_in_words(const std::vector<Followed>& followed, double limit) {
+std::string followed_in_words(const std::vector<PathReach>& followed, double limit) {
   std::vector<std::string> words;
   bool any = false, all = true;
-  for (const Followed& path : followed) {
+  for (const PathReach& path : followed) {
     any = any || path.to > 1;
     all = all && path.to > limit * (1 - 1e-9);
     words.push_back(path.to > 1 ? fmt::format("{} to {:.4g}", path.path, path.to)
@@ -103,13 +107,14 @@ std::vector<std::string> Admissibility::sentences() const {
   return all;
 }
 
-Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain) {
+Admissibility judge_admissibility(const Model& model, std::span<const double> parameters, const Domain& domain) {
   Admissibility found;
   found.domain = domain;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     std::vector<double> judged = domain.strips[axis];
     judged.insert(judged.end(), domain.asked[axis].begin(), domain.asked[axis].end());
-    found.transverse.push_back(judge(model, parameters, axis, judged, std::max(domain.beyond, domain.largest)));
+    found.transverse.push_back(
+        judge_transverse(model, parameters, axis, judged, std::max(domain.beyond, domain.largest)));
   }
   const auto paths = homogeneous_paths(model, parameters, domain.largest);
   found.ellipticity = judge_ellipticity(model, parameters, paths);

@@ -33,6 +33,6 @@ struct Admissibility {
   [[nodiscard]] std::vector<std::string> sentences() const;
 };
 
-Admissibility judge(const Model& model, std::span<const double> parameters, const Domain& domain);
+Admissibility judge_admissibility(const Model& model, std::span<const double> parameters, const Domain& domain);
 
 }  // namespace tunica::stability

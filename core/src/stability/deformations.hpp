@@ -21,7 +21,7 @@ struct Path {
 };
 
 /// How far along a path a condition could be asked: the response may end before the path does.
-struct Followed {
+struct PathReach {
   std::string path;
   double to = 1;  ///< stretch; 1 = nowhere
 };

@@ -49,7 +49,7 @@ DruckerVerdict judge_drucker(const Model& model, std::span<const double> paramet
   DruckerVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
-    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
+    PathReach& followed = verdict.followed.emplace_back(PathReach{path.name});
     for (const Deformation& point : path.points) {
       AtPoint at;
       if (!evaluate(view, parameters, point.stretch, at)) break;
@@ -71,8 +71,10 @@ DruckerVerdict judge_drucker(const Model& model, std::span<const double> paramet
         if (!verdict.first_lost) verdict.path = path.name;
       }
       if (least > 0) continue;
-      if (!verdict.first_lost || point.along < *verdict.first_lost)
-        verdict.first_lost = point.along, verdict.path = path.name;
+      if (!verdict.first_lost || point.along < *verdict.first_lost) {
+        verdict.first_lost = point.along;
+        verdict.path = path.name;
+      }
       break;
     }
   }

@@ -17,7 +17,7 @@ struct DruckerVerdict {
   double weakest = 0;                ///< least eigenvalue of D found, kPa
   std::optional<double> first_lost;  ///< stretch on the path where it is first lost
   std::string path;
-  std::vector<Followed> followed;  ///< one a path
+  std::vector<PathReach> followed;  ///< one a path
 };
 
 /// Energy and stress do not change when the axes change places: found by trying at three deformations.

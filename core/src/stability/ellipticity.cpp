@@ -91,7 +91,9 @@ std::vector<Path> homogeneous_paths(const Model& model, std::span<const double> 
       StripState state;
       if (!FreePath(model, axis, {stretch}).states(parameters, {&state, 1}).ok()) break;
       Deformation at{{}, stretch};
-      at.stretch[axis] = stretch, at.stretch[1 - axis] = state.transverse, at.stretch[2] = state.normal;
+      at.stretch[axis] = stretch;
+      at.stretch[1 - axis] = state.transverse;
+      at.stretch[2] = state.normal;
       strip.points.push_back(at);
     }
     paths.push_back(std::move(strip));
@@ -112,7 +114,7 @@ EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double>
   EllipticityVerdict verdict;
   verdict.weakest = std::numeric_limits<double>::infinity();
   for (const Path& path : paths) {
-    Followed& followed = verdict.followed.emplace_back(Followed{path.name});
+    PathReach& followed = verdict.followed.emplace_back(PathReach{path.name});
     for (const Deformation& at : path.points) {
       const std::optional<Weakest> here = weakest_at(model, parameters, at);
       if (!here) break;
@@ -120,8 +122,10 @@ EllipticityVerdict judge_ellipticity(const Model& model, std::span<const double>
       const bool lost = here->value <= 0 && (!verdict.first_lost || at.along < *verdict.first_lost);
       if (lost || (!verdict.first_lost && here->value < verdict.weakest)) {
         verdict.path = path.name;
-        for (int a = 0; a < 3; ++a)
-          verdict.n[static_cast<std::size_t>(a)] = here->n[a], verdict.m[static_cast<std::size_t>(a)] = here->m[a];
+        for (int a = 0; a < 3; ++a) {
+          verdict.n[static_cast<std::size_t>(a)] = here->n[a];
+          verdict.m[static_cast<std::size_t>(a)] = here->m[a];
+        }
       }
       if (lost) verdict.first_lost = at.along;
       verdict.weakest = std::min(verdict.weakest, here->value);

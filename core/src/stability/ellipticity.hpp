@@ -20,7 +20,7 @@ struct EllipticityVerdict {
   std::optional<double> first_lost;  ///< stretch on the path where it is first lost
   std::string path;                  ///< that path, or the one where `weakest` was found
   std::array<double, 3> n{}, m{};    ///< normal of the band and direction of its shear, components along t, z, r
-  std::vector<Followed> followed;    ///< one a path
+  std::vector<PathReach> followed;   ///< one a path
 };
 
 /// Over all points of the paths and a few hundred directions n spread over half the sphere; the least eigenvalue of Q

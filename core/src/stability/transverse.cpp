@@ -46,7 +46,8 @@ Status FreePath::solve(std::span<const double> parameters, double shift, bool de
 Status FreePath::slopes(std::span<const double> parameters, std::span<double> slope, std::span<double> slope_dp) const {
   const std::size_t n = at_.size();
   thread_local std::vector<double> u, shifted, stretch;
-  u.resize(n), shifted.resize(n);
+  u.resize(n);
+  shifted.resize(n);
   if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
   const free_strip::Pull pull{view_, parameters, axis_};
   free_strip::Scratch& s = free_strip::scratch();
@@ -187,8 +188,8 @@ std::optional<bool> stable_at(const Model& model, std::span<const double> parame
 
 }  // namespace
 
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
-                        const std::vector<double>& judged, double limit) {
+TransverseVerdict judge_transverse(const Model& model, std::span<const double> parameters, std::size_t axis,
+                                   const std::vector<double>& judged, double limit) {
   TransverseVerdict verdict;
   verdict.axis = axis;
   for (const double stretch : judged) {
@@ -196,11 +197,14 @@ TransverseVerdict judge(const Model& model, std::span<const double> parameters, 
     verdict.judged_to = std::max(verdict.judged_to, stretch);
   }
   const Course pulled = follow(model, parameters, axis, std::max(limit, verdict.judged_to));
-  verdict.first_unstable = pulled.first_unstable, verdict.stable_again = pulled.stable_again;
-  verdict.checked_to = pulled.reached, verdict.worst_slope = pulled.worst;
+  verdict.first_unstable = pulled.first_unstable;
+  verdict.stable_again = pulled.stable_again;
+  verdict.checked_to = pulled.reached;
+  verdict.worst_slope = pulled.worst;
   if (verdict.judged_from < 1) {
     const Course pressed = follow(model, parameters, axis, verdict.judged_from);
-    verdict.first_unstable_pressed = pressed.first_unstable, verdict.checked_from = pressed.reached;
+    verdict.first_unstable_pressed = pressed.first_unstable;
+    verdict.checked_from = pressed.reached;
     verdict.worst_slope = std::max(verdict.worst_slope, pressed.worst);
   }
   verdict.stable = stable_at(model, parameters, axis, judged);

@@ -75,7 +75,7 @@ struct TransverseVerdict {
 
 /// Follows the path from rest to the stretch `limit`, and under compression to the least judged stretch, or as far as
 /// there is an equilibrium.
-TransverseVerdict judge(const Model& model, std::span<const double> parameters, std::size_t axis,
-                        const std::vector<double>& judged, double limit);
+TransverseVerdict judge_transverse(const Model& model, std::span<const double> parameters, std::size_t axis,
+                                   const std::vector<double>& judged, double limit);
 
 }  // namespace tunica::stability

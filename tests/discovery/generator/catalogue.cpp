@@ -8,17 +8,17 @@ using Where = Effect::Where;
 
 /// An effect of the material that is one number.
 template <double Tissue::*member>
-void set_tissue(World& world, const Protocol&, const Hidden& hidden) {
+void set_tissue(World& world, const Protocol&, const HiddenEffect& hidden) {
   world.tissue.*member = hidden.amplitude();
 }
 /// Of one tube or of all.
 template <double TubeFaults::*member>
-void set_tubes(World& world, const Protocol&, const Hidden& hidden) {
+void set_tubes(World& world, const Protocol&, const HiddenEffect& hidden) {
   for (std::size_t i = 0; i < tube_count; ++i)
     if (hidden.target.tube.value_or(i) == i) world.tubes[i].*member = hidden.amplitude();
 }
 template <double StripFaults::*member>
-void set_strip(World& world, const Protocol&, const Hidden& hidden) {
+void set_strip(World& world, const Protocol&, const HiddenEffect& hidden) {
   world.strips[*hidden.target.strip].*member = hidden.amplitude();
 }
 
@@ -55,13 +55,15 @@ Effect of_strip(std::string id, std::string unit, double largest, decltype(Effec
 std::vector<Effect> of_the_material() {
   return {of_material("fibre_dispersion", "1", 0, 0.3, set_tissue<&Tissue::kappa>),
           of_material("axial_fibres", "kPa", 0, 50,
-                      [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.axial_k = hidden.amplitude(), world.tissue.axial_k2 = hidden.nuisance.at("k2");
+                      [](World& world, const Protocol&, const HiddenEffect& hidden) {
+                        world.tissue.axial_k = hidden.amplitude();
+                        world.tissue.axial_k2 = hidden.nuisance.at("k2");
                       },
                       {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("circumferential_fibres", "kPa", 0, 50,
-                      [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.around_k = hidden.amplitude(), world.tissue.around_k2 = hidden.nuisance.at("k2");
+                      [](World& world, const Protocol&, const HiddenEffect& hidden) {
+                        world.tissue.around_k = hidden.amplitude();
+                        world.tissue.around_k2 = hidden.nuisance.at("k2");
                       },
                       {{"k2", 0.3, 3, {0.03, 0.3, 1, 3, 10}}}),
           of_material("matrix_stiffening", "1", 0, 5, set_tissue<&Tissue::stiffening>),
@@ -70,14 +72,15 @@ std::vector<Effect> of_the_material() {
           of_material("fibre_recruitment", "1", 1, 1.5, set_tissue<&Tissue::recruitment>),
           of_material("active_tone", "kPa", 0, 100, set_tissue<&Tissue::tone>),
           of_material("stress_softening", "1", 0, 0.8,
-                      [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.softening = hidden.amplitude(),
+                      [](World& world, const Protocol&, const HiddenEffect& hidden) {
+                        world.tissue.softening = hidden.amplitude();
                         world.tissue.softening_width = hidden.nuisance.at("m");
                       },
                       {{"m", 0.2, 1, {0.1, 0.3, 1, 3}}}),
           of_material("viscoelasticity", "1", 0, 3,
-                      [](World& world, const Protocol&, const Hidden& hidden) {
-                        world.tissue.branch = hidden.amplitude(), world.tissue.relaxation = hidden.nuisance.at("tau");
+                      [](World& world, const Protocol&, const HiddenEffect& hidden) {
+                        world.tissue.branch = hidden.amplitude();
+                        world.tissue.relaxation = hidden.nuisance.at("tau");
                       },
                       {{"tau", 2, 60, {0.5, 2, 6, 20, 60, 200}}})};
 }
@@ -102,9 +105,11 @@ std::vector<Effect> of_the_tubes() {
                  .high = 10,
                  .nuisances = {{"interface", 0, 1, {1. / 2, 2. / 3}, {1. / 2, 2. / 3}}},
                  .logarithmic = true,
-                 .apply = [](World& world, const Protocol&, const Hidden& hidden) {
-                   for (TubeFaults& tube : world.tubes)
-                     tube.layer_ratio = hidden.amplitude(), tube.interface = hidden.nuisance.at("interface");
+                 .apply = [](World& world, const Protocol&, const HiddenEffect& hidden) {
+                   for (TubeFaults& tube : world.tubes) {
+                     tube.layer_ratio = hidden.amplitude();
+                     tube.interface = hidden.nuisance.at("interface");
+                   }
                  }});
   return all;
 }
@@ -121,7 +126,7 @@ std::vector<Effect> of_the_records() {
                  .null = 0,
                  .low = -0.3,
                  .high = 0.3,
-                 .apply = [](World& world, const Protocol&, const Hidden& hidden) {
+                 .apply = [](World& world, const Protocol&, const HiddenEffect& hidden) {
                    world.channels[*hidden.target.channel].drift = hidden.amplitude();
                  }});
   all.push_back({.id = "outliers",
@@ -130,7 +135,7 @@ std::vector<Effect> of_the_records() {
                  .null = 0,
                  .low = -0.5,
                  .high = 0.5,
-                 .apply = [](World& world, const Protocol& protocol, const Hidden& hidden) {
+                 .apply = [](World& world, const Protocol& protocol, const HiddenEffect& hidden) {
                    const std::size_t channel = *hidden.target.channel, count = channels(protocol)[channel].count;
                    for (std::size_t i = 0; i < count; ++i)
                      if (hidden.target.row.value_or(i) == i) world.shifts.push_back({channel, i, hidden.amplitude()});
@@ -169,7 +174,7 @@ const std::vector<Effect>& outsiders() {
                   .low = -0.3,
                   .high = 0.3,
                   .apply =
-                      [](World& world, const Protocol&, const Hidden& hidden) {
+                      [](World& world, const Protocol&, const HiddenEffect& hidden) {
                         world.channels[*hidden.target.channel].quadratic_drift = hidden.amplitude();
                       }},
                  "signal_drift"),
@@ -210,7 +215,7 @@ const std::vector<Effect>& outsiders() {
        .null = 0,
        .low = -0.3,
        .high = 0.3,
-       .apply = [](World& world, const Protocol&, const Hidden& hidden) {
+       .apply = [](World& world, const Protocol&, const HiddenEffect& hidden) {
          world.channels[*hidden.target.channel].hum = hidden.amplitude();
        }}};
   return all;

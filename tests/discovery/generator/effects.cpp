@@ -23,7 +23,7 @@ double height(const Specimen& specimen, std::size_t channel) {
 
 }  // namespace
 
-double Hidden::amplitude() const {
+double HiddenEffect::amplitude() const {
   return effect->logarithmic ? effect->null * std::exp(sign * distance) : effect->null + sign * distance;
 }
 
@@ -38,9 +38,9 @@ const Effect& effect(const std::string& id) {
   throw std::invalid_argument("no effect '" + id + "'; known: " + known);
 }
 
-Hidden draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& random) {
+HiddenEffect draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& random) {
   using enum Effect::Where;
-  Hidden made{.effect = &effect, .target = {}, .nuisance = {}};
+  HiddenEffect made{.effect = &effect, .target = {}, .nuisance = {}};
   for (const Effect::Nuisance& one : effect.nuisances)
     made.nuisance[one.name] =
         one.choices.empty() ? between_log(random, one.low, one.high) : one.choices[one_of(random, one.choices.size())];
@@ -72,9 +72,9 @@ Hidden draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& ran
   return made;
 }
 
-World world_with(const Specimen& specimen, const std::vector<Hidden>& hidden) {
+World world_with(const Specimen& specimen, const std::vector<HiddenEffect>& hidden) {
   World world{specimen.tissue, {}, {}, {}, {}};
-  for (const Hidden& one : hidden) one.effect->apply(world, specimen.protocol, one);
+  for (const HiddenEffect& one : hidden) one.effect->apply(world, specimen.protocol, one);
   return world;
 }
 

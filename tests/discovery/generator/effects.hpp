@@ -20,7 +20,7 @@ struct Target {
 };
 
 /// An effect as it is hidden in one case.
-struct Hidden {
+struct HiddenEffect {
   const Effect* effect = nullptr;
   Target target;
   std::map<std::string, double> nuisance;
@@ -45,7 +45,7 @@ struct Effect {
   std::vector<Nuisance> nuisances = {};
   bool logarithmic = false;  ///< the sides of the null are factors
   bool even = false;         ///< both sides are alike
-  std::function<void(World&, const Protocol&, const Hidden&)> apply;
+  std::function<void(World&, const Protocol&, const HiddenEffect&)> apply;
   std::string look_alike = {};  ///< outside the catalogue: what it resembles, if anything
 };
 
@@ -56,7 +56,7 @@ const std::vector<Effect>& outsiders();
 const Effect& effect(const std::string& id);
 
 /// Draws target, nuisances and side.
-Hidden draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& random);
-World world_with(const Specimen& specimen, const std::vector<Hidden>& hidden);
+HiddenEffect draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& random);
+World world_with(const Specimen& specimen, const std::vector<HiddenEffect>& hidden);
 
 }  // namespace blind

@@ -37,15 +37,18 @@ void list() {
   }
 }
 
-std::vector<Order> orders(const std::string& set, std::vector<std::string> effects, std::vector<double> lambdas,
-                          std::pair<std::size_t, std::size_t> cases, std::uint64_t seed,
-                          const std::vector<std::string>& noise) {
-  if (set == "nulls") effects = {""}, lambdas = {0};
+std::vector<CaseOrder> orders(const std::string& set, std::vector<std::string> effects, std::vector<double> lambdas,
+                              std::pair<std::size_t, std::size_t> cases, std::uint64_t seed,
+                              const std::vector<std::string>& noise) {
+  if (set == "nulls") {
+    effects = {""};
+    lambdas = {0};
+  }
   if (set == "pairs") effects = {""};
   if (effects.empty())
     for (const Effect& effect : set == "outside" ? outsiders() : catalogue()) effects.push_back(effect.id);
   if (lambdas.empty()) lambdas = set == "pairs" ? std::vector<double>{60} : std::vector<double>{10, 25, 60, 150};
-  std::vector<Order> all;
+  std::vector<CaseOrder> all;
   for (std::size_t index = cases.first; index < cases.second; ++index)
     for (const std::string& effect : effects)
       for (const double lambda : lambdas) all.push_back({seed, set, effect, lambda, index, noise});
@@ -82,7 +85,7 @@ int main(int count, char** arguments) {
     for (const std::string& id : effects) (void)effect(id);
     std::size_t written = 0;
     const auto all = orders(set, effects, lambdas, range(cases), seed, noise);
-    for (const Order& order : all) written += write(order, out, oracle);
+    for (const CaseOrder& order : all) written += write(order, out, oracle);
     fmt::print("{} cases in {}, {} of them new\n", all.size(), out, written);
     return 0;
   } catch (const CLI::ParseError& problem) {

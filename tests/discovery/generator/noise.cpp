@@ -24,7 +24,10 @@ NoiseModel draw_noise(const std::string& kind, const Specimen& specimen, std::mt
   const auto y = observe(specimen.protocol, {specimen.tissue, {}, {}, {}, {}});
   const auto layout = channels(specimen.protocol);
   NoiseModel model{.kind = kind};
-  if (kind == "ar1") model.correlation = 0.3, model.replicates = 4;
+  if (kind == "ar1") {
+    model.correlation = 0.3;
+    model.replicates = 4;
+  }
   for (std::size_t k = 0; k < channel_count; ++k) {
     const auto begin = y.begin() + static_cast<std::ptrdiff_t>(layout[k].first);
     const auto [low, high] = std::minmax_element(begin, begin + static_cast<std::ptrdiff_t>(layout[k].count));

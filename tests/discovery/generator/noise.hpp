@@ -31,7 +31,7 @@ NoiseModel draw_noise(const std::string& kind, const Specimen& specimen, std::mt
 /// One record a replicate, and the gross errors in them.
 struct Records {
   std::vector<std::vector<double>> replicates;
-  std::vector<Shift> gross;
+  std::vector<GrossError> gross;
 };
 Records add_noise(const NoiseModel& model, const Protocol& protocol, std::span<const double> truth,
                   std::mt19937_64& random);

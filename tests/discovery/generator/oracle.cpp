@@ -128,7 +128,10 @@ OracleVerdict ask_oracle(const SealedCase& made) {
   double best = -1;
   for (std::size_t m = 0; m < all.size(); ++m) {
     const double c = all[m].shape.dot(r), size = all[m].one_sided ? c : std::abs(c);
-    if (all[m].effect->id == verdict.first && size > best) best = size, scored = m;
+    if (all[m].effect->id == verdict.first && size > best) {
+      best = size;
+      scored = m;
+    }
   }
   verdict.likeness = likeness_to(all, shapes, scored);
   if (made.hidden.size() < 2) return verdict;

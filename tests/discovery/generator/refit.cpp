@@ -12,7 +12,10 @@ using Point = Eigen::Vector4d;
 Point point_of(const Tissue& t) { return {std::log(t.mu), std::log(t.k1), std::log(t.k2), t.theta / 30}; }
 Tissue tissue_of(const Point& x) {
   Tissue t;
-  t.mu = std::exp(x[0]), t.k1 = std::exp(x[1]), t.k2 = std::exp(x[2]), t.theta = 30 * x[3];
+  t.mu = std::exp(x[0]);
+  t.k1 = std::exp(x[1]);
+  t.k2 = std::exp(x[2]);
+  t.theta = 30 * x[3];
   return t;
 }
 
@@ -82,13 +85,19 @@ Refit refit(const Protocol& protocol, const Noise& noise, std::span<const double
       const double better = r_next.squaredNorm();
       if (!(better <= misfit)) continue;
       result.converged = misfit - better < 1e-6 * misfit + 1e-9;
-      x = next, r = r_next, misfit = better, moved = true;
+      x = next;
+      r = r_next;
+      misfit = better;
+      moved = true;
       damping = std::max(1e-9, damping / 60);
     }
     if (!moved) result.converged = true;  // no step gets lower: rounding
     if (result.converged) break;
   }
-  result.tissue = tissue_of(x), result.misfit = misfit, result.residual = r, result.jacobian = J;
+  result.tissue = tissue_of(x);
+  result.misfit = misfit;
+  result.residual = r;
+  result.jacobian = J;
   return result;
 }
 

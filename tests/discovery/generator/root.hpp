@@ -15,15 +15,24 @@ double rising_root(const Function& f, double guess, double step, double reach) {
   double low = guess, high = guess, f_low = f(guess), f_high = f_low;
   if (!std::isfinite(f_low)) return none;
   for (; f_low > 0; step *= 2) {
-    high = low, f_high = f_low, low -= step, f_low = f(low);
+    high = low;
+    f_high = f_low;
+    low -= step;
+    f_low = f(low);
     if (guess - low > reach || !std::isfinite(f_low)) return none;
   }
   for (; f_high < 0; step *= 2) {
     double next = high + step, f_next = f(next);
-    for (int shorter = 0; !std::isfinite(f_next) && shorter < 20; ++shorter)
-      step /= 2, next = high + step, f_next = f(next);
+    for (int shorter = 0; !std::isfinite(f_next) && shorter < 20; ++shorter) {
+      step /= 2;
+      next = high + step;
+      f_next = f(next);
+    }
     if (next - guess > reach || !std::isfinite(f_next)) return none;
-    low = high, f_low = f_high, high = next, f_high = f_next;
+    low = high;
+    f_low = f_high;
+    high = next;
+    f_high = f_next;
   }
   if (f_low == 0) return low;
   if (f_high == 0) return high;

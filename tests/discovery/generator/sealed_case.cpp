@@ -27,13 +27,13 @@ bool compatible(const std::string& a, const std::string& b) {
          !is("stress_softening", "viscoelasticity");
 }
 
-Dialled hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {
+ScaledEffect hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {
   return dial(made.specimen, made.noise, draw(effect, made.specimen, random), made.order.lambda);
 }
 
 /// Correlation of what the base model leaves of each of the two.
 double likeness(const SealedCase& made) {
-  const auto left = [&](const Dialled& one) {
+  const auto left = [&](const ScaledEffect& one) {
     return refit_with(made.specimen, made.noise, {one.hidden}, made.specimen.tissue).residual;
   };
   const Eigen::VectorXd a = left(made.hidden[0]), b = left(made.hidden[1]);
@@ -63,12 +63,12 @@ void hide_pair(SealedCase& made, std::mt19937_64& random) {
 
 }  // namespace
 
-std::string Order::text() const {
+std::string CaseOrder::text() const {
   return fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));
 }
-std::string Order::name() const { return "case-" + sha256("name of " + text()).substr(0, 12); }
+std::string CaseOrder::name() const { return "case-" + sha256("name of " + text()).substr(0, 12); }
 
-SealedCase make(const Order& order) {
+SealedCase make(const CaseOrder& order) {
   auto random = stream(order.text());
   SealedCase made;
   made.order = order;
@@ -77,8 +77,8 @@ SealedCase make(const Order& order) {
   made.noise = draw_noise(order.noise[kind], made.specimen, random);
   if (order.set == "pairs") hide_pair(made, random);
   if (order.set == "singles" || order.set == "outside") made.hidden = {hide(made, effect(order.effect), random)};
-  std::vector<Hidden> hidden;
-  for (const Dialled& one : made.hidden) hidden.push_back(one.hidden);
+  std::vector<HiddenEffect> hidden;
+  for (const ScaledEffect& one : made.hidden) hidden.push_back(one.hidden);
   made.truth = observe(made.specimen.protocol, world_with(made.specimen, hidden));
   if (made.hidden.size() == 1) made.lambda = made.hidden[0].lambda;
   if (made.hidden.size() == 2 || order.set == "outside") {

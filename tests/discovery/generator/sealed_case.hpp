@@ -12,7 +12,7 @@
 namespace blind {
 
 /// Which case of the benchmark: the same order makes the same case, bit for bit.
-struct Order {
+struct CaseOrder {
   std::uint64_t seed = 0;
   std::string set;     ///< nulls, singles, pairs, outside
   std::string effect;  ///< of singles and outside
@@ -25,21 +25,21 @@ struct Order {
 };
 
 struct SealedCase {
-  Order order;
+  CaseOrder order;
   Specimen specimen;
   NoiseModel noise;
-  std::vector<Dialled> hidden;
+  std::vector<ScaledEffect> hidden;
   double lambda = 0;       ///< of all effects together
   double correlation = 0;  ///< of pairs: of what the base model leaves of each
-  Account account;         ///< of effects outside the catalogue: the catalogue's best for it
+  Explanation account;     ///< of effects outside the catalogue: the catalogue's best for it
   std::vector<double> truth;
   Records records;
 };
-SealedCase make(const Order& order);
+SealedCase make(const CaseOrder& order);
 
 /// DIR/<name>/: experiment.json, data, truth.sha256; and DIR/sealed/<name>.json. The case folder appears at once and
 /// last, so that an interrupted run leaves none that is incomplete. With `oracle` also DIR/sealed/<name>.oracle.json.
 /// True unless all was there already.
-bool write(const Order& order, const std::filesystem::path& folder, bool oracle = false);
+bool write(const CaseOrder& order, const std::filesystem::path& folder, bool oracle = false);
 
 }  // namespace blind

@@ -57,12 +57,15 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
     }
     for (const Target& target : targets(effect)) {
       for (const auto& nuisance : settings) {
-        Hidden hidden{.effect = &effect, .target = target, .nuisance = nuisance};
+        HiddenEffect hidden{.effect = &effect, .target = target, .nuisance = nuisance};
         hidden.largest = effect.logarithmic ? std::log(effect.high) : effect.high - effect.null;
         hidden.distance = (effect.even ? 0.3 : 0.01) * hidden.largest;
         auto y = observe(about.protocol, world_with(about, {hidden}));
         bool good = true;
-        for (std::size_t i = 0; i < y.size(); ++i) y[i] -= bare[i], good &= std::isfinite(y[i]);
+        for (std::size_t i = 0; i < y.size(); ++i) {
+          y[i] -= bare[i];
+          good &= std::isfinite(y[i]);
+        }
         if (good) add(effect, target, std::move(y));
       }
     }
@@ -79,8 +82,8 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
   return all;
 }
 
-Account best_account(const std::vector<Signature>& all, const Eigen::VectorXd& residual) {
-  Account best;
+Explanation best_account(const std::vector<Signature>& all, const Eigen::VectorXd& residual) {
+  Explanation best;
   for (const Signature& one : all) {
     const double c = one.shape.dot(residual) / residual.norm(), size = one.one_sided ? c : std::abs(c);
     if (size > best.correlation) best = {one.effect, one.target, size};

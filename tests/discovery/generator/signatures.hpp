@@ -19,12 +19,12 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
                                   const Eigen::MatrixXd& jacobian);
 
 /// The catalogue's best account of a misfit, to first order: its correlation c with the residual.
-struct Account {
+struct Explanation {
   const Effect* effect = nullptr;
   Target target;
   double correlation = 0;
 };
-Account best_account(const std::vector<Signature>& all, const Eigen::VectorXd& residual);
+Explanation best_account(const std::vector<Signature>& all, const Eigen::VectorXd& residual);
 
 /// Removes the columns of the Jacobian from v.
 Eigen::VectorXd projected(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& v);

@@ -24,24 +24,36 @@ Strip strip(Material::First direction, double largest) {
   const auto to = [&](double share, int rows, double seconds) {
     leg(made.time, made.stretch, 1 + share * (largest - 1), rows, seconds);
   };
-  to(0.45, 6, 12), to(0, 4, 12), to(0.75, 7, 4), to(0, 5, 4), to(1, 9, 30), to(1, 5, 40), to(0, 8, 10);
+  to(0.45, 6, 12);
+  to(0, 4, 12);
+  to(0.75, 7, 4);
+  to(0, 5, 4);
+  to(1, 9, 30);
+  to(1, 5, 40);
+  to(0, 8, 10);
   return made;
 }
 
 /// Stretched, then two cycles of pressure: slow to half, quick to all of it. 19 rows in 80 s.
 void inflate(Tube& tube, double largest) {
-  tube.time = {0}, tube.pressure = {0};
+  tube.time = {0};
+  tube.pressure = {0};
   const auto to = [&](double share, int rows, double seconds) {
     leg(tube.time, tube.pressure, share * largest, rows, seconds);
   };
-  to(0.55, 4, 20), to(0, 4, 20), to(1, 5, 10), to(0, 5, 30);
+  to(0.55, 4, 20);
+  to(0, 4, 20);
+  to(1, 5, 10);
+  to(0, 5, 30);
 }
 
 /// Largest of 1.15, 1.16, … `most` at which the strip's stress stays below `bearable` kPa.
 double largest_stretch(const Tissue& tissue, Material::First direction, double bearable, double most) {
   Strip probe{direction, {}, {}};
-  for (double stretch = 1.15; stretch < most + 0.005; stretch += 0.01)
-    probe.stretch.push_back(rounded(stretch, 0.01)), probe.time.push_back(stretch);
+  for (double stretch = 1.15; stretch < most + 0.005; stretch += 0.01) {
+    probe.stretch.push_back(rounded(stretch, 0.01));
+    probe.time.push_back(stretch);
+  }
   const auto stress = recorded_stress(probe, tissue, {});
   std::size_t last = 0;
   while (last + 1 < stress.size() && stress[last + 1] < bearable) ++last;
@@ -75,7 +87,8 @@ Specimen draw_specimen(std::mt19937_64& random) {
   double pressure = 16;
   for (std::size_t i = 0; i < tube_count; ++i) {
     Tube& tube = made.protocol.tubes[i];
-    tube.inner_radius = inner, tube.thickness = thickness;
+    tube.inner_radius = inner;
+    tube.thickness = thickness;
     tube.axial_stretch = rounded(1 + (most - 1) * (1 + static_cast<double>(i)) / tube_count, 0.01);
     pressure = std::min(pressure, pressure_at(tube, tissue, 1.55));
   }

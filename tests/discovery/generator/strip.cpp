@@ -60,7 +60,8 @@ std::vector<double> recorded_stress(const Strip& strip, const Tissue& tissue, co
     for (int k = 1; k <= steps; ++k) sigma = path.follow(before + (now - before) * k / steps, dt / steps);
     // Force over the reference area is what the cell gives; the recorded stretch makes it a Cauchy stress.
     stress.push_back(sigma * strip.stretch[i] / now);
-    before = now, clock = strip.time[i];
+    before = now;
+    clock = strip.time[i];
   }
   const double strongest = *std::max_element(stress.begin(), stress.end());
   for (std::size_t i = 0; i < stress.size(); ++i) {

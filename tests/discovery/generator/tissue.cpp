@@ -20,7 +20,8 @@ Scatter moments(double b) {
   double all = 0, along = 0;
   for (int i = 0; i <= n; ++i) {
     const double u = 1 - i * step, weight = (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * std::exp(2 * b * (u * u - 1));
-    all += weight, along += weight * u * u;
+    all += weight;
+    along += weight * u * u;
   }
   return {along / all, (1 - along / all) / 2};
 }
@@ -64,7 +65,8 @@ Material::Material(const Tissue& tissue, First first, double turn) : tissue_(tis
   if (turn == 0) {
     add(tissue.theta, 2);  // the mirrored family has the same diagonal
   } else {
-    add(tissue.theta, 1), add(-tissue.theta, 1);
+    add(tissue.theta, 1);
+    add(-tissue.theta, 1);
   }
   around_ = diagonal(structure({}, from_axial(90)));
   along_ = diagonal(structure({}, from_axial(0)));

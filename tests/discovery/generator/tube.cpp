@@ -80,7 +80,8 @@ class Wall {
   void lay_nodes(double sector_inner, int intervals) {
     const double sector_outer = std::sqrt(sector_inner * sector_inner + closing_ * area_);
     const double f = faults_.interface, ratio = faults_.layer_ratio, mean = f * ratio + 1 - f;
-    R_.clear(), weight_.clear();
+    R_.clear();
+    weight_.clear();
     if (ratio == 1) {
       lay_piece(sector_inner, sector_outer, 1, intervals);
     } else {
@@ -166,7 +167,8 @@ TubeRecord record(const Tube& tube, const Tissue& tissue, const TubeFaults& faul
     const double oval = 1 + faults.ovality * std::exp(-3 * now / largest);
     all.diameter.push_back(lost ? none : oval * wall.diameter_stretch(held(now)) / (1 + faults.diameter_gain));
     all.force.push_back(lost ? none : (wall.axial_force(held(now)) - faults.force_offset) / (1 + faults.force_gain));
-    before = now, clock = tube.time[i];
+    before = now;
+    clock = tube.time[i];
   }
   return all;
 }

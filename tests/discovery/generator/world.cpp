@@ -58,7 +58,7 @@ std::vector<double> observe(const Protocol& protocol, const World& world) {
                                 faults.hum * std::sin(6 * std::numbers::pi * share);
     }
   }
-  for (const Shift& shift : world.shifts) y[layout[shift.channel].first + shift.row] += shift.value;
+  for (const GrossError& shift : world.shifts) y[layout[shift.channel].first + shift.row] += shift.value;
   return y;
 }
 

@@ -35,7 +35,7 @@ struct ChannelFaults {
   double quadratic_drift = 0;  ///< outside the catalogue: quadratic in time
   double hum = 0;              ///< outside: amplitude of an oscillation, three periods a test
 };
-struct Shift {
+struct GrossError {
   std::size_t channel, row;
   double value;
 };
@@ -46,7 +46,7 @@ struct World {
   std::array<StripFaults, strip_count> strips;
   std::array<TubeFaults, tube_count> tubes;
   std::array<ChannelFaults, channel_count> channels;
-  std::vector<Shift> shifts;
+  std::vector<GrossError> shifts;
 };
 
 /// All observations without noise, channel after channel; NaN where there is no equilibrium.

@@ -121,7 +121,8 @@ Json target(const Target& of, const Protocol& protocol) {
   if (of.tube) made["test"] = tube_names()[*of.tube];
   if (of.channel) {
     const Channel channel = channels(protocol)[*of.channel];
-    made["test"] = channel.test, made["channel"] = channel.name;
+    made["test"] = channel.test;
+    made["channel"] = channel.name;
   }
   if (of.row) made["row"] = *of.row;
   return made;
@@ -131,7 +132,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
   const Tissue& base = made.specimen.tissue;
   const auto layout = channels(made.specimen.protocol);
   Json effects = Json::array();
-  for (const Dialled& one : made.hidden) {
+  for (const ScaledEffect& one : made.hidden) {
     const Effect& effect = *one.hidden.effect;
     const std::string unit = one.hidden.target.channel ? layout[*one.hidden.target.channel].unit : effect.unit;
     const bool listed = made.order.set != "outside";
@@ -154,7 +155,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
                                  {"relative", made.noise.relative[k]},
                                  {"step", made.noise.step[k]}});
   Json gross = Json::array();
-  for (const Shift& shift : made.records.gross)
+  for (const GrossError& shift : made.records.gross)
     gross.push_back({{"test", layout[shift.channel].test},
                      {"channel", layout[shift.channel].name},
                      {"row", shift.row},
@@ -183,7 +184,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
 
 }  // namespace
 
-bool write(const Order& order, const fs::path& folder, bool oracle) {
+bool write(const CaseOrder& order, const fs::path& folder, bool oracle) {
   const std::string name = order.name();
   const fs::path place = folder / name, truth = folder / "sealed" / (name + ".json"),
                  known = folder / "sealed" / (name + ".oracle.json");
@@ -197,12 +198,16 @@ bool write(const Order& order, const fs::path& folder, bool oracle) {
               {"p_value", verdict.p_value},
               {"first", verdict.first},
               {"likeness", verdict.likeness}};
-    if (!verdict.pair.empty()) text["pair"] = verdict.pair, text["pair_likeness"] = verdict.pair_likeness;
+    if (!verdict.pair.empty()) {
+      text["pair"] = verdict.pair;
+      text["pair_likeness"] = verdict.pair_likeness;
+    }
     write_text(known, text.dump() + "\n");
   }
   if (written) return true;
   const fs::path unfinished = folder / fmt::format(".{}-{}", name, ::getpid());
-  fs::remove_all(unfinished), fs::remove_all(place);
+  fs::remove_all(unfinished);
+  fs::remove_all(place);
   fs::create_directories(unfinished);
   const std::string text = sealed(made, name).dump(1) + "\n";
   write_text(truth, text);

@@ -16,7 +16,10 @@ void amplitude_rows(const Cases& cases, std::vector<Figure>& table) {
   struct Spread {
     double squares = 0;
     std::size_t count = 0;
-    void add(double error) { squares += error * error, ++count; }
+    void add(double error) {
+      squares += error * error;
+      ++count;
+    }
     /// With the interval of the standard deviation of so many normal errors.
     [[nodiscard]] Figure figure(std::string name, std::optional<Bar> pass, std::optional<Bar> stretch,
                                 std::string remark) const {

@@ -66,7 +66,8 @@ Truth read_truth(const Json& from) {
     truth.effects.push_back({one.at("id"), target_of(one.at("target")), one.at("amplitude"), one.at("null"),
                              one.at("even"), one.at("reached"), !part(one, "nuisance").empty()});
   if (const Json& outside = part(from, "outside"); !outside.is_null()) {
-    truth.look_alike = outside.at("look_alike"), truth.nearest = outside.at("best");
+    truth.look_alike = outside.at("look_alike");
+    truth.nearest = outside.at("best");
     truth.remainder = outside.at("remainder");
   }
   return truth;
@@ -82,8 +83,11 @@ Cause read_cause(const Json& from) {
   const Json& amplitude = part(from, "amplitude");
   if (amplitude.is_object()) cause.amplitude = number(amplitude, "value");
   const Json& ci = part(amplitude, "ci95");
-  if (ci.is_array() && ci.size() == 2 && ci[0].is_number() && ci[1].is_number()) cause.low = ci[0], cause.high = ci[1];
-  cause.hedged = word(from, "explanation").find("consistent with") != std::string::npos;
+  if (ci.is_array() && ci.size() == 2 && ci[0].is_number() && ci[1].is_number()) {
+    cause.low = ci[0];
+    cause.high = ci[1];
+  }
+  cause.hedged = word(from, "claim") == "consistent_with";
   return cause;
 }
 
@@ -137,7 +141,7 @@ Truth unseal(const fs::path& file, const fs::path& seal) {
 
 }  // namespace
 
-Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) {
+OpenedCases open_cases(const fs::path& cases, const fs::path& results, bool partial) {
   std::vector<std::string> names;
   if (!fs::is_directory(cases)) throw InputError(cases.string() + ": is no folder of cases");
   for (const auto& entry : fs::directory_iterator(cases))
@@ -149,7 +153,7 @@ Opened open_cases(const fs::path& cases, const fs::path& results, bool partial) 
                      ": holds no case, a folder with truth.sha256; give the folder that "
                      "discovery_generator wrote");
   std::vector<std::string> missing;
-  Opened opened;
+  OpenedCases opened;
   for (const std::string& name : names) {
     const fs::path result = results / name / "result.json";
     if (!fs::exists(result)) {

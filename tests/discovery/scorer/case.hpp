@@ -48,7 +48,7 @@ struct Cause {
   std::string id;
   Target target;
   std::optional<double> probability, amplitude, low, high;
-  bool hedged = false;  ///< marked as "consistent with"
+  bool hedged = false;  ///< claimed as "consistent_with"
 };
 
 struct Verdict {
@@ -85,11 +85,11 @@ struct Case {
 /// `results`/<case>/result.json for every case of `cases`, and only then the truths of `cases`/sealed, each against
 /// `cases`/<case>/truth.sha256. A case without a verdict is an error, or where `partial` it stays sealed and is
 /// counted.
-struct Opened {
+struct OpenedCases {
   std::vector<Case> cases;
   std::size_t sealed = 0;
 };
-Opened open_cases(const std::filesystem::path& cases, const std::filesystem::path& results, bool partial);
+OpenedCases open_cases(const std::filesystem::path& cases, const std::filesystem::path& results, bool partial);
 
 /// Declared look-alikes: {id: [ids]}.
 using LookAlikes = std::map<std::string, std::vector<std::string>>;

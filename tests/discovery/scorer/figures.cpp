@@ -43,7 +43,9 @@ void detection(const Cases& cases, std::vector<Figure>& table) {
     Figure figure = share("detected, as a share of the oracle's, " + name, mine, pass, stretch,
                           mine.total == 0 ? "" : fmt::format("detected {:.3f}, oracle {:.3f}", mine.value(), scale));
     if (scale > 0 && oracle.total == mine.total) {
-      figure.value /= scale, figure.low /= scale, figure.high /= scale;
+      figure.value /= scale;
+      figure.low /= scale;
+      figure.high /= scale;
     } else {
       figure.cases = 0;
     }
@@ -96,7 +98,10 @@ void sets(const Cases& cases, std::vector<Figure>& table) {
     invented.add(together(verdict) > 1);
     wrong[one.truth.asked].add(claims && !inside);
     if (one.truth.asked >= 60) wrong_from_60.add(claims && !inside);
-    if (claims && one.truth.asked == 25) size += static_cast<double>(set.size()), ++sized;
+    if (claims && one.truth.asked == 25) {
+      size += static_cast<double>(set.size());
+      ++sized;
+    }
   }
   table.push_back(share("ambiguity set holds the truth (Λ ≥ 10)", holds, at_least(0.95), at_least(0.97),
                         fmt::format("{} more end as \"unknown\", without a set", silent)));
@@ -140,7 +145,8 @@ std::vector<EffectRow> effects(const Cases& cases, const LookAlikes& look_alikes
     if (one.truth.set != "singles") continue;
     const std::pair key{hidden(one), one.truth.asked};
     EffectRow& row = rows[key];
-    row.id = key.first, row.lambda = key.second;
+    row.id = key.first;
+    row.lambda = key.second;
     if (!one.truth.effects.front().reached) {
       ++row.unreached;
       continue;

@@ -13,7 +13,10 @@ namespace blind::score {
 /// hits of total, with Wilson's 95 % interval (Wilson, J. Am. Stat. Assoc. 22:209, 1927).
 struct Share {
   std::size_t hits = 0, total = 0;
-  void add(bool hit) { hits += hit, ++total; }
+  void add(bool hit) {
+    hits += hit;
+    ++total;
+  }
   [[nodiscard]] double value() const { return static_cast<double>(hits) / static_cast<double>(total); }
   [[nodiscard]] double low() const;
   [[nodiscard]] double high() const;

@@ -24,7 +24,7 @@ int main(int count, char** arguments) {
                "few cases: a figure is missed where its whole 95 % interval misses, and may be unmeasured");
   try {
     app.parse(count, arguments);
-    const Opened opened = open_cases(cases, results.empty() ? cases : results, partial);
+    const OpenedCases opened = open_cases(cases, results.empty() ? cases : results, partial);
     const LookAlikes declared = look_alikes.empty() ? LookAlikes{} : read_look_alikes(look_alikes);
     const auto table = figures(opened.cases, declared);
     const auto rows = effects(opened.cases, declared);
@@ -40,7 +40,10 @@ int main(int count, char** arguments) {
       fmt::print(stderr, "discovery_score: {}: {}\n", unmeasured ? "not measured" : "missed", figure.name);
       ++missed;
     }
-    for (const std::string& words : unnamed(rows)) fmt::print(stderr, "discovery_score: missed: {}\n", words), ++missed;
+    for (const std::string& words : unnamed(rows)) {
+      fmt::print(stderr, "discovery_score: missed: {}\n", words);
+      ++missed;
+    }
     return missed > 0 ? 1 : 0;
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;

@@ -22,7 +22,9 @@ void calibration(const Cases& cases, std::vector<Figure>& table) {
     if (!verdict.detected() || verdict.causes.empty() || !verdict.causes.front().probability) continue;
     const double p = *verdict.causes.front().probability;
     Bin& bin = bins[std::min<std::size_t>(9, static_cast<std::size_t>(10 * std::clamp(p, 0.0, 1.0)))];
-    bin.stated += p, bin.right.add(verdict.causes.front().id == hidden(one)), ++count;
+    bin.stated += p;
+    bin.right.add(verdict.causes.front().id == hidden(one));
+    ++count;
   }
   double error = 0, chance = 0;
   for (const Bin& bin : bins) {
@@ -34,7 +36,8 @@ void calibration(const Cases& cases, std::vector<Figure>& table) {
   const double n = count == 0 ? 1 : static_cast<double>(count);
   Figure figure = number("expected calibration error of the stated probability", count, error / n, at_most(0.05),
                          at_most(0.03), "interval: two binomial deviations of every bin");
-  figure.low = std::max(0.0, (error - 2 * chance) / n), figure.high = (error + 2 * chance) / n;
+  figure.low = std::max(0.0, (error - 2 * chance) / n);
+  figure.high = (error + 2 * chance) / n;
   table.push_back(figure);
 }
 

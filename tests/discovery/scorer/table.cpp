@@ -60,7 +60,10 @@ nlohmann::ordered_json as_json(const std::vector<Figure>& figures, const std::ve
                              {"effects", nlohmann::ordered_json::array()}};
   for (const Figure& figure : figures) {
     nlohmann::ordered_json one{{"name", figure.name}, {"cases", figure.cases}};
-    if (figure.cases > 0) one["value"] = figure.value, one["ci95"] = {figure.low, figure.high};
+    if (figure.cases > 0) {
+      one["value"] = figure.value;
+      one["ci95"] = {figure.low, figure.high};
+    }
     if (figure.pass) one["pass"] = figure.cases > 0 && !figure.missed();
     if (figure.stretch) one["stretch"] = figure.cases > 0 && figure.stretch->holds(figure.value);
     if (!figure.remark.empty()) one["remark"] = figure.remark;

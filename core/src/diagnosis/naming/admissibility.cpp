@@ -24,8 +24,8 @@ Admissibility admissibility_at(const calibration::Assembly& assembly, std::span<
   std::vector<std::string> lost;  // what and where
   bool all = true;
   for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-    const auto verdict =
-        stability::judge(assembly.model(m), assembly.model_parameters(m, free), comparison::domain_of(assembly, m));
+    const auto verdict = stability::judge_admissibility(assembly.model(m), assembly.model_parameters(m, free),
+                                                        comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
     const bool elliptic = !verdict.ellipticity.first_lost;
     if (transverse == false)
