@@ -16,18 +16,18 @@
 #include <string>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "execution/terminal.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"
@@ -78,7 +78,7 @@ std::string interruption_message() {
   return fmt::format(
       "{}interrupted; an unfinished diagnosis leaves nothing behind. Start it again with the same command, or with "
       "--quick for a first answer\n",
-      execution::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
+      text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
 }
 
 int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
@@ -110,10 +110,10 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_outputs(directory.path(), found, experiment, session.catalogue());
   const std::vector<diagnosis::Warning> warnings = found.warnings();
-  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning.text));
+  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", highlighted(diagnosis::summary(found)), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
              (directory.path() / "result.json").string());
   if (found.explanation.claim.best)
     fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());

@@ -113,7 +113,7 @@ double loosest(const trial::Measured& measured) {
   const Evidence evidence = evidence_of(asked.inquiry(), {});
   Eigen::MatrixXd J = evidence.fit.jacobian, precision = Eigen::MatrixXd::Zero(J.cols(), J.cols());
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
-    const auto& parameter = evidence.base->parameters()[static_cast<std::size_t>(k)];
+    const auto& parameter = evidence.base->layout().parameters[static_cast<std::size_t>(k)];
     J.col(k) *= evidence.fit.free[static_cast<std::size_t>(k)];
     precision(k, k) = 12 / std::pow(std::log(parameter.max / parameter.min), 2);
   }

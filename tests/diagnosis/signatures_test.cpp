@@ -53,7 +53,7 @@ TEST(Signatures, OfTheWholeCatalogueAreTheSlopesOfWhatTheExtensionPredicts) {
     for (const Hypothesis& hypothesis : candidate.hypotheses) {
       if (hypothesis.at_large || hypothesis.addition.place.row) continue;
       const Extension extended(evidence.experiment, evidence.run, {hypothesis.addition}, catalogue);
-      const auto workspace = extended.assembly().make_workspace();
+      const auto workspace = extended.assembly().evaluator().make_workspace();
       const auto predicted = [&](double amplitude) {
         std::vector<double> free = extended.at_null(evidence.fit.free);
         for (const std::size_t member : extended.parts().front().amplitude)

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "comparison/text.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::trial {
 namespace {
@@ -80,7 +80,7 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   for (auto& cause : found.explanation.claim.causes) cause.id = name;
   std::istringstream stream(diagnosis::summary(found));
   int lines = 0;
-  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(comparison::columns(line), 80u) << line;
+  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(text::columns(line), 80u) << line;
   EXPECT_GT(lines, 8);
   EXPECT_LE(lines, 25) << "names of 50 characters take a line each";
 }
@@ -153,9 +153,9 @@ TEST(Verdict, ARefitLeavesTheBoundThatTheEffectDroveTheBaseFitTo) {
     truth["tests"]["axial"]["mechanisms"] = {mechanism("force_offset", "value", 1.5)};
   });
   const Diagnosis found = measured.diagnose();
-  const auto theta = [](const calibration::Assembly& assembly, const std::vector<double>& free) {
+  const auto theta = [](const assembly::Assembly& assembly, const std::vector<double>& free) {
     for (std::size_t j = 0; j < free.size(); ++j)
-      if (assembly.parameters()[j].name == "theta") return free[j];
+      if (assembly.layout().parameters[j].name == "theta") return free[j];
     return std::nan("");
   };
   ASSERT_NEAR(theta(*found.analysis.evidence.base, found.analysis.evidence.fit.free), 0, 1e-3);

@@ -13,7 +13,7 @@ namespace tunica::diagnosis {
 
 double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Detector& detector,
                      const Detection& measured, std::size_t draws) {
-  const calibration::Assembly& base = *evidence.base;
+  const assembly::Assembly& base = *evidence.base;
   const Fit& fit = evidence.fit;
   const Eigen::MatrixXf noise = noise_draws(evidence.curves, fit.residuals.size(), draws,
                                             derive_seed(inquiry.request.seed, "refits under nothing"));
@@ -21,7 +21,7 @@ double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Det
   std::vector<char> worse(draws, 0);
   std::atomic<std::size_t> finished = 0;
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t b) {
-    const auto workspace = base.make_workspace();
+    const auto workspace = base.evaluator().make_workspace();
     // Residuals of data simulated at the fit: those of the measured data drop out, the noise takes their place.
     const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - fit.residuals;
     const Fit refit = least_squares(base, variables, fit.free, *workspace, 60, {&added, nullptr});

@@ -9,22 +9,22 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "calibration/refit.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "tunica/random.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace tunica::diagnosis {
 namespace {
 
-std::vector<std::vector<double>> random_starts(const calibration::Assembly& assembly, std::size_t count,
+std::vector<std::vector<double>> random_starts(const assembly::Assembly& assembly, std::size_t count,
                                                std::uint64_t seed) {
   boost::random::mt19937_64 generator(derive_seed(seed, "starts of the base fit"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   std::vector<std::vector<double>> starts;
   for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double> unit(assembly.parameters().size()), free(unit.size());
+    std::vector<double> unit(assembly.layout().parameters.size()), free(unit.size());
     for (double& x : unit) x = uniform(generator);
-    assembly.from_unit(unit, free);
+    assembly.box().from_unit(unit, free);
     starts.push_back(std::move(free));
   }
   return starts;
@@ -38,22 +38,22 @@ struct OptimizerStart {
 
 OptimizerStart optimizer_start(const Inquiry& inquiry, const Preparation& prepared,
                                const std::vector<double>& initial) {
-  const calibration::Assembly& assembly = *prepared.base;
+  const assembly::Assembly& assembly = *prepared.base;
   const std::string& name = inquiry.request.optimizer;
   const auto& entry = prepared.experiment.optimizer(name);
   if (!entry.stages.empty())
     return {{},
             {{WarningKind::optimizer_has_stages,
               fmt::format("diagnosis.optimizer '{}' has stages and is not used here. Name one of its stages", name)}}};
-  const calibration::LocalOptimizer optimizer{&inquiry.catalogue.optimizers().find(entry.type)->second, entry.options};
-  const calibration::Target target{
-      assembly.blocks(), assembly.residual_count(),
+  const uncertainty::LocalOptimizer optimizer{&inquiry.catalogue.optimizers().find(entry.type)->second, entry.options};
+  const uncertainty::RefitObjective target{
+      assembly.layout().blocks, assembly.layout().residual_count,
       [&assembly](auto free, double& objective, auto residuals, auto jacobian, auto& workspace) {
-        return assembly.evaluate(free, objective, {}, residuals, jacobian, workspace);
+        return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);
       }};
-  const auto workspace = assembly.make_workspace();
+  const auto workspace = assembly.evaluator().make_workspace();
   const auto found =
-      calibration::refit(assembly, target, optimizer, initial, std::nullopt, inquiry.request.seed, *workspace);
+      uncertainty::refit(assembly, target, optimizer, initial, std::nullopt, inquiry.request.seed, *workspace);
   if (found.status.ok()) return {found.free};
   return {
       {},
@@ -65,7 +65,7 @@ OptimizerStart optimizer_start(const Inquiry& inquiry, const Preparation& prepar
 
 /// The predictions, moved by the mean residual of the seven rows around each: what is measured, with little of its
 /// noise.
-std::vector<double> smoothed_level(const calibration::ChannelView& view, std::span<const double> predicted) {
+std::vector<double> smoothed_level(const assembly::MeasuredChannel& view, std::span<const double> predicted) {
   constexpr std::size_t half = 3;
   std::vector<double> level(predicted.begin(), predicted.end());
   for (std::size_t i = 0; i < view.count; ++i) {
@@ -78,9 +78,9 @@ std::vector<double> smoothed_level(const calibration::ChannelView& view, std::sp
 }
 
 /// Relative noise taken of these predictions.
-experiment::Experiment with_noise_levels(experiment::Experiment experiment, const calibration::Assembly& base,
+experiment::Experiment with_noise_levels(experiment::Experiment experiment, const assembly::Assembly& base,
                                          std::span<const double> predicted) {
-  for (const calibration::ChannelView& view : base.channels())
+  for (const assembly::MeasuredChannel& view : base.layout().channels)
     for (auto& test : experiment.tests) {
       if (test.name != view.test) continue;
       for (auto& [channel, noise] : test.data.noise)
@@ -93,11 +93,11 @@ experiment::Experiment with_noise_levels(experiment::Experiment experiment, cons
 }  // namespace
 
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
-  const calibration::Assembly& assembly = *prepared.base;
+  const assembly::Assembly& assembly = *prepared.base;
   const bool quick = inquiry.request.quick;
   const std::vector<Variable> variables = all_variables(assembly);
-  std::vector<double> initial(assembly.parameters().size());
-  assembly.from_unit(assembly.initial_unit(), initial);
+  std::vector<double> initial(assembly.layout().parameters.size());
+  assembly.box().from_unit(assembly.box().initial(), initial);
   std::vector<std::vector<double>> starts = random_starts(assembly, quick ? 3 : 8, inquiry.request.seed);
   starts.insert(starts.begin(), initial);
   BaseFit base;
@@ -108,7 +108,7 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   }
   std::vector<Fit> fits(starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
-    const auto workspace = assembly.make_workspace();
+    const auto workspace = assembly.evaluator().make_workspace();
     fits[k] = least_squares(assembly, variables, starts[k], *workspace, k == 0 || !quick ? 200 : 60);
   });
   const Fit* best = nullptr;
@@ -134,12 +134,13 @@ SettledFit settle_noise(const Inquiry& inquiry, const Preparation& prepared, con
   const auto relative = [](const NoiseSource& source) { return source.noise.relative > 0; };
   if (std::none_of(prepared.noise.begin(), prepared.noise.end(), relative))
     return {prepared.experiment, prepared.base, fit};
-  std::vector<double> predicted(prepared.base->prediction_count());
-  if (!prepared.base->predict(fit.free, predicted, {}, *prepared.base->make_workspace()).ok())
+  std::vector<double> predicted(prepared.base->layout().prediction_count);
+  if (!prepared.base->evaluator().predict(fit.free, predicted, {}, *prepared.base->evaluator().make_workspace()).ok())
     return {prepared.experiment, prepared.base, fit};
   SettledFit settled{with_noise_levels(prepared.experiment, *prepared.base, predicted), nullptr, fit};
-  settled.base = std::make_shared<const calibration::Assembly>(settled.experiment, prepared.run, inquiry.catalogue);
-  Fit again = least_squares(*settled.base, all_variables(*settled.base), fit.free, *settled.base->make_workspace());
+  settled.base = std::make_shared<const assembly::Assembly>(settled.experiment, prepared.run, inquiry.catalogue);
+  Fit again =
+      least_squares(*settled.base, all_variables(*settled.base), fit.free, *settled.base->evaluator().make_workspace());
   if (again.status.ok()) settled.fit = std::move(again);
   return settled;
 }

@@ -29,7 +29,7 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared);
 /// The fit under the noise that it settles.
 struct SettledFit {
   experiment::Experiment experiment;
-  std::shared_ptr<const calibration::Assembly> base;
+  std::shared_ptr<const assembly::Assembly> base;
   Fit fit;
 };
 

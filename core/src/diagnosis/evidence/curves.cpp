@@ -5,10 +5,10 @@
 
 namespace tunica::diagnosis {
 
-std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise) {
+std::vector<Curve> curves_of(const assembly::Assembly& assembly, const std::vector<NoiseSource>& noise) {
   std::vector<Curve> curves;
   Eigen::Index at = 0;
-  for (const calibration::ChannelView& view : assembly.channels()) {
+  for (const assembly::MeasuredChannel& view : assembly.layout().channels) {
     Curve curve{view.test, view.observable, at, 0, {}, {}, {}};
     for (std::size_t i = 0; i < view.count; ++i)
       if (view.fitted[i]) {

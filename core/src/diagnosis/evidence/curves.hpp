@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "diagnosis/evidence/noise_statement.hpp"
 
 namespace tunica::diagnosis {
@@ -22,6 +22,6 @@ struct Curve {
 };
 
 /// The rows of the whitened residuals by channel.
-std::vector<Curve> curves_of(const calibration::Assembly& assembly, const std::vector<NoiseSource>& noise);
+std::vector<Curve> curves_of(const assembly::Assembly& assembly, const std::vector<NoiseSource>& noise);
 
 }  // namespace tunica::diagnosis

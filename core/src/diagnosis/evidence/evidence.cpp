@@ -18,7 +18,7 @@ Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross)
                     std::move(settled.base),       std::move(prepared.curves),
                     std::move(settled.fit),        std::move(prepared.warnings)};
   evidence.warnings.insert(evidence.warnings.end(), fitted.warnings.begin(), fitted.warnings.end());
-  for (const std::string& text : evidence.base->warnings())
+  for (const std::string& text : evidence.base->layout().warnings)
     evidence.warnings.push_back({WarningKind::base_model, text});
   return evidence;
 }

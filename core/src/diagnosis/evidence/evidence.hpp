@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "diagnosis/evidence/curves.hpp"
 #include "diagnosis/evidence/least_squares.hpp"
 #include "diagnosis/evidence/noise_statement.hpp"
@@ -19,7 +19,7 @@ struct Evidence {
   experiment::RunEntry run;
   std::vector<NoiseSource> noise;
   std::vector<GrossRow> gross;  ///< rows that every fit leaves out
-  std::shared_ptr<const calibration::Assembly> base;
+  std::shared_ptr<const assembly::Assembly> base;
   std::vector<Curve> curves;
   Fit fit;  ///< of the base
   std::vector<Warning> warnings;

@@ -22,7 +22,7 @@ std::string four_digits(double value, const std::string& unit) {
 
 /// "stretch 1.25, measured 14 kPa": rows are counted from 0 behind `rows` and `where`, which is hard to find in a file.
 std::string place_of(const Evidence& evidence, const Curve& curve, std::size_t row) {
-  for (const calibration::ChannelView& view : evidence.base->channels())
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
     if (view.test == curve.test && view.observable == curve.channel)
       return fmt::format("{} {}, measured {}", view.abscissa_name, four_digits(view.abscissa[row], view.abscissa_unit),
                          four_digits(view.measured[row], view.unit));

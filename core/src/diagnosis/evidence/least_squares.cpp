@@ -16,8 +16,8 @@ constexpr double edge = 1e-9;      ///< of the unit box
 
 class Descent {
  public:
-  Descent(const calibration::Assembly& assembly, const std::vector<Variable>& variables, std::span<const double> start,
-          calibration::Assembly::Workspace& workspace, const DataVariant& data)
+  Descent(const assembly::Assembly& assembly, const std::vector<Variable>& variables, std::span<const double> start,
+          assembly::Workspace& workspace, const DataVariant& data)
       : assembly_(assembly),
         variables_(variables),
         workspace_(workspace),
@@ -25,7 +25,7 @@ class Descent {
         free_(start.begin(), start.end()),
         unit_(start.size()),
         x_(static_cast<Eigen::Index>(variables.size())) {
-    assembly.to_unit(free_, unit_);
+    assembly.box().to_unit(free_, unit_);
     for (std::size_t k = 0; k < variables.size(); ++k)
       x_[static_cast<Eigen::Index>(k)] = std::clamp(unit_[variables[k].front()], 0.0, 1.0);
     move_to(x_);
@@ -33,7 +33,7 @@ class Descent {
 
   Fit run(std::size_t max_evaluations) {
     Fit fit;
-    const bool secant = !assembly_.jacobian_is_exact();
+    const bool secant = !assembly_.layout().jacobian_is_exact;
     if (fit.status = evaluate(r_, &J_); !fit.status.ok()) return fit;
     double squares = r_.squaredNorm(), damping = 1e-4, growth = 2;
     bool fresh = true, shortened = false;
@@ -122,21 +122,21 @@ class Descent {
     for (std::size_t k = 0; k < variables_.size(); ++k) unit_[variables_[k].front()] = x[static_cast<Eigen::Index>(k)];
     std::vector<double>& mapped = mapped_;
     mapped.resize(unit_.size());
-    assembly_.from_unit(unit_, mapped);
+    assembly_.box().from_unit(unit_, mapped);
     for (const Variable& variable : variables_)
       for (const std::size_t member : variable) free_[member] = mapped[variable.front()];
   }
 
   /// d value/d unit coordinate of a variable where it is.
   [[nodiscard]] double slope(Eigen::Index k) const {
-    const auto& parameter = assembly_.parameters()[variables_[static_cast<std::size_t>(k)].front()];
+    const auto& parameter = assembly_.layout().parameters[variables_[static_cast<std::size_t>(k)].front()];
     const double value = free_[variables_[static_cast<std::size_t>(k)].front()];
     return parameter.scale == Scale::log ? value * std::log(parameter.max / parameter.min)
                                          : parameter.max - parameter.min;
   }
 
   Status evaluate(Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-    evaluations_ += J != nullptr && !assembly_.jacobian_is_exact() ? 2 : 1;
+    evaluations_ += J != nullptr && !assembly_.layout().jacobian_is_exact ? 2 : 1;
     Eigen::MatrixXd all;
     Status status = whitened(assembly_, free_, workspace_, r, J ? &all : nullptr);
     if (!status.ok()) return status;
@@ -158,9 +158,9 @@ class Descent {
     return status;
   }
 
-  const calibration::Assembly& assembly_;
+  const assembly::Assembly& assembly_;
   const std::vector<Variable>& variables_;
-  calibration::Assembly::Workspace& workspace_;
+  assembly::Workspace& workspace_;
   const DataVariant data_;
   std::vector<double> free_, unit_, mapped_;
   Eigen::VectorXd x_, r_;
@@ -171,29 +171,29 @@ class Descent {
 
 }  // namespace
 
-Status whitened(const calibration::Assembly& assembly, std::span<const double> free,
-                calibration::Assembly::Workspace& workspace, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
-  const auto rows = static_cast<Eigen::Index>(assembly.residual_count());
+Status whitened(const assembly::Assembly& assembly, std::span<const double> free, assembly::Workspace& workspace,
+                Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
+  const auto rows = static_cast<Eigen::Index>(assembly.layout().residual_count);
   const auto columns = static_cast<Eigen::Index>(free.size());
   residuals.resize(rows);
   double objective = 0;
   RowMajor J;
   if (jacobian) J.resize(rows, columns);
-  Status status = assembly.evaluate(free, objective, {}, {residuals.data(), static_cast<std::size_t>(rows)},
-                                    {J.data(), static_cast<std::size_t>(J.size())}, workspace);
+  Status status = assembly.evaluator().evaluate(free, objective, {}, {residuals.data(), static_cast<std::size_t>(rows)},
+                                                {J.data(), static_cast<std::size_t>(J.size())}, workspace);
   if (status.ok() && jacobian) *jacobian = J;
   return status;
 }
 
-Fit least_squares(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
-                  std::span<const double> start, calibration::Assembly::Workspace& workspace,
-                  std::size_t max_evaluations, const DataVariant& data) {
+Fit least_squares(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
+                  std::span<const double> start, assembly::Workspace& workspace, std::size_t max_evaluations,
+                  const DataVariant& data) {
   return Descent(assembly, variables, start, workspace, data).run(max_evaluations);
 }
 
-std::vector<Variable> all_variables(const calibration::Assembly& assembly) {
+std::vector<Variable> all_variables(const assembly::Assembly& assembly) {
   std::vector<Variable> variables;
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) variables.push_back({j});
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) variables.push_back({j});
   return variables;
 }
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "tunica/status.hpp"
 
 namespace tunica::diagnosis {
@@ -38,16 +38,16 @@ struct DataVariant {
 ///
 /// Why not an optimiser plugin: a diagnosis makes hundreds of fits of a few milliseconds with variables tied and others
 /// held, and one Jacobian of a model with history costs as much as twenty evaluations.
-Fit least_squares(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
-                  std::span<const double> start, calibration::Assembly::Workspace& workspace,
-                  std::size_t max_evaluations = 60, const DataVariant& data = {});
+Fit least_squares(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
+                  std::span<const double> start, assembly::Workspace& workspace, std::size_t max_evaluations = 60,
+                  const DataVariant& data = {});
 
 /// Residuals, and unless `jacobian` is null the Jacobian by all free parameters in base units.
-Status whitened(const calibration::Assembly& assembly, std::span<const double> free,
-                calibration::Assembly::Workspace& workspace, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian);
+Status whitened(const assembly::Assembly& assembly, std::span<const double> free, assembly::Workspace& workspace,
+                Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian);
 
 /// Every free parameter by itself.
-std::vector<Variable> all_variables(const calibration::Assembly& assembly);
+std::vector<Variable> all_variables(const assembly::Assembly& assembly);
 
 /// The Jacobian of a fit without the variables that lie at a bound.
 Eigen::MatrixXd interior(const Fit& fit);

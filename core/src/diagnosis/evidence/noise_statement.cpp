@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "calibration/noise.hpp"
+#include "assembly/noise.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -100,7 +100,7 @@ NoiseSource from_differences(const data::Channel& channel, const data::Dataset& 
   else
     for (std::size_t i = 0; i < dataset.count; ++i) abscissa.push_back(static_cast<double>(i));
   std::vector<std::string> warnings;
-  const auto model = calibration::noise_model(channel, abscissa, fitted, where, warnings);
+  const auto model = assembly::noise_model(channel, abscissa, fitted, where, warnings);
   NoiseSource source;
   source.kind = NoiseSource::Kind::differences;
   source.noise.absolute = model.sd.front();
@@ -155,7 +155,7 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
     // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
     const std::vector<bool> fitted =
-        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : calibration::fitted_rows(entry, dataset.count);
+        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset.count);
     Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;
@@ -201,12 +201,12 @@ experiment::Experiment with_noise(experiment::Experiment experiment, const std::
   return experiment;
 }
 
-std::vector<double> row_deviations(const calibration::ChannelView& view) {
+std::vector<double> row_deviations(const assembly::MeasuredChannel& view) {
   data::Noise noise = view.noise.value();
   noise.gross.clear();
   std::vector<std::string> warnings;
-  return calibration::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
-                                  view.test, warnings)
+  return assembly::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
+                               view.test, warnings)
       .sd;
 }
 

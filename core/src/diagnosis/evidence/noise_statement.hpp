@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "diagnosis/result.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
@@ -40,6 +40,6 @@ experiment::Experiment with_noise(experiment::Experiment experiment, const std::
 
 /// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
 /// that of their neighbours, and not the one that silences them.
-std::vector<double> row_deviations(const calibration::ChannelView& view);
+std::vector<double> row_deviations(const assembly::MeasuredChannel& view);
 
 }  // namespace tunica::diagnosis

@@ -100,17 +100,17 @@ Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) 
   prepared.warnings = std::move(weightless.warnings);
   prepared.noise = noise_sources(weightless.experiment, run.tests, inquiry.catalogue, gross);
   prepared.experiment = without_rows(with_noise(std::move(weightless.experiment), run.tests, prepared.noise), gross);
-  prepared.base = std::make_shared<const calibration::Assembly>(prepared.experiment, run, inquiry.catalogue);
+  prepared.base = std::make_shared<const assembly::Assembly>(prepared.experiment, run, inquiry.catalogue);
   prepared.curves = curves_of(*prepared.base, prepared.noise);
   if (prepared.curves.empty())
     throw InputError(
         "diagnosis: every test is held out, which leaves nothing to diagnose. Set hold_out to false in "
         "at least one test");
-  if (prepared.base->parameters().size() >= prepared.base->residual_count())
+  if (prepared.base->layout().parameters.size() >= prepared.base->layout().residual_count)
     throw InputError(
         fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to test the model with. Fix "
                     "parameters or give more rows",
-                    prepared.base->parameters().size(), prepared.base->residual_count()));
+                    prepared.base->layout().parameters.size(), prepared.base->layout().residual_count));
 
   if (auto warning = constraints_warning(fitted)) prepared.warnings.push_back(std::move(*warning));
   for (const auto& test : prepared.experiment.tests)

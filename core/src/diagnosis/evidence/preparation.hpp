@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "diagnosis/evidence/curves.hpp"
 #include "diagnosis/request.hpp"
 #include "diagnosis/result.hpp"
@@ -18,7 +18,7 @@ struct Preparation {
   experiment::Experiment experiment;
   experiment::RunEntry run;
   std::vector<NoiseSource> noise;
-  std::shared_ptr<const calibration::Assembly> base;
+  std::shared_ptr<const assembly::Assembly> base;
   std::vector<Curve> curves;
   std::vector<Warning> warnings;
 };

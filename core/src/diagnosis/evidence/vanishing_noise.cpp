@@ -37,7 +37,7 @@ std::string carried(const Curve& curve, const std::vector<double>& sd, const Eig
 std::optional<Warning> vanishing_noise_warning(const Evidence& evidence) {
   std::vector<std::string> found;
   std::size_t c = 0;
-  for (const calibration::ChannelView& view : evidence.base->channels()) {
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
     if (c >= evidence.curves.size() || evidence.curves[c].test != view.test ||
         evidence.curves[c].channel != view.observable)
       continue;

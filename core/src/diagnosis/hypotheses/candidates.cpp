@@ -117,8 +117,8 @@ class CandidateSearch {
   void add(const MechanismFactory& mechanism, const Addition& first,
            const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
     const Extension extended(experiment_, run_of(first.place), {first}, catalogue_);
-    const calibration::Assembly& assembly = extended.assembly();
-    const auto workspace = assembly.make_workspace();
+    const assembly::Assembly& assembly = extended.assembly();
+    const auto workspace = assembly.evaluator().make_workspace();
     const Extension::Part& part = extended.parts().front();
     const std::vector<double> at_null = extended.at_null(fitted_in(extended));
     Eigen::VectorXd bare;
@@ -129,8 +129,9 @@ class CandidateSearch {
         for (const auto& [name, value] : settings[s])
           if (name == mechanism.parameters[k + 1].name)
             for (const std::size_t member : part.nuisance[k])
-              null[member] = std::clamp(value, assembly.parameters()[member].min, assembly.parameters()[member].max);
-      const bool exact = assembly.jacobian_is_exact();
+              null[member] =
+                  std::clamp(value, assembly.layout().parameters[member].min, assembly.layout().parameters[member].max);
+      const bool exact = assembly.layout().jacobian_is_exact;
       // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
       if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
       for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
@@ -161,20 +162,21 @@ class CandidateSearch {
     std::vector<double> values;
     for (const std::size_t j : extended.base())
       for (std::size_t k = 0; k < fitted_.size(); ++k)
-        if (base_.parameters()[k].name == extended.assembly().parameters()[j].name) values.push_back(fitted_[k]);
+        if (base_.layout().parameters[k].name == extended.assembly().layout().parameters[j].name)
+          values.push_back(fitted_[k]);
     return values;
   }
 
   /// Residual rows of some tests among those of all.
-  [[nodiscard]] Eigen::VectorXd embedded(const Eigen::VectorXd& rows, const calibration::Assembly& from) const {
-    const auto fitted = [](const calibration::ChannelView& view) {
+  [[nodiscard]] Eigen::VectorXd embedded(const Eigen::VectorXd& rows, const assembly::Assembly& from) const {
+    const auto fitted = [](const assembly::MeasuredChannel& view) {
       return static_cast<Eigen::Index>(std::count(view.fitted.begin(), view.fitted.end(), true));
     };
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(base_.residual_count()));
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(base_.layout().residual_count));
     Eigen::Index at = 0;
-    for (const calibration::ChannelView& view : from.channels()) {
+    for (const assembly::MeasuredChannel& view : from.channels()) {
       Eigen::Index into = 0;
-      for (const calibration::ChannelView& own : base_.channels()) {
+      for (const assembly::MeasuredChannel& own : base_.layout().channels) {
         if (own.test == view.test && own.observable == view.observable)
           all.segment(into, fitted(own)) = rows.segment(at, fitted(own));
         into += fitted(own);
@@ -187,8 +189,7 @@ class CandidateSearch {
   /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
   /// tangent: then it is one more place to look at.
   void add_secant(const Extension& extended, const Hypothesis& tangent, double sign, const std::vector<double>& null,
-                  const Eigen::VectorXd& bare, calibration::Assembly::Workspace& workspace,
-                  std::vector<Hypothesis>& into) const {
+                  const Eigen::VectorXd& bare, assembly::Workspace& workspace, std::vector<Hypothesis>& into) const {
     const MechanismFactory& mechanism = *tangent.mechanism;
     if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
     // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.
@@ -213,7 +214,7 @@ class CandidateSearch {
 
   const Experiment& experiment_;
   const RunEntry& run_;
-  const calibration::Assembly& base_;
+  const assembly::Assembly& base_;
   std::span<const double> fitted_;
   const Projection& projection_;
   const plugins::Catalogue& catalogue_;

@@ -30,8 +30,8 @@ auto& entry_named(Entries& entries, const std::string& name) {
   return *std::find_if(entries.begin(), entries.end(), [&name](const auto& entry) { return entry.name == name; });
 }
 
-std::optional<std::size_t> index_of(const calibration::Assembly& assembly, const std::string& name) {
-  const auto& parameters = assembly.parameters();
+std::optional<std::size_t> index_of(const assembly::Assembly& assembly, const std::string& name) {
+  const auto& parameters = assembly.layout().parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j)
     if (parameters[j].name == name) return j;
   return std::nullopt;
@@ -51,9 +51,9 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
     for (const std::string& test : addition.place.tests)
       entry_named(experiment_.tests, test).mechanisms.push_back(entry_of(addition, mechanism));
   }
-  assembly_ = std::make_unique<calibration::Assembly>(experiment_, run, catalogue);
+  assembly_ = std::make_unique<assembly::Assembly>(experiment_, run, catalogue);
 
-  std::vector<bool> added(assembly_->parameters().size(), false);
+  std::vector<bool> added(assembly_->layout().parameters.size(), false);
   for (const Addition& addition : additions_) {
     const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
     Part part{{}, {}, {}, mechanism.null};
@@ -75,7 +75,7 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
         part.amplitude = std::move(variable);
         continue;
       }
-      double start = assembly_->parameters()[variable.front()].initial;
+      double start = assembly_->layout().parameters[variable.front()].initial;
       for (const auto& [name, value] : addition.setting)
         if (name == mechanism.parameters[k].name) start = value;
       part.nuisance.push_back(std::move(variable));
@@ -88,13 +88,13 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
 }
 
 std::vector<double> Extension::at_null(std::span<const double> base) const {
-  std::vector<double> free(assembly_->parameters().size());
+  std::vector<double> free(assembly_->layout().parameters.size());
   for (std::size_t j = 0; j < base_.size(); ++j) free[base_[j]] = base[j];
   for (const Part& part : parts_) {
     for (const std::size_t member : part.amplitude) free[member] = part.null;
     for (std::size_t k = 0; k < part.nuisance.size(); ++k)
       for (const std::size_t member : part.nuisance[k]) {
-        const auto& parameter = assembly_->parameters()[member];
+        const auto& parameter = assembly_->layout().parameters[member];
         free[member] = std::clamp(part.nuisance_start[k], parameter.min, parameter.max);
       }
   }

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "diagnosis/evidence/least_squares.hpp"
 #include "diagnosis/hypotheses/hypothesis.hpp"
 #include "plugins/catalogue.hpp"
@@ -26,7 +26,7 @@ class Extension {
     std::vector<double> nuisance_start;
     double null;
   };
-  [[nodiscard]] const calibration::Assembly& assembly() const { return *assembly_; }
+  [[nodiscard]] const assembly::Assembly& assembly() const { return *assembly_; }
   [[nodiscard]] const experiment::Experiment& experiment() const { return experiment_; }
   [[nodiscard]] const std::vector<Addition>& additions() const { return additions_; }
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }       ///< one an addition
@@ -39,7 +39,7 @@ class Extension {
  private:
   experiment::Experiment experiment_;
   std::vector<Addition> additions_;
-  std::unique_ptr<calibration::Assembly> assembly_;
+  std::unique_ptr<assembly::Assembly> assembly_;
   std::vector<std::size_t> base_;
   std::vector<Part> parts_;
 };

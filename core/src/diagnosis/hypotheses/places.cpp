@@ -55,7 +55,7 @@ std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& m
 }
 
 std::vector<Place> single_places(const MechanismFactory& mechanism, const Experiment& experiment, const RunEntry& run,
-                                 const calibration::Assembly& base) {
+                                 const assembly::Assembly& base) {
   std::vector<Place> places;
   for (const std::string& name : run.tests) {
     const auto& entry = experiment.test(name);
@@ -66,17 +66,17 @@ std::vector<Place> single_places(const MechanismFactory& mechanism, const Experi
       places.push_back({{name}});
       continue;
     }
-    for (const calibration::ChannelView& view : base.channels())
+    for (const assembly::MeasuredChannel& view : base.layout().channels)
       if (view.test == name && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
         places.push_back({{name}, view.observable});
   }
   return places;
 }
 
-std::pair<double, double> plausible_range(const calibration::Assembly& base, const MechanismFactory& mechanism,
+std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
                                           const Place& place) {
   if (place.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
-  for (const calibration::ChannelView& view : base.channels())
+  for (const assembly::MeasuredChannel& view : base.layout().channels)
     if (view.test == place.tests.front() && view.observable == place.channel) {
       const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
       return {*low - *high, *high - *low};
@@ -84,19 +84,19 @@ std::pair<double, double> plausible_range(const calibration::Assembly& base, con
   return {-INFINITY, INFINITY};
 }
 
-void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into) {
-  const std::size_t rows = base.residual_count(), predictions = base.prediction_count();
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {
+  const std::size_t rows = base.layout().residual_count, predictions = base.layout().prediction_count;
   std::vector<double> unit(rows, 0.0), map(predictions);
   // Row k of the whitening, read off its transpose.
   std::vector<std::vector<std::pair<std::size_t, double>>> columns(predictions);
   for (std::size_t k = 0; k < rows; ++k) {
     unit[k] = 1;
-    base.transpose_residuals(unit, map);
+    base.evaluator().transpose_residuals(unit, map);
     unit[k] = 0;
     for (std::size_t i = 0; i < predictions; ++i)
       if (map[i] != 0) columns[i].emplace_back(k, map[i]);
   }
-  for (const calibration::ChannelView& view : base.channels()) {
+  for (const assembly::MeasuredChannel& view : base.layout().channels) {
     if (view.test != whole.addition.place.tests.front() || view.observable != whole.addition.place.channel) continue;
     for (std::size_t i = 0; i < view.count; ++i) {
       if (!view.fitted[i]) continue;

@@ -27,14 +27,14 @@ std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& m
 
 /// Tests and channels, one by one, where the mechanism may act; nothing for one that acts on the model.
 std::vector<Place> single_places(const MechanismFactory& mechanism, const experiment::Experiment& experiment,
-                                 const experiment::RunEntry& run, const calibration::Assembly& base);
+                                 const experiment::RunEntry& run, const assembly::Assembly& base);
 
 /// Plausible amplitudes: as declared; of a mechanism that acts on a channel, whose unit it cannot know, what the
 /// channel spans.
-std::pair<double, double> plausible_range(const calibration::Assembly& base, const MechanismFactory& mechanism,
+std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
                                           const Place& place);
 
 /// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
-void add_rows(const Hypothesis& whole, const calibration::Assembly& base, std::vector<Hypothesis>& into);
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into);
 
 }  // namespace tunica::diagnosis

@@ -8,7 +8,7 @@ namespace tunica::diagnosis {
 
 std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& mechanism,
                              const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
-                             calibration::Assembly::Workspace& workspace, bool quick) {
+                             assembly::Workspace& workspace, bool quick) {
   using Side = MechanismFactory::Side;
   const Extension::Part& part = extended.parts().front();
   const double reach = std::max(mechanism.plausible_max - mechanism.null, mechanism.null - mechanism.plausible_min);
@@ -41,7 +41,7 @@ std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& 
   }
   const double sign = mechanism.plausible_max > mechanism.null ? 1 : -1;
   Eigen::VectorXd exact = Eigen::VectorXd::Zero(bare.size());
-  if (extended.assembly().jacobian_is_exact()) {
+  if (extended.assembly().layout().jacobian_is_exact) {
     for (const std::size_t member : part.amplitude) exact += J.col(static_cast<Eigen::Index>(member));
     if (mechanism.side == Side::positive) return {{sign * exact, mechanism.side, sign}};
     if (mechanism.native.empty()) return {{exact, mechanism.side}};

@@ -22,6 +22,6 @@ struct Slope {
 /// what changes the residuals by no more than a tenth of σ in all: good to 1e-6.
 std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& mechanism,
                              const std::vector<double>& null, const Eigen::VectorXd& bare, const Eigen::MatrixXd& J,
-                             calibration::Assembly::Workspace& workspace, bool quick);
+                             assembly::Workspace& workspace, bool quick);
 
 }  // namespace tunica::diagnosis

@@ -19,13 +19,13 @@ namespace {
 
 constexpr double as_good = 6;  ///< of |r|², and of 2 ln w
 
-Admissibility admissibility_at(const calibration::Assembly& assembly, std::span<const double> free) {
+Admissibility admissibility_at(const assembly::Assembly& assembly, std::span<const double> free) {
   Admissibility found;
   std::vector<std::string> lost;  // what and where
   bool all = true;
-  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-    const auto verdict = stability::judge_admissibility(assembly.model(m), assembly.model_parameters(m, free),
-                                                        comparison::domain_of(assembly, m));
+  for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+    const auto verdict = stability::judge_admissibility(
+        assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
     const bool elliptic = !verdict.ellipticity.first_lost;
     if (transverse == false)

@@ -42,14 +42,14 @@ Amplitude estimate(const Refit& refit, std::size_t variable, const std::string& 
   const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
   const std::size_t index = refit.extension->variables()[variable].front();
   const double value = refit.fit.free[index], half = quantile * sd;
-  return {name,         refit.extension->assembly().parameters()[index].unit,
+  return {name,         refit.extension->assembly().layout().parameters[index].unit,
           value,        value - half,
           value + half, refit.fit.at_bound[variable]};
 }
 
 /// Whether it is plausible, and the interval no further than the parameter may go; a mechanism of one side not beyond
 /// its null.
-Amplitude bounded(Amplitude amplitude, const MechanismFactory& mechanism, const calibration::FreeParameter& parameter,
+Amplitude bounded(Amplitude amplitude, const MechanismFactory& mechanism, const assembly::FreeParameter& parameter,
                   const std::pair<double, double>& plausible) {
   // An amplitude at its null is no bound to worry about; beyond what is plausible by more than its uncertainty is.
   amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
@@ -93,7 +93,7 @@ Cause cause_of(const Inquiry& inquiry, const Analysis& analysis, const Refit& re
   const std::vector<double> sd = deviations(refit.fit);
   std::size_t at = extension.base().size();
   for (std::size_t k = 0; k < which; ++k) at += 1 + extension.parts()[k].nuisance.size();
-  const auto& parameter = extension.assembly().parameters()[extension.variables()[at].front()];
+  const auto& parameter = extension.assembly().layout().parameters[extension.variables()[at].front()];
 
   Cause cause;
   cause.id = addition.id;
@@ -105,7 +105,7 @@ Cause cause_of(const Inquiry& inquiry, const Analysis& analysis, const Refit& re
   for (std::size_t k = 1; k <= extension.parts()[which].nuisance.size(); ++k)
     cause.nuisance.push_back(estimate(refit, at + k, mechanism.parameters[k].name, sd[at + k]));
   for (std::size_t j = 0; j < extension.base().size(); ++j) {
-    const auto& own = evidence.base->parameters()[j];
+    const auto& own = evidence.base->layout().parameters[j];
     cause.shifts.push_back({own.name, own.unit, evidence.fit.free[j], refit.fit.free[extension.base()[j]]});
   }
   cause.explanation = explanation_of(cause, mechanism);

@@ -26,10 +26,11 @@ struct RowDeviation {
 };
 
 std::optional<RowDeviation> deviation_of(const Refit& refit, const GrossRow& row) {
-  const calibration::Assembly& assembly = refit.extension->assembly();
-  std::vector<double> predicted(assembly.prediction_count());
-  if (!assembly.predict(refit.fit.free, predicted, {}, *assembly.make_workspace()).ok()) return std::nullopt;
-  for (const calibration::ChannelView& view : assembly.channels()) {
+  const assembly::Assembly& assembly = refit.extension->assembly();
+  std::vector<double> predicted(assembly.layout().prediction_count);
+  if (!assembly.evaluator().predict(refit.fit.free, predicted, {}, *assembly.evaluator().make_workspace()).ok())
+    return std::nullopt;
+  for (const assembly::MeasuredChannel& view : assembly.layout().channels) {
     if (view.test != row.test || view.observable != row.channel) continue;
     const auto before = static_cast<std::size_t>(
         std::count(view.fitted.begin(), view.fitted.begin() + static_cast<std::ptrdiff_t>(row.row), true));

@@ -23,8 +23,8 @@ std::vector<std::vector<double>> simulated_refits(const Inquiry& inquiry, const 
   const std::vector<Variable> variables = refit.extension->variables();
   std::vector<std::vector<double>> found(interval_draws);
   tbb::parallel_for(std::size_t{0}, interval_draws, [&](std::size_t b) {
-    const calibration::Assembly& assembly = refit.extension->assembly();
-    const auto workspace = assembly.make_workspace();
+    const assembly::Assembly& assembly = refit.extension->assembly();
+    const auto workspace = assembly.evaluator().make_workspace();
     const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - refit.fit.residuals;
     const Fit fit = least_squares(assembly, variables, refit.fit.free, *workspace, 40, {&added, nullptr});
     if (fit.status.ok()) found[b] = fit.free;

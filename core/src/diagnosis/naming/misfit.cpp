@@ -42,7 +42,7 @@ Misfit described(const Evidence& evidence, const Curve& curve, const Eigen::Vect
   const auto end = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1;
   const auto [from, to] = std::minmax_element(begin, end);
   std::string name = "row", unit;
-  for (const auto& view : evidence.base->channels())
+  for (const auto& view : evidence.base->layout().channels)
     if (view.test == curve.test && view.observable == curve.channel) {
       name = view.abscissa_name;
       unit = view.abscissa_unit;

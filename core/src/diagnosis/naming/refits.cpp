@@ -30,8 +30,8 @@ const Hypothesis* hypothesis_of(const Hypotheses& hypotheses, const Addition& ad
 }
 
 /// The values of a smaller refit in the place of parameters of the same name.
-void take_over(const Refit& from, const calibration::Assembly& onto, std::vector<double>& start) {
-  const auto& names = from.extension->assembly().parameters();
+void take_over(const Refit& from, const assembly::Assembly& onto, std::vector<double>& start) {
+  const auto& names = from.extension->assembly().layout().parameters;
   const auto& parameters = onto.parameters();
   for (std::size_t j = 0; j < parameters.size(); ++j)
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -54,8 +54,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     return std::nullopt;
   }
   const Extension& extended = *refit.extension;
-  const auto& parameters = extended.assembly().parameters();
-  const auto workspace = extended.assembly().make_workspace();
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
   const std::vector<Variable> variables = extended.variables();
 
   // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
@@ -98,7 +98,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     if (found && quick && refit.fit.chi2 < evidence.fit.chi2) break;
     std::vector<double> base = evidence.fit.free;
     for (std::size_t j = 0; j < base.size(); ++j) {
-      const auto& parameter = evidence.base->parameters()[j];
+      const auto& parameter = evidence.base->layout().parameters[j];
       double step = share * shift[static_cast<Eigen::Index>(j)] / lengths[j];
       if (parameter.scale == Scale::log)  // as far as the straight line can be believed
         base[j] *= std::exp(std::clamp(step / base[j], -1.0, 1.0));
@@ -132,14 +132,14 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
   const Evidence& evidence = analysis.evidence;
   if (!at_a_bound(evidence.fit)) return refit;
   const Extension& extended = *refit.extension;
-  const auto& parameters = extended.assembly().parameters();
-  const auto workspace = extended.assembly().make_workspace();
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
   boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   for (std::size_t k = 0; k < (inquiry.request.quick ? quick_starts : full_starts); ++k) {
-    std::vector<double> unit(evidence.base->parameters().size()), base(unit.size());
+    std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
     for (double& x : unit) x = uniform(generator);
-    evidence.base->from_unit(unit, base);
+    evidence.base->box().from_unit(unit, base);
     std::vector<double> start = extended.at_null(base);
     for (const Extension::Part& part : extended.parts()) {
       const double share = uniform(generator);

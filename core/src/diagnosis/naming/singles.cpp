@@ -15,9 +15,9 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-constexpr std::size_t quick_refits = 10;   ///< candidates
+constexpr std::size_t quick_refits = 10;           ///< candidates
 constexpr std::size_t singles_searched_again = 6;  ///< refits, the best
-constexpr double quick_reach = 9;          ///< of ln w, beyond the first four
+constexpr double quick_reach = 9;                  ///< of ln w, beyond the first four
 
 double log_side(Side side, double T) {
   return side == Side::both ? 0 : std::log(std::erfc(-std::sqrt(std::max(T, 0.0) / 2)));

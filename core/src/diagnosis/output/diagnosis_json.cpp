@@ -177,11 +177,11 @@ json noise_json(const std::vector<NoiseSource>& sources) {
 
 json base_json(const Evidence& evidence) {
   json parameters = json::object();
-  for (std::size_t j = 0; j < evidence.base->parameters().size(); ++j) {
-    const auto& parameter = evidence.base->parameters()[j];
+  for (std::size_t j = 0; j < evidence.base->layout().parameters.size(); ++j) {
+    const auto& parameter = evidence.base->layout().parameters[j];
     parameters[parameter.name] = {{"value", evidence.fit.free[j]}, {"unit", parameter.unit}};
   }
-  return {{"model", evidence.base->model_name(0)},
+  return {{"model", evidence.base->models().name(0)},
           {"parameters", std::move(parameters)},
           {"squares", evidence.fit.chi2},
           {"rows", evidence.fit.residuals.size()}};
@@ -302,7 +302,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
       {"runs", json::array()},
       {"diagnosis", diagnosis_json(d)},
       {"provenance", comparison::provenance_json(comparison::provenance_of(experiment, {plugins.begin(), plugins.end()},
-                                                                           evidence.base->data_hashes()))}};
+                                                                           evidence.base->layout().data_hashes))}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

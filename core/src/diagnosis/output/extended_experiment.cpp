@@ -114,8 +114,8 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
           setting->share = addition.id + "_" + parameter.name;
   }
   add_gross_rows(experiment, d.explanation.left_out, catalogue);
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
-    const std::string& name = assembly.parameters()[j].name;
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
+    const std::string& name = assembly.layout().parameters[j].name;
     if (auto* setting = setting_of(experiment, models, name))
       setting->initial = best.fit.free[j];
     else

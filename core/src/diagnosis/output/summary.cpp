@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "comparison/text.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -209,7 +209,7 @@ std::string summary(const Diagnosis& d) {
   const bool wrong = explanation.verdict != Verdict::nothing_detected;
   std::vector<std::string> lines;
   const auto line = [&lines](const char* lead, const std::string& text) {
-    if (!text.empty()) lines.push_back(comparison::hanging(lead, text));
+    if (!text.empty()) lines.push_back(text::hanging(lead, text));
   };
   line("Verdict:  ", verdict_line(d));
   line("Alarm:    ", alarm_line(d.analysis));

@@ -25,7 +25,8 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
   std::vector<double> without = claim.best->fit.free;
   for (const std::size_t member : part.amplitude) without[member] = part.null;
   Eigen::VectorXd residuals;
-  if (!whitened(extension.assembly(), without, *extension.assembly().make_workspace(), residuals, nullptr).ok())
+  if (!whitened(extension.assembly(), without, *extension.assembly().evaluator().make_workspace(), residuals, nullptr)
+           .ok())
     return nothing;
   return d.analysis.hypotheses.projection.off(claim.best->fit.residuals - residuals);
 }
@@ -33,10 +34,10 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
 std::string residual_table(const Diagnosis& d) {
   const Evidence& evidence = d.analysis.evidence;
   const Claim& claim = d.explanation.claim;
-  const auto predicted = [](const calibration::Assembly& assembly, std::span<const double> free) {
-    std::vector<double> values(assembly.prediction_count());
-    const auto workspace = assembly.make_workspace();
-    if (!assembly.predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
+  const auto predicted = [](const assembly::Assembly& assembly, std::span<const double> free) {
+    std::vector<double> values(assembly.layout().prediction_count);
+    const auto workspace = assembly.evaluator().make_workspace();
+    if (!assembly.evaluator().predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
     return values;
   };
   const std::vector<double> base = predicted(*evidence.base, evidence.fit.free);
@@ -50,7 +51,7 @@ std::string residual_table(const Diagnosis& d) {
   for (const Cause& cause : claim.causes) text += ",signature_" + cause.id;
   text += '\n';
   std::size_t c = 0;
-  for (const calibration::ChannelView& view : evidence.base->channels()) {
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
     if (c >= evidence.curves.size() || evidence.curves[c].test != view.test ||
         evidence.curves[c].channel != view.observable)
       continue;

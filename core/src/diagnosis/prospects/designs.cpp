@@ -74,7 +74,7 @@ double shortest_time(const Evidence& evidence, const plugins::Catalogue& catalog
 
 std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& catalogue) {
   std::vector<Plan> found;
-  const double reach = std::clamp(evidence.base->largest_stretch(), 1.15, 8.0);
+  const double reach = std::clamp(evidence.base->models().largest_stretch(), 1.15, 8.0);
   const auto strip = [&](std::string description, const char* direction, std::vector<double> stretch,
                          std::vector<double> time) -> Plan& {
     Plan plan{std::move(description), "uniaxial", {}, {{"stretch", std::move(stretch)}}, std::move(time), {"stress"}};
@@ -151,10 +151,10 @@ std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& cata
 
 bool predict(const Design& design, const Refit& rival, std::span<const double> free, std::vector<double>& values) {
   const auto& assembly = rival.extension->assembly();
-  const std::vector<double> parameters = assembly.model_parameters(0, free);
+  const std::vector<double> parameters = assembly.models().parameters(0, free);
   values.assign(design.test->rows().count * design.test->rows().channels.size(), 0.0);
   try {
-    return design.test->predict({assembly.model(0), parameters, design.parameters}, {values, {}, {}, {}}).ok();
+    return design.test->predict({assembly.models().model(0), parameters, design.parameters}, {values, {}, {}, {}}).ok();
   } catch (const std::exception&) {
     return false;
   }

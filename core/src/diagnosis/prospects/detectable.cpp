@@ -15,14 +15,14 @@ constexpr double identified_at = 5.41;  ///< 2 · 1.645²: one of two is preferr
 constexpr double equal_above = 0.999;
 
 /// How far a plausible amplitude may lie from its null, in the unit of what it acts on.
-double reach_of(const calibration::Assembly& base, const MechanismFactory& mechanism, const Place& place) {
+double reach_of(const assembly::Assembly& base, const MechanismFactory& mechanism, const Place& place) {
   const auto [low, high] = plausible_range(base, mechanism, place);
   return std::max(high - mechanism.null, mechanism.null - low);
 }
 
 /// Amplitudes of what acts on a channel have the channel's unit.
-std::string amplitude_unit(const calibration::Assembly& base, const MechanismFactory& mechanism, const Place& place) {
-  for (const calibration::ChannelView& view : base.channels())
+std::string amplitude_unit(const assembly::Assembly& base, const MechanismFactory& mechanism, const Place& place) {
+  for (const assembly::MeasuredChannel& view : base.layout().channels)
     if (!place.channel.empty() && view.test == place.tests.front() && view.observable == place.channel)
       return view.unit;
   return mechanism.parameters.front().unit;
@@ -30,7 +30,7 @@ std::string amplitude_unit(const calibration::Assembly& base, const MechanismFac
 
 /// Where the mechanism shows best at the null, by what its largest plausible amplitude would do; of its nuisance
 /// settings, whose scales may differ by orders of magnitude, the one in the middle. Null where it shows nowhere.
-const Direction* typical(const calibration::Assembly& base, const Hypotheses& hypotheses, std::size_t candidate) {
+const Direction* typical(const assembly::Assembly& base, const Hypotheses& hypotheses, std::size_t candidate) {
   struct Best {
     const Direction* direction;
     double effect;
@@ -58,7 +58,7 @@ const Direction* typical(const calibration::Assembly& base, const Hypotheses& hy
 }  // namespace
 
 std::vector<Detectable> detectable(const Inquiry& inquiry, const Analysis& analysis) {
-  const calibration::Assembly& base = *analysis.evidence.base;
+  const assembly::Assembly& base = *analysis.evidence.base;
   const Hypotheses& hypotheses = analysis.hypotheses;
   std::vector<Detectable> found;
   for (std::size_t c = 0; c < hypotheses.candidates.size(); ++c) {

@@ -17,9 +17,10 @@ std::optional<Warning> noise_difference(const Inquiry& inquiry, const Evidence& 
   experiment::Experiment experiment = best.extension->experiment();
   for (auto& test : experiment.tests)
     for (auto& [channel, noise] : test.data.noise) noise.level.clear();
-  const calibration::Assembly assembly(experiment, evidence.run, inquiry.catalogue);
+  const assembly::Assembly assembly(experiment, evidence.run, inquiry.catalogue);
   Eigen::VectorXd residuals;
-  if (!whitened(assembly, best.fit.free, *assembly.make_workspace(), residuals, nullptr).ok()) return std::nullopt;
+  if (!whitened(assembly, best.fit.free, *assembly.evaluator().make_workspace(), residuals, nullptr).ok())
+    return std::nullopt;
   constexpr double alike = 1e-3;
   const double run = residuals.squaredNorm();
   if (!(std::abs(run - best.fit.chi2) > alike * best.fit.chi2)) return std::nullopt;

@@ -34,7 +34,7 @@ std::vector<Block> blocks_of(const Evidence& evidence) {
           ++out;
         }
     // What is left must be able to determine the parameters.
-    if (out > 0 && rows - out > 2 * evidence.base->parameters().size()) blocks.push_back(std::move(block));
+    if (out > 0 && rows - out > 2 * evidence.base->layout().parameters.size()) blocks.push_back(std::move(block));
   };
   std::vector<std::string> tests;
   std::map<std::string, std::size_t> types;
@@ -66,9 +66,9 @@ struct Prediction {
   double chi2 = 0;  ///< |r|² of the rows that were fitted
 };
 
-Prediction prediction_of(const calibration::Assembly& assembly, const std::vector<Variable>& variables,
+Prediction prediction_of(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
                          std::span<const double> start, const std::vector<bool>& counted) {
-  const auto workspace = assembly.make_workspace();
+  const auto workspace = assembly.evaluator().make_workspace();
   const Fit fit = least_squares(assembly, variables, start, *workspace, 60, {nullptr, &counted});
   Prediction prediction;
   Eigen::MatrixXd all;

@@ -28,7 +28,7 @@ struct Coordinate {
 std::vector<Coordinate> coordinates(const Refit& model) {
   std::vector<Coordinate> found;
   for (const Variable& variable : model.extension->variables()) {
-    const auto& parameter = model.extension->assembly().parameters()[variable.front()];
+    const auto& parameter = model.extension->assembly().layout().parameters[variable.front()];
     Coordinate u{parameter.name, parameter.unit, model.fit.free[variable.front()]};
     u.logarithmic = parameter.scale == Scale::log;
     u.slope = u.logarithmic ? u.value : parameter.max - parameter.min;
@@ -44,7 +44,7 @@ std::optional<Eigen::MatrixXd> information(const Design& design, const Refit& mo
   std::vector<double> at, moved;
   if (!predict(design, model, model.fit.free, at)) return std::nullopt;
   const std::vector<Variable> variables = model.extension->variables();
-  const auto& parameters = model.extension->assembly().parameters();
+  const auto& parameters = model.extension->assembly().layout().parameters;
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), static_cast<Eigen::Index>(u.size()));
   for (std::size_t k = 0; k < u.size(); ++k) {
     double step = 1e-3;  // of u
