@@ -108,7 +108,7 @@ TEST_F(NativeInFiles, EachIsTheParameterOfTheTestAndFree) {
     const auto& bounds = with.layout().parameters.back();
     const auto own = assemble(file(is.test, fmt::format(R"("parameters": {{"{}": {{"min": {}, "max": {}}}}})",
                                                         is.native, bounds.min, bounds.max)));
-    EXPECT_EQ(own.parameters().back().name, fmt::format("a.{}", is.native));
+    EXPECT_EQ(own.layout().parameters.back().name, fmt::format("a.{}", is.native));
     expect_same_bits(predict(with, {is.value}), predict(own, {is.value}));
 
     const auto fixed = assemble(
