@@ -23,8 +23,8 @@ namespace tunica::app {
 namespace {
 
 namespace fs = std::filesystem;
-using text::hanging;
 using conformance::Finding;
+using text::hanging;
 using json = nlohmann::ordered_json;
 
 struct Asked {
@@ -117,7 +117,8 @@ json as_json(const Finding& finding) {
   json one{{"kind", finding.kind},         {"name", finding.name},        {"with", finding.with},
            {"property", finding.property}, {"outcome", outcome(finding)}, {"compared", verdict.compared}};
   // An error that is infinite is no number in JSON.
-  one["worst"] = verdict.worst, one["tolerance"] = verdict.tolerance;
+  one["worst"] = verdict.worst;
+  one["tolerance"] = verdict.tolerance;
   if (!verdict.counter_example.empty()) one["counter_example"] = verdict.counter_example;
   if (!verdict.skipped.empty()) one["reason"] = verdict.skipped;
   if (!verdict.note.empty()) one["note"] = verdict.note;
@@ -145,7 +146,10 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     if (!asked.as_json) table.add(one);
   });
   std::size_t failed = 0, skipped = 0;
-  for (const Finding& one : findings) failed += one.failed(), skipped += !one.verdict.skipped.empty();
+  for (const Finding& one : findings) {
+    failed += one.failed();
+    skipped += !one.verdict.skipped.empty();
+  }
   if (asked.as_json) {
     json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
     for (const Finding& one : findings) all["findings"].push_back(as_json(one));
@@ -162,8 +166,8 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     fmt::print("\n{}\n", hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
                                                  "follow from it, and check again with --only NAME; what each "
                                                  "property means is in docs/plugin-check.md.",
-                                                 text::counted(failed, "property failed", "properties failed") +
-                                                     ", " + checked)));
+                                                 text::counted(failed, "property failed", "properties failed") + ", " +
+                                                     checked)));
   return failed == 0 ? done : not_converged;
 }
 
