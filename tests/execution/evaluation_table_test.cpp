@@ -104,5 +104,5 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
   EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
   table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
   search::Replayed entry;
-  EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is no status"));
+  EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is not a status"));
 }

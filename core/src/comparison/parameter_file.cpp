@@ -66,7 +66,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
       values = from_result(values, model, chosen, file);
       origin = fmt::format("run '{}' of {}", chosen, file);
     } else if (!run.empty()) {
-      throw InputError(fmt::format("{}: is no result.json, so it has no run '{}'; leave out --run", file, run));
+      throw InputError(fmt::format("{}: is not a result.json, so it has no run '{}'; leave out --run", file, run));
     }
   } catch (const json::exception& problem) {
     throw InputError(

@@ -20,7 +20,7 @@ std::size_t row_number(const std::string& word, const std::string& text) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row);
   if (error != std::errc() || end != word.data() + word.size() || row == 0)
     throw InputError(
-        fmt::format("--fields {}: '{}' is no row; rows are counted from 1, for example tube:1,18,35", text, word));
+        fmt::format("--fields {}: '{}' is not a row; rows are counted from 1, for example tube:1,18,35", text, word));
   return row - 1;
 }
 
@@ -113,7 +113,7 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
   if (rows.empty() && count > 0) rows = {0, count / 2, count - 1};
   for (const std::size_t row : rows)
     if (row >= count)
-      throw InputError(fmt::format("--fields {}: there is no row {}; the test has {}", request.test, row + 1, count));
+      throw InputError(fmt::format("--fields {}: there is not a row {}; the test has {}", request.test, row + 1, count));
   std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 
