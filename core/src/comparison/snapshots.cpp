@@ -113,7 +113,7 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
   if (rows.empty() && count > 0) rows = {0, count / 2, count - 1};
   for (const std::size_t row : rows)
     if (row >= count)
-      throw InputError(fmt::format("--fields {}: there is not a row {}; the test has {}", request.test, row + 1, count));
+      throw InputError(fmt::format("--fields {}: there is no row {}; the test has {}", request.test, row + 1, count));
   std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 
