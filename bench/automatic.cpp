@@ -52,7 +52,10 @@ int main() {
       const assembly::Assembly assembly(experiment, run, catalogue);
       double value = 0;
       const double seconds = time_of(assembly, jacobian, value);
-      if (run.model == "gho") reference = seconds, expected = value;
+      if (run.model == "gho") {
+        reference = seconds;
+        expected = value;
+      }
       fmt::print("{:<12} {:<22} {:>7.2f} us   of_gho {:.2f}   sum differs by {:.1e}\n", run.model,
                  jacobian ? "objective and Jacobian" : "objective", seconds * 1e6, seconds / reference,
                  std::abs(value / expected - 1));

@@ -188,24 +188,34 @@ const std::vector<Refusal> refusals = {
      },
      {"'doubling.factor'", "shares 's' with 'a'", "is in 1 where that is in kPa"}},
     {"SharedBoundsDisjoint",
-     [](Bench& b) { b.parameter("a").share = "s", b.parameter("a").min = 6, b.parameter("c").share = "s"; },
+     [](Bench& b) {
+       b.parameter("a").share = "s";
+       b.parameter("a").min = 6;
+       b.parameter("c").share = "s";
+     },
      {"/models/m/parameters/c", "nothing in common with 6 … 10 of 'a'"}},
     {"SharedStartsDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").initial = 1;
-       b.parameter("c").share = "s", b.parameter("c").initial = 2;
+       b.parameter("a").share = "s";
+       b.parameter("a").initial = 1;
+       b.parameter("c").share = "s";
+       b.parameter("c").initial = 2;
      },
      {"another initial value than 'a'"}},
     {"SharedScalesDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").scale = Scale::linear;
-       b.parameter("b").share = "s", b.parameter("b").scale = Scale::log;
+       b.parameter("a").share = "s";
+       b.parameter("a").scale = Scale::linear;
+       b.parameter("b").share = "s";
+       b.parameter("b").scale = Scale::log;
      },
      {"another scale than 'a'"}},
     {"SharedPriorsDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").prior = {1, 1};
-       b.parameter("b").share = "s", b.parameter("b").prior = {1, 2};
+       b.parameter("a").share = "s";
+       b.parameter("a").prior = {1, 1};
+       b.parameter("b").share = "s";
+       b.parameter("b").prior = {1, 2};
      },
      {"a second, different prior", "'s'"}},
     {"ShareTakesAName",
@@ -215,7 +225,7 @@ const std::vector<Refusal> refusals = {
      [](Bench& b) {
        b.model().mechanisms = {{"cubic", {}, {}}, {"cubic", {}, {}}};
      },
-     {"model 'm'", "'cubic' stands there twice"}},
+     {"model 'm'", "'cubic' is listed twice"}},
     {"TestMechanismOnModel",
      [](Bench& b) {
        b.model().mechanisms = {{"offset", {}, {}}};
@@ -241,13 +251,15 @@ const std::vector<Refusal> refusals = {
     {"StabilityWithoutAStrip",
      [](Bench& b) {
        auto& constraint = b.run.constraints.emplace_back();
-       constraint.type = "transverse_stability", constraint.pointer = "/constraints/0";
+       constraint.type = "transverse_stability";
+       constraint.pointer = "/constraints/0";
      },
      {"/constraints/0", "no free strip", "\"range\": [1, 1.5]"}},
     {"NothingToBeAdmissible",
      [](Bench& b) {
        auto& constraint = b.run.constraints.emplace_back();
-       constraint.type = "admissible_parameters", constraint.pointer = "/constraints/0";
+       constraint.type = "admissible_parameters";
+       constraint.pointer = "/constraints/0";
      },
      {"/constraints/0", "'parabola' declares no inequality"}},
     {"HoldOutBeyondTheRows",

@@ -327,7 +327,8 @@ Bench::Bench(std::string model_type) {
   std::filesystem::create_directories(folder_);
   experiment.name = "fake";
   experiment.models.push_back({"m", std::move(model_type), {}, {}, {}});
-  run.model = "m", run.optimizer = "none";
+  run.model = "m";
+  run.optimizer = "none";
 }
 
 Bench::~Bench() {
@@ -348,7 +349,8 @@ experiment::TestEntry& Bench::add_test(const std::string& name, const std::vecto
   out << "x [1],y [kPa],z [kPa]\n";
   for (std::size_t i = 0; i < x.size(); ++i) out << fmt::format("{:.17g},{:.17g},{:.17g}\n", x[i], y[i], 10 * y[i]);
   experiment::TestEntry entry;
-  entry.name = name, entry.type = "curve";
+  entry.name = name;
+  entry.type = "curve";
   entry.data.files = {file};
   entry.data.columns = {{"x", "x"}, {"y", "y"}};
   if (second) entry.data.columns.emplace_back("z", "z");

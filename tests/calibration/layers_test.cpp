@@ -45,7 +45,8 @@ TEST_F(Layered, ParametersBeginWithTheNamesOfTheirModels) {
 }
 
 TEST_F(Layered, ARunNeedsNoModelOfItsOwnWhereEveryTestNamesSome) {
-  bench.run.tests = {"stack"}, bench.run.model = "";
+  bench.run.tests = {"stack"};
+  bench.run.model = "";
   EXPECT_THAT(names(bench.assemble()), ElementsAre("v.p", "v.q", "v.r", "m.a", "m.b", "m.c"));
   EXPECT_EQ(bench.experiment.model_name(bench.run), "v+m");
   stack().layers = {{"v", 1}, {"v", 2}};
@@ -74,7 +75,8 @@ TEST_F(Layered, TheJacobianAddsUpWhatLayersOfOneModelGive) {
   ASSERT_TRUE(assembly.evaluator().predict(at, values, jacobian, *workspace).ok());
   for (std::size_t j = 0; j < 7; ++j) {
     std::vector<double> up = at, down = at, above(5), below(5);
-    up[j] += 1e-5, down[j] -= 1e-5;
+    up[j] += 1e-5;
+    down[j] -= 1e-5;
     ASSERT_TRUE(assembly.evaluator().predict(up, above, {}, *workspace).ok() &&
                 assembly.evaluator().predict(down, below, {}, *workspace).ok());
     for (std::size_t i = 0; i < 5; ++i)
@@ -118,7 +120,8 @@ TEST_F(Layered, CombinationsSayWhoseTheyAre) {
 TEST_F(Layered, ConstraintsAreAskedOfTheModelsThatDeclareThem) {
   bench.model().type = "bordered";  // a − b ≥ −1
   experiment::ConstraintEntry constraint;
-  constraint.type = "admissible_parameters", constraint.pointer = "/constraints/0";
+  constraint.type = "admissible_parameters";
+  constraint.pointer = "/constraints/0";
   bench.run.constraints = {constraint};
   const Assembly assembly = bench.assemble();
   ASSERT_EQ(assembly.constraints().count(), 1u);

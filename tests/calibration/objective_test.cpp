@@ -85,7 +85,8 @@ TEST_P(Objective, HasTheJacobianOfItsResiduals) {
   const Evaluation e = evaluate(assembly, at);
   for (std::size_t j = 0; j < at.size(); ++j) {
     std::vector<double> up = at, down = at;
-    up[j] += 1e-4, down[j] -= 1e-4;
+    up[j] += 1e-4;
+    down[j] -= 1e-4;
     const Evaluation above = evaluate(assembly, up), below = evaluate(assembly, down);
     for (std::size_t i = 0; i < e.residuals.size(); ++i) {
       const double difference = (above.residuals[i] - below.residuals[i]) / 2e-4;
@@ -235,7 +236,7 @@ TEST(Noise, ThatMakesRowsAllButExactIsWarnedOf) {
   };
   const std::vector<bool> all(5, true), without_first{false, true, true, true, true};
   EXPECT_THAT(warnings_with({0, 0.1, 0}, all),
-              testing::ElementsAre(HasSubstr("takes 2 rows for all but exact, σ = 1e-06 ")));
+              testing::ElementsAre(HasSubstr("makes 2 rows almost exact: σ = 1e-06 ")));
   EXPECT_THAT(warnings_with({0, 0.1, 0}, without_first), testing::ElementsAre(HasSubstr("takes a row for all but")));
   EXPECT_TRUE(warnings_with({0.001, 0.1, 0}, all).empty());
   EXPECT_TRUE(warnings_with({0, 0.1, 0}, {false, false, true, true, true}).empty());

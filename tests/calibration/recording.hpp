@@ -38,7 +38,7 @@ struct Recording {
   }
   /// A journal of the first `count` lines.
   [[nodiscard]] search::Replay replay(std::size_t count) const {
-    return [lines = lines, count](std::uint64_t index, search::Replayed& entry) {
+    return [lines = lines, count](std::uint64_t index, search::JournalEntry& entry) {
       if (index >= count) return false;
       const Line& line = lines.at(index);
       entry = {line.parameters, line.per_test, line.objective,

@@ -34,7 +34,8 @@ class Resuming : public testing::Test {
   Recording record(const search::Replay& replay, double shift = 0) {
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.record = recording.recorder(), settings.replay = replay;
+    settings.record = recording.recorder();
+    settings.replay = replay;
     CalibrationProblem problem(assembly_ ? *assembly_ : assembly_.emplace(bench_.experiment, bench_.run, bench_.shelf),
                                settings);
     search(problem, shift);
@@ -93,13 +94,15 @@ TEST_F(Resuming, NumbersALaterStageOn) {
   const assembly::Assembly assembly = bench_.assemble();
   Recording recording;
   CalibrationProblem::Settings settings;
-  settings.record = recording.recorder(), settings.first_index = 40, settings.stop.max_evaluations = 5;
+  settings.record = recording.recorder();
+  settings.first_index = 40;
+  settings.stop.max_evaluations = 5;
   CalibrationProblem problem(assembly, settings);
   search(problem);
   EXPECT_EQ(recording.lines.front().index, 40u);
   EXPECT_EQ(recording.lines.back().index, 44u);
   EXPECT_GE(problem.best().index, 40u);
-  EXPECT_EQ(problem.stop_sentence(), "max_evaluations") << "the budget is the stage's own";
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::max_evaluations) << "the budget is the stage's own";
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ struct Lines {
       test.weights = {name[0] == 't' ? second_weight : 1.0};
       test.data.noise = {{"y", {absolute, relative, 0}}};
       for (std::size_t i = 0; i < count; ++i) {
-        abscissae.push_back(x[i]), measured.push_back(y[i]);
+        abscissae.push_back(x[i]);
+        measured.push_back(y[i]);
         sd.push_back(std::hypot(absolute, relative * y[i]));
         const double range = y.back() - y.front(), rows = static_cast<double>(count);
         const double scale =

@@ -71,7 +71,10 @@ class StartsOnALine : public testing::Test {
     const assembly::Assembly assembly = bench_.assemble();
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.stop = stop, settings.seed = 11, settings.record = recording.recorder(), settings.replay = replay;
+    settings.stop = stop;
+    settings.seed = 11;
+    settings.record = recording.recorder();
+    settings.replay = replay;
     CalibrationProblem problem(assembly, settings);
     wander(problem, 2);
     problem.for_each_start(20, [](std::size_t k, Problem& child) { wander(child, 5 + static_cast<int>(k % 4) * 5); });
@@ -85,7 +88,9 @@ class StartsOnALine : public testing::Test {
     const assembly::Assembly assembly = bench_.assemble();
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.stop = stop, settings.seed = 11, settings.record = recording.recorder();
+    settings.stop = stop;
+    settings.seed = 11;
+    settings.record = recording.recorder();
     CalibrationProblem problem(assembly, settings);
     wander(problem, 2);
     for (std::size_t k = 0; k < 20 && !problem.should_stop(); ++k) {
@@ -220,12 +225,14 @@ TEST_F(StartsOnALine, KeepAPrefixWhenInterrupted) {
   Recording recording;
   std::atomic<int> looks = 0;
   CalibrationProblem::Settings settings;
-  settings.stop = budget(100000), settings.seed = 11, settings.record = recording.recorder();
+  settings.stop = budget(100000);
+  settings.seed = 11;
+  settings.record = recording.recorder();
   settings.interrupted = [&] { return ++looks > 300; };
   CalibrationProblem problem(assembly, settings);
   wander(problem, 2);
   problem.for_each_start(20, [](std::size_t k, Problem& child) { wander(child, 5 + static_cast<int>(k % 4) * 5); });
-  EXPECT_EQ(problem.stop_sentence(), "interrupted");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::interrupted);
   ASSERT_LT(recording.lines.size(), whole.lines.size());
   EXPECT_TRUE(std::equal(recording.lines.begin(), recording.lines.end(), whole.lines.begin()));
   EXPECT_GT(recording.lines.size(), 10u);
@@ -236,7 +243,8 @@ TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
   const assembly::Assembly assembly = bench_.assemble();
   CalibrationProblem::Settings settings;
-  settings.stop = budget(most), settings.stop.target = 1e9;  // any point will do
+  settings.stop = budget(most);
+  settings.stop.target = 1e9;  // any point will do
   CalibrationProblem problem(assembly, settings);
   std::uint64_t wasted = 0;
   const std::size_t begun = problem.for_each_start(2, [&](std::size_t k, Problem& child) {
@@ -248,7 +256,7 @@ TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
     for (; !child.should_stop(); ++wasted) static_cast<void>(child.evaluate(fails, objective));
   });
   EXPECT_EQ(problem.evaluations(), 1u);
-  EXPECT_EQ(problem.stop_sentence(), "target");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::target);
   EXPECT_EQ(begun, 1u);
   EXPECT_LT(wasted, most);
 }

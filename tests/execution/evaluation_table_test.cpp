@@ -30,9 +30,9 @@ std::string row(const EvaluationTable& table, std::size_t run, const std::vector
   return fmt::to_string(buffer);
 }
 
-search::Replayed read(const EvaluationTable& table, std::string line, EvaluationTable::Row& parsed) {
+search::JournalEntry read(const EvaluationTable& table, std::string line, EvaluationTable::Row& parsed) {
   line.pop_back();
-  search::Replayed entry;
+  search::JournalEntry entry;
   table.parse(line, parsed);
   table.values(parsed, entry);
   return entry;
@@ -100,9 +100,9 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
     return trial::message_of<InputError>([&] { table.parse(line, parsed); });
   };
   EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 13"));
-  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is no run"));
+  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is not a run"));
   EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
   table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
-  search::Replayed entry;
+  search::JournalEntry entry;
   EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is not a status"));
 }

@@ -178,7 +178,7 @@ TEST(Runner, SharesTheBudgetBetweenStagesAndStartsFromTheBest) {
   std::string line;
   std::getline(stream, line);
   execution::EvaluationTable::Row row;
-  search::Replayed entry;
+  search::JournalEntry entry;
   double best = 1e300, first_of_second = 0;
   for (int id = 1; id <= 41; ++id) {
     std::getline(stream, line);

@@ -7,12 +7,12 @@
 
 using namespace tunica;
 using ::testing::HasSubstr;
-using uncertainty::Target;
+using uncertainty::RefitObjective;
 
 namespace {
 
-Target objective_of(const assembly::Assembly& assembly) {
-  Target target;
+RefitObjective objective_of(const assembly::Assembly& assembly) {
+  RefitObjective target;
   target.blocks = assembly.layout().blocks;
   target.residual_count = assembly.layout().residual_count;
   target.evaluate = [&assembly](std::span<const double> free, double& objective, std::span<double> residuals,
@@ -49,7 +49,10 @@ TEST(Refit, KeepsAHeldParameterToTheLastBitAndFitsTheOthers) {
       uncertainty::refit(assembly, objective_of(assembly), trial::local(), std::vector{held, 2.0}, 0, 1, *workspace);
   EXPECT_EQ(found.free[0], held);
   double xy = 0, xx = 0;
-  for (std::size_t i = 0; i < line.x.size(); ++i) xy += line.x[i] * (line.y[i] - held), xx += line.x[i] * line.x[i];
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    xy += line.x[i] * (line.y[i] - held);
+    xx += line.x[i] * line.x[i];
+  }
   EXPECT_NEAR(found.free[1], xy / xx, 1e-8);
 }
 

@@ -22,7 +22,7 @@ TEST(Remedy, NamesTheSheetThatSeesWhatTheStripsDoNot) {
   EXPECT_THAT(
       found.valleys[0].sentence,
       HasSubstr("A sheet or strip cut at 45 deg to the axes, with its shear measured, to stretch 1.6 would show "
-                "it best: its stresses change "));
+                "it best: relative to their largest value, its stresses change "));
 }
 
 TEST(Remedy, RecommendsNoTestThatSeesHardlyMoreThanThePresentOnes) {
@@ -34,12 +34,12 @@ TEST(Remedy, RecommendsNoTestThatSeesHardlyMoreThanThePresentOnes) {
     step.push_back(name == "mu" || name == "k1" ? 0.1 * strips.truth[j] : 0);
   }
   EXPECT_THAT(uncertainty::remedy_in_words(*strips.assembly, strips.truth, {step}),
-              StartsWith(" No test of a sheet in its plane to stretch 1.6 would see it 3 times as well. What would fix "
-                         "it is a value of one of them from elsewhere"));
+              StartsWith(" No in-plane test of a sheet to stretch 1.6 would see it 3 times as well. To fix "
+                         "it, take the value of one of them from elsewhere"));
 }
 
 TEST(Remedy, IsAGeneralOneWhereNoStretchIsKnown) {
   const trial::Line line;
   EXPECT_THAT(uncertainty::remedy_in_words(line.assemble(), std::vector{1.0, 2.0}, {{1, 0}}),
-              StartsWith(" What would fix it is"));
+              StartsWith(" To fix it, take "));
 }

@@ -39,8 +39,8 @@ void refuse_one_name_for_two(const std::vector<std::string>& models, const std::
   for (const std::string& model : models)
     if (std::find(tests.begin(), tests.end(), model) != tests.end())
       throw InputError(fmt::format(
-          "a model and a test are called '{}', and in a run with several models '{}.…' would be the name of "
-          "parameters of both; rename one of them",
+          "a model and a test are both called '{}'; in a run with several models '{}.…' would name parameters of both. "
+          "Rename one of them",
           model, model));
 }
 
@@ -71,14 +71,14 @@ std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
     const bool sign = p.min < 0 && p.declared.min >= 0;
     if (!sign && (p.scale == Scale::log || (p.declared.contains(p.min) && p.declared.contains(p.max)))) continue;
     warnings.push_back(
-        fmt::format("parameter '{}': its bounds {:g} … {:g}{} go beyond {:g} … {:g}, the range declared for it: values "
-                    "there may mean nothing",
+        fmt::format("parameter '{}': its bounds {:g} … {:g}{} go beyond {:g} … {:g}, the declared range; values "
+                    "outside may be meaningless",
                     p.name, p.min, p.max, unit(p.unit), p.declared.min, p.declared.max));
   }
   for (const FixedParameter& p : fixed)
     if (p.value != 0 && !p.declared.contains(p.value))  // 0 switches a part of a model off
-      warnings.push_back(fmt::format("parameter '{}': held at {:g}{}, outside {:g} … {:g}, the range declared for it",
-                                     p.name, p.value, unit(p.unit), p.declared.min, p.declared.max));
+      warnings.push_back(fmt::format("parameter '{}': held at {:g}{}, outside {:g} … {:g}, the declared range", p.name,
+                                     p.value, unit(p.unit), p.declared.min, p.declared.max));
   return warnings;
 }
 
@@ -140,7 +140,7 @@ void Builder::add_test(std::size_t number) {
   test.offset = layout.prediction_count;
   test.own = std::move(vectors_[parts_.models.size() + number]);
   test.costly = test.test->describe().costly;
-  give_models(test, entry, parts_.models);
+  assign_models(test, entry, parts_.models);
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
@@ -190,8 +190,8 @@ void Builder::add_priors() {
       parts_.priors.push_back({index, free.prior->mean, free.prior->sd});
     } else {
       layout.warnings.push_back(
-          fmt::format("the prior of '{}' is not used: only 'least_squares' weighs data by their noise, "
-                      "so that a prior can be added to it",
+          fmt::format("the prior of '{}' is not used: a prior can be added only to 'least_squares', "
+                      "which weighs data by their noise",
                       free.name));
     }
   }

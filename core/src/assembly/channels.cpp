@@ -37,8 +37,9 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
                                                const std::vector<Observable>& observables, std::size_t offset) {
   std::vector<MeasuredChannel> found;
   if (!entry.weights.empty() && entry.weights.size() != dataset.channels.size()) {
-    throw InputError(fmt::format("test '{}': {} weights for {} fitted channels; give one number or one a channel",
-                                 entry.name, entry.weights.size(), dataset.channels.size()));
+    throw InputError(
+        fmt::format("test '{}': {} weights for {} fitted channels; give one number, or one for each channel",
+                    entry.name, entry.weights.size(), dataset.channels.size()));
   }
   for (std::size_t k = 0; k < dataset.channels.size(); ++k) {
     const data::Channel& channel = dataset.channels[k];

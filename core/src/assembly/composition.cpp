@@ -43,7 +43,7 @@ std::vector<Layer> layers(const std::vector<MechanismEntry>& entries, const plug
     const MechanismOnShelf& mechanism = look_up(catalogue.mechanisms(), entry.type, "mechanism");
     if (!seen.insert(entry.type).second) {
       throw InputError(
-          fmt::format("{}: the mechanism '{}' stands there twice, and its parameters would have one name; "
+          fmt::format("{}: the mechanism '{}' is listed twice, so its parameters would share their names; "
                       "keep one",
                       owner, entry.type));
     }

@@ -76,7 +76,7 @@ class AdmissibleParameters final : public Constraint {
     return {};
   }
   [[nodiscard]] std::string words(std::size_t i, double value) const override {
-    return fmt::format("admissible parameters: {} = {:.3g}, and must not be negative", inequalities_[i].name, -value);
+    return fmt::format("admissible parameters: {} = {:.3g}, but must not be negative", inequalities_[i].name, -value);
   }
 
  private:
@@ -121,8 +121,8 @@ void add_transverse(const experiment::ConstraintEntry& entry, std::size_t number
 void refuse_empty(const experiment::ConstraintEntry& entry, const std::vector<const Model*>& models) {
   if (entry.type == "transverse_stability")
     throw InputError(
-        fmt::format("{}: the run has no free strip in the direction asked for, so there is no stretch to ask for "
-                    "transverse stability at; add a test of type 'uniaxial', or state the stretches: "
+        fmt::format("{}: the run has no free strip in the requested direction, so transverse stability has no "
+                    "stretches to be asked at; add a test of type 'uniaxial', or state the stretches: "
                     "\"range\": [1, 1.5]",
                     entry.pointer));
   const std::string who = models.size() == 1 ? fmt::format("the model '{}' declares", models[0]->describe().type)

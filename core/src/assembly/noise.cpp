@@ -33,8 +33,8 @@ void warn_of_exact_rows(const std::vector<double>& sd, const std::vector<std::si
   if (exact == 0) return;
   const std::size_t row = rows[static_cast<std::size_t>(least - sd.begin())];
   warnings.push_back(fmt::format(
-      "{}: purely relative noise takes {} for all but exact, σ = {:.2g} {} in row {} where half of the rows have more "
-      "than {:.2g}; state noise.absolute, the least that the rig can tell",
+      "{}: purely relative noise makes {} almost exact: σ = {:.2g} {} in row {}, while half of the rows have more than "
+      "{:.2g}. State noise.absolute, the smallest value that the rig resolves",
       where, exact == 1 ? "a row" : fmt::format("{} rows", exact), *least, unit, row, median));
 }
 
@@ -56,8 +56,8 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
     if (model.sd[k] > 0) continue;
     model.sd[k] = smallest;
     warnings.push_back(
-        fmt::format("{}: row {} measures 0, where purely relative noise means σ = 0; it is taken with the "
-                    "smallest σ of the other rows, {:.4g} {}; state noise.absolute",
+        fmt::format("{}: row {} measures 0, so purely relative noise gives it σ = 0; it takes the smallest σ "
+                    "of the other rows, {:.4g} {}. State noise.absolute",
                     where, rows[k], smallest, channel.unit));
   }
   if (noise.absolute == 0) warn_of_exact_rows(model.sd, rows, channel.unit, where, warnings);

@@ -25,7 +25,7 @@ void scale_residuals(ChannelObjective& fitted, experiment::ObjectiveType objecti
     const double range = *highest - *lowest;
     if (!(range > 0)) {
       throw InputError(
-          fmt::format("{}: all {} fitted rows measure {}, so that 'standardised_quadratic' has no range to divide "
+          fmt::format("{}: all {} fitted rows measure {}, so 'standardised_quadratic' has no range to divide "
                       "by; fit more rows or choose another objective",
                       where, n, *lowest));
     }

@@ -6,7 +6,7 @@
 
 namespace tunica::assembly {
 
-void give_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models) {
+void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models) {
   const auto add = [&test](const RunModel& model) {
     const std::size_t first = test.materials.values.size();
     const std::vector<double>& values = model.parameters.values;

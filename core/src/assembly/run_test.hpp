@@ -38,7 +38,7 @@ struct RunTest {
 };
 
 /// Gives a test its models: that of the run, or one a layer; layers that share one have a copy of its parameters each.
-void give_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models);
+void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models);
 
 /// Fills the chain rule, once models and own parameters are in place.
 void chain_parameters(RunTest& test, std::size_t free_count);

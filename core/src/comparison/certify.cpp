@@ -96,7 +96,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
         free.push_back(values.at(parameter.name).at("value"));
       }
-      const auto around = search::look_around(*planned.assembly, free);
+      const auto around = search::probe_neighbourhood(*planned.assembly, free);
       json entry = to_json(around);
       const double recorded = run.at("best").at("objective"), now = entry.at("objective");
       entry["run"] = planned.label;

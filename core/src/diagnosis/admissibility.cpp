@@ -28,8 +28,8 @@ Found judge(const assembly::Assembly& assembly, std::span<const double> free) {
   Found found;
   bool all = true;
   for (std::size_t m = 0; m < assembly.models().count(); ++m) {
-    const auto verdict = stability::judge_admissibility(assembly.models().model(m), assembly.models().parameters(m, free),
-                                          comparison::domain_of(assembly, m));
+    const auto verdict = stability::judge_admissibility(
+        assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
     const bool elliptic = !verdict.ellipticity.first_lost;
     if (transverse == false)

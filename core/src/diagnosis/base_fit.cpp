@@ -166,7 +166,7 @@ void fit_base(Diagnosis& d, const plugins::Catalogue& catalogue) {
           "diagnosis.optimizer '{}' has stages and is not used here; name one of its stages", d.settings.optimizer));
     } else {
       const uncertainty::LocalOptimizer optimizer{&catalogue.optimizers().find(entry.type)->second, entry.options};
-      const uncertainty::Target target{
+      const uncertainty::RefitObjective target{
           assembly.layout().blocks, assembly.layout().residual_count,
           [&assembly](auto free, double& objective, auto residuals, auto jacobian, auto& workspace) {
             return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);

@@ -146,7 +146,7 @@ void EvaluationTable::parse(std::string_view line, Row& row) const {
   row.index = id - 1;
 }
 
-void EvaluationTable::values(const Row& row, search::Replayed& entry) const {
+void EvaluationTable::values(const Row& row, search::JournalEntry& entry) const {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto& run = runs_[row.run];
   entry.parameters.assign(run.parameters.size(), none);

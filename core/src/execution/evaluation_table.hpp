@@ -46,7 +46,7 @@ class EvaluationTable {
   /// Splits a line and reads which evaluation it is; throws InputError on a line that this layout cannot have
   /// written. `values` then reads the rest.
   void parse(std::string_view line, Row& row) const;
-  void values(const Row& row, search::Replayed& entry) const;
+  void values(const Row& row, search::JournalEntry& entry) const;
 
  private:
   std::vector<RunColumns> runs_;

@@ -141,7 +141,9 @@ void Run::run_task(std::size_t task) {
     journal_->record(task, record);
     meter.count(record);
   };
-  surroundings.replay = [&](std::uint64_t index, search::Replayed& entry) { return stored_[task].get(index, entry); };
+  surroundings.replay = [&](std::uint64_t index, search::JournalEntry& entry) {
+    return stored_[task].get(index, entry);
+  };
   surroundings.interrupted = [this] { return stopping(); };
   auto result = run_realisation(run, realisation, *plan_.experiment, surroundings);
   stored_[task] = {};

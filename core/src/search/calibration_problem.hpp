@@ -46,13 +46,13 @@ struct Best {
 /// at this index, and then never at a later one. The problem checks that the parameters are bit-identical and throws
 /// std::runtime_error if not; where residuals are asked for it evaluates again and checks the objective instead.
 /// Called from one thread at a time; an index may be asked for twice.
-struct Replayed {
+struct JournalEntry {
   std::vector<double> parameters, per_test;
   double objective;
   Status status;
   double seconds;
 };
-using Replay = std::function<bool(std::uint64_t index, Replayed& entry)>;
+using Replay = std::function<bool(std::uint64_t index, JournalEntry& entry)>;
 
 /// Failures whose reasons differ in numbers only.
 struct FailureKind {

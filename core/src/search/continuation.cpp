@@ -48,8 +48,8 @@ Status continue_to(std::span<const double> good, std::span<const double> failed,
     Status status = evaluate(failed);
     if (status.kind() != Status::Kind::failed) return status;
   }
-  return Status::failed(
-      fmt::format("{} (also on the way from the nearest good point, {} steps)", failure.reason(), continuation_steps));
+  return Status::failed(fmt::format("{} (it failed again in {} steps from the nearest good point)", failure.reason(),
+                                    continuation_steps));
 }
 
 }  // namespace tunica::search

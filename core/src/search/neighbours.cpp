@@ -80,7 +80,7 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
 
 bool same_objective(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b) + 1e-12; }
 
-Neighbourhood look_around(const assembly::Assembly& assembly, std::span<const double> free) {
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free) {
   const std::size_t n = free.size();
   Neighbourhood result;
   const auto workspace = assembly.evaluator().make_workspace();

@@ -39,6 +39,6 @@ bool same_objective(double a, double b);
 /// in the unit box, J the Jacobian of the residuals as the objective weighs them. These span the long and the short
 /// axes of the valley that the point lies in: an optimiser that stopped half-way down a bent one is found out along
 /// them. Neighbours outside the bounds are moved onto them; what breaks a constraint does not count.
-Neighbourhood look_around(const assembly::Assembly& assembly, std::span<const double> free);
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free);
 
 }  // namespace tunica::search

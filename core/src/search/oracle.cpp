@@ -103,8 +103,7 @@ void Oracle::contradict(std::size_t slot, std::string what) {
   made.contradicted = slot;
   made.contradiction = fmt::format(
       "evaluation {} of the journal cannot be continued: {}. The experiment file, a plugin or the seed has changed "
-      "since "
-      "it was written; restore them, or start anew without --resume",
+      "since it was written; restore them, or start anew without --resume",
       *replay_from_ + ledger.tally().evaluations + (slot - made.calls.back().first) + 1, what);
 }
 

@@ -17,9 +17,9 @@
 namespace tunica::search {
 
 /// Seconds since the realisation began, those before a resume or an earlier stage included.
-class Watch {
+class Stopwatch {
  public:
-  explicit Watch(double before) : before_(before) {}
+  explicit Stopwatch(double before) : before_(before) {}
   [[nodiscard]] double seconds() const {
     return before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
@@ -68,7 +68,7 @@ struct SharedState {
   const CalibrationProblem::Settings& settings;
   std::size_t parameters, tests;
   std::vector<double> start;  ///< unit box
-  Watch watch;
+  Stopwatch watch;
   WorkspacePool pool;
   bool replaying;  ///< the journal has not run out; while true nothing runs side by side
 };
@@ -125,7 +125,7 @@ class Oracle {
   std::optional<std::uint64_t> replay_from_;
   const std::atomic<bool>* needless_;
   GoodPoints good_;
-  Replayed entry_;
+  JournalEntry entry_;
 };
 
 }  // namespace tunica::search

@@ -108,7 +108,7 @@ Bootstrap bootstrap(const assembly::Assembly& assembly, std::span<const double> 
   if (!fill(assembly, best, pool)) return result;
   result.blocks = pool.blocks;
   result.correlation = pool.correlation;
-  Target target;
+  RefitObjective target;
   target.blocks = assembly.layout().blocks;
   target.residual_count = assembly.layout().residual_count;
   target.evaluate = [&assembly](std::span<const double> free, double& objective, std::span<double> residuals,

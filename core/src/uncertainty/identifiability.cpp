@@ -110,7 +110,7 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   for (Eigen::Index k = 0; k < inside; ++k) {
     const double s = found.values[k];
     const bool flat = !(s > weakest * found.values[0]);
-    found.seen.push_back(flat ? Seen::not_at_all : 1 / s > 1 ? Seen::weakly : Seen::well);
+    found.seen.push_back(flat ? Visibility::not_at_all : 1 / s > 1 ? Visibility::weakly : Visibility::well);
     if (!flat) found.variance[k] = 1 / (s * s);
   }
   found.quantile = noise.quantile(static_cast<std::size_t>(inside));
@@ -123,18 +123,17 @@ std::string constrained_in_words(bool all_held, const std::vector<ParameterInter
   if (where.empty()) return "";
   if (all_held)
     return fmt::format(
-        "Constraints and bounds hold every parameter, so that the data have no say and there are no intervals. Where "
-        "a constraint touches: {}.",
+        "Constraints and bounds hold every parameter, so the data determine no interval. Active constraint: {}.",
         where);
   std::vector<std::string> held;
   for (const ParameterInterval& parameter : parameters)
     if (parameter.held) held.push_back(parameter.name);
   return fmt::format(
-      "A constraint holds the result, not the data: intervals are those along its border{}. Where it touches: {}.",
-      held.empty()
-          ? ""
-          : fmt::format(", along which {} cannot move (a profile tells how far the data let it leave the border)",
-                        fmt::join(held, ", ")),
+      "A constraint, not the data, holds the result; the intervals are those along its border.{} Active constraint: "
+      "{}.",
+      held.empty() ? ""
+                   : fmt::format(" Along it {} cannot move; a profile shows how far the data would let it leave.",
+                                 fmt::join(held, ", ")),
       where);
 }
 
@@ -142,7 +141,7 @@ std::string constrained_in_words(bool all_held, const std::vector<ParameterInter
 /// them most counts as weak, so that what is not fixed is said. Only these are left weak.
 Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
   Spectrum result = spectrum;
-  std::fill(result.seen.begin(), result.seen.end(), Seen::well);
+  std::fill(result.seen.begin(), result.seen.end(), Visibility::well);
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     const ParameterInterval& parameter = found.parameters[j];
     const bool said = std::any_of(found.valleys.begin(), found.valleys.end(), [&](const Valley& valley) {
@@ -154,7 +153,7 @@ Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
         .cwiseAbs2()
         .cwiseProduct(spectrum.variance.transpose())
         .maxCoeff(&worst);
-    result.seen[static_cast<std::size_t>(worst)] = Seen::weakly;
+    result.seen[static_cast<std::size_t>(worst)] = Visibility::weakly;
   }
   return result;
 }
@@ -184,7 +183,7 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
   if (Status status = active_gradients(assembly, free, active, where); !status.ok()) return status;
   const Spectrum likelihood = spectrum_of(rows, active, at_bound, weakest, noise);
   Spectrum spectrum = likelihood;
-  if (Status status = as_estimated(assembly, free, noise, spectrum); !status.ok()) return status;
+  if (Status status = apply_sandwich(assembly, free, noise, spectrum); !status.ok()) return status;
   for (std::size_t j = 0; j < n; ++j)
     found.parameters[j].held =
         !at_bound[j] && spectrum.V.row(static_cast<Eigen::Index>(j)).squaredNorm() < moved * moved;
@@ -192,7 +191,7 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
   if (spectrum.V.cols() == 0) return {};
   found.curve_ci95 = curve_intervals(curves, spectrum);
   found.singular_values.assign(likelihood.values.begin(), likelihood.values.end());
-  const Matrix flat = spectrum.projector(Seen::not_at_all);
+  const Matrix flat = spectrum.projector(Visibility::not_at_all);
   Straightness straightness(assembly, noise, free);
   for (std::size_t j = 0; j < n; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
@@ -211,8 +210,9 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     assembly.box().from_unit(end, mapped);
     found.parameters[j].upper = mapped[j];
   }
-  for (const Seen seen : {Seen::not_at_all, Seen::weakly}) add_valleys(assembly, free, spectrum, seen, found);
-  add_valleys(assembly, free, hardly_seen(spectrum, found), Seen::weakly, found);
+  for (const Visibility seen : {Visibility::not_at_all, Visibility::weakly})
+    add_valleys(assembly, free, spectrum, seen, found);
+  add_valleys(assembly, free, hardly_seen(spectrum, found), Visibility::weakly, found);
   return {};
 }
 

@@ -19,10 +19,10 @@ constexpr double precision = 1e-3;                                             /
 constexpr int most_points = 200;
 
 /// One side of one profile, from the centre outwards.
-class Walk {
+class ProfileSide {
  public:
-  Walk(const assembly::Assembly& assembly, const Likelihood& likelihood, const LocalOptimizer& optimizer,
-       std::size_t parameter, int side, double step, std::uint64_t seed)
+  ProfileSide(const assembly::Assembly& assembly, const Likelihood& likelihood, const LocalOptimizer& optimizer,
+              std::size_t parameter, int side, double step, std::uint64_t seed)
       : assembly_(assembly),
         likelihood_(likelihood),
         optimizer_(optimizer),
@@ -56,7 +56,7 @@ class Walk {
   assembly::WorkspacePointer workspace_;
 };
 
-bool Walk::fit(double x, const std::vector<double>& start, Profile::Point& point) {
+bool ProfileSide::fit(double x, const std::vector<double>& start, Profile::Point& point) {
   std::vector<double> unit(start.size()), from = start, held(start.size());
   assembly_.box().to_unit(start, unit);
   unit[parameter_] = x;
@@ -73,7 +73,7 @@ bool Walk::fit(double x, const std::vector<double>& start, Profile::Point& point
   return true;
 }
 
-void Walk::cross(double inside, Profile::Point below, double outside, Profile::Point above) {
+void ProfileSide::cross(double inside, Profile::Point below, double outside, Profile::Point above) {
   double low = rise(below.delta), high = rise(above.delta);
   end.kind = Profile::End::Kind::crossed;
   for (int k = 0; k < 20 && std::abs(outside - inside) > smallest_step; ++k) {
@@ -94,7 +94,7 @@ void Walk::cross(double inside, Profile::Point below, double outside, Profile::P
   points.push_back(std::move(above));
 }
 
-void Walk::run(const std::function<bool()>& interrupted) {
+void ProfileSide::run(const std::function<bool()>& interrupted) {
   const std::vector<double>& centre = likelihood_.centre.free;
   std::vector<double> unit(centre.size());
   assembly_.box().to_unit(centre, unit);
@@ -183,16 +183,16 @@ std::vector<Profile> profiles(const assembly::Assembly& assembly, const Likeliho
       steps[k] = std::clamp(wanted_rise * half, 10 * smallest_step, largest_step);
     }
   }
-  std::vector<Walk> walks;
+  std::vector<ProfileSide> sides;
   for (std::size_t k = 0; k < parameters.size(); ++k)
     for (const int side : {-1, 1})
-      walks.emplace_back(assembly, likelihood, optimizer, parameters[k], side, steps[k],
+      sides.emplace_back(assembly, likelihood, optimizer, parameters[k], side, steps[k],
                          derive_seed(seed, fmt::format("profile {} {}", parameters[k], side)));
   tbb::parallel_for(
-      std::size_t{0}, walks.size(), [&](std::size_t k) { walks[k].run(interrupted); }, tbb::simple_partitioner());
+      std::size_t{0}, sides.size(), [&](std::size_t k) { sides[k].run(interrupted); }, tbb::simple_partitioner());
   std::vector<Profile> result;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    Walk &down = walks[2 * k], &up = walks[2 * k + 1];
+    ProfileSide &down = sides[2 * k], &up = sides[2 * k + 1];
     Profile& profile = result.emplace_back();
     profile.parameter = parameters[k];
     profile.threshold = likelihood.quantile * likelihood.quantile;

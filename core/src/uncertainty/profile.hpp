@@ -15,7 +15,7 @@ namespace tunica::uncertainty {
 /// constant. For `least_squares` with stated noise that is the run's objective.
 struct Likelihood {
   assembly::Whitening whitening;
-  Target target;
+  RefitObjective target;
   Refit centre;         ///< the most likely point, from the best point of the run
   double quantile = 0;  ///< of standardised errors: an interval is where −2 ln L rises by its square
 };

@@ -15,7 +15,7 @@ namespace {
 /// The optimiser's view: the unit box, without the coordinate that is held.
 class RefitProblem final : public Problem {
  public:
-  RefitProblem(const assembly::Assembly& assembly, const Target& target, std::span<const double> start,
+  RefitProblem(const assembly::Assembly& assembly, const RefitObjective& target, std::span<const double> start,
                std::optional<std::size_t> held, std::uint64_t seed, assembly::Workspace& workspace)
       : assembly_(assembly),
         target_(target),
@@ -101,7 +101,7 @@ class RefitProblem final : public Problem {
   }
 
   const assembly::Assembly& assembly_;
-  const Target& target_;
+  const RefitObjective& target_;
   assembly::Workspace& workspace_;
   const std::uint64_t seed_;
   std::vector<double> unit_, free_, start_, by_free_;
@@ -114,7 +114,7 @@ class RefitProblem final : public Problem {
 
 }  // namespace
 
-Refit refit(const assembly::Assembly& assembly, const Target& target, const LocalOptimizer& optimizer,
+Refit refit(const assembly::Assembly& assembly, const RefitObjective& target, const LocalOptimizer& optimizer,
             std::span<const double> start, std::optional<std::size_t> held, std::uint64_t seed,
             assembly::Workspace& workspace) {
   RefitProblem problem(assembly, target, start, held, seed, workspace);

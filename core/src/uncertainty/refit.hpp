@@ -17,7 +17,7 @@ namespace tunica::uncertainty {
 
 /// A sum of squares (or of norms) to be minimised again and again near a known optimum: on other data, or with other
 /// weights. `evaluate` takes free parameter values in base units, like Evaluator::evaluate; its Jacobian is by them.
-struct Target {
+struct RefitObjective {
   std::vector<ResidualBlock> blocks;
   std::size_t residual_count = 0;
   std::function<Status(std::span<const double> free, double& objective, std::span<double> residuals,
@@ -42,7 +42,7 @@ struct Refit {
 /// One minimisation from `start` (base units), within the bounds and constraints of the assembly; with `held` that
 /// parameter keeps its value at the start. Deterministic given the seed; may be called side by side, each call with a
 /// workspace of its own. A plugin that throws makes the refit a failed one, as a failed evaluation would.
-Refit refit(const assembly::Assembly& assembly, const Target& target, const LocalOptimizer& optimizer,
+Refit refit(const assembly::Assembly& assembly, const RefitObjective& target, const LocalOptimizer& optimizer,
             std::span<const double> start, std::optional<std::size_t> held, std::uint64_t seed,
             assembly::Workspace& workspace);
 

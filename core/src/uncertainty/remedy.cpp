@@ -32,8 +32,9 @@ struct SheetChange {
   std::vector<double> change;  ///< by step, of the largest
 };
 
-bool look(const assembly::Assembly& assembly, std::size_t number, std::span<const double> free,
-          const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch, SheetChange& change) {
+bool sheet_change(const assembly::Assembly& assembly, std::size_t number, std::span<const double> free,
+                  const std::vector<std::vector<double>>& steps, const Sheet& sheet, double stretch,
+                  SheetChange& change) {
   const Model& model = assembly.models().model(number);
   const std::vector<double> parameters = assembly.models().parameters(number, free);
   std::vector<double> C(6 * stretches, 0.0), stress(6 * stretches, 0.0), by(parameters.size() * 6 * stretches, 0.0);
@@ -107,7 +108,7 @@ std::vector<double> present(const assembly::Assembly& assembly, std::span<const 
 }
 
 const char* const elsewhere =
-    " What would fix it is a value of one of them from elsewhere, or data of another kind: another direction, both "
+    " To fix it, take the value of one of them from elsewhere, or add data of another kind: another direction, both "
     "directions at once, a larger stretch.";
 
 }  // namespace
@@ -126,7 +127,7 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
     for (const Sheet& sheet : sheets) {
       SheetChange change;
       double gain = std::numeric_limits<double>::infinity();
-      if (!look(assembly, model, free, steps, sheet, stretch, change)) gain = 0;
+      if (!sheet_change(assembly, model, free, steps, sheet, stretch, change)) gain = 0;
       for (std::size_t k = 0; k < change.change.size() && gain > 0; ++k)
         gain = std::min(gain, change.change[k] / change.largest / std::max(now[k], 1e-9));
       gains.push_back(gain);
@@ -134,7 +135,7 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
   }
   const double best = *std::max_element(gains.begin(), gains.end());
   if (best < worth_it)
-    return fmt::format(" No test of a sheet in its plane to stretch {:.3g} would see it {:g} times as well.{}", stretch,
+    return fmt::format(" No in-plane test of a sheet to stretch {:.3g} would see it {:g} times as well.{}", stretch,
                        worth_it, elsewhere);
   const auto chosen = static_cast<std::size_t>(
       std::find_if(gains.begin(), gains.end(), [&](double gain) { return gain >= nearly_best * best; }) -
@@ -145,10 +146,11 @@ std::string remedy_in_words(const assembly::Assembly& assembly, std::span<const 
           ? fmt::format(" of the material '{}' alone", assembly.models().name(chosen / std::size(sheets)))
           : "";
   return fmt::format(
-      " {}{} to stretch {:.3g} would show it {}: its stresses change {} along it, relative to their largest.",
+      " {}{} to stretch {:.3g} would show it {}: relative to their largest value, its stresses change {}.",
       sheets[chosen % std::size(sheets)].words, of_model, stretch, gain > 1e3 ? "at all" : "best",
-      gain > 1e3 ? std::string("where those of the present tests do not")
-                 : fmt::format("{:.{}f} times as much as those of the present tests", gain, gain < 10 ? 1 : 0));
+      gain > 1e3
+          ? std::string("along it, and those of the present tests do not")
+          : fmt::format("{:.{}f} times as much along it as those of the present tests", gain, gain < 10 ? 1 : 0));
 }
 
 }  // namespace tunica::uncertainty

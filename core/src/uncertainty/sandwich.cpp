@@ -45,11 +45,11 @@ Matrix by_unit_noise(const assembly::Whitening& noise, const Matrix& by_predicti
 
 }  // namespace
 
-Status as_estimated(const assembly::Assembly& assembly, std::span<const double> free, const assembly::Whitening& noise,
-                    Spectrum& spectrum) {
+Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
+                      const assembly::Whitening& noise, Spectrum& spectrum) {
   std::vector<Eigen::Index> seen, unseen;
   for (Eigen::Index k = 0; k < spectrum.values.size(); ++k)
-    (spectrum.seen[static_cast<std::size_t>(k)] == Seen::not_at_all ? unseen : seen).push_back(k);
+    (spectrum.seen[static_cast<std::size_t>(k)] == Visibility::not_at_all ? unseen : seen).push_back(k);
   const auto k = static_cast<Eigen::Index>(seen.size());
   if (k == 0) return {};
 
@@ -94,7 +94,7 @@ Status as_estimated(const assembly::Assembly& assembly, std::span<const double> 
     spectrum.V.col(to) = V.col(from);
     spectrum.values[to] = 1 / sd;
     spectrum.variance[to] = sd * sd;
-    spectrum.seen[static_cast<std::size_t>(to)] = sd > 1 ? Seen::weakly : Seen::well;
+    spectrum.seen[static_cast<std::size_t>(to)] = sd > 1 ? Visibility::weakly : Visibility::well;
   }
   return {};
 }

@@ -16,7 +16,7 @@ namespace tunica::uncertainty {
 /// J the Jacobian of the residuals r = D e, L Lᵀ the covariance of e, ρ' = 1, or 1/(2‖r‖) of the root, taken as fixed
 /// (the sandwich of Huber 1967 and White, Econometrica 50:1-25, 1982). For least squares with stated noise and weights
 /// 1 that is the inverse of JᵀJ, as in the likelihood. Directions that the data do not see stay as they are.
-Status as_estimated(const assembly::Assembly& assembly, std::span<const double> free, const assembly::Whitening& noise,
-                    Spectrum& spectrum);
+Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
+                      const assembly::Whitening& noise, Spectrum& spectrum);
 
 }  // namespace tunica::uncertainty

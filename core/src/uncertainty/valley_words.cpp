@@ -101,7 +101,7 @@ std::string bounds_in_words(const std::vector<ParameterInterval>& parameters) {
   }
   if (names.empty()) return "";
   const bool single = names.size() == 1;
-  return fmt::format("{} {} at {}: widen {} where that is physical, or take the value{} as imposed and not as found.",
+  return fmt::format("{} {} at {}: widen {} where that is physical, or read the value{} as imposed, not found.",
                      enumerate(names), single ? "lies" : "lie", single ? "a bound" : "bounds", single ? "it" : "them",
                      single ? "" : "s");
 }

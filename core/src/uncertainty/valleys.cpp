@@ -80,7 +80,7 @@ void add_directions(const Matrix& P, const Group& group, const assembly::Assembl
 /// The model's combinations that the data fix in this valley; returns what would fix the rest.
 std::string add_combinations(const assembly::Assembly& assembly, std::span<const double> free, const Spectrum& spectrum,
                              const Group& group, const Identifiability& found, Valley& valley) {
-  const Matrix unseen = spectrum.projector(Seen::not_at_all) + spectrum.projector(Seen::weakly);
+  const Matrix unseen = spectrum.projector(Visibility::not_at_all) + spectrum.projector(Visibility::weakly);
   std::string remedy;
   for (const Combination& combination : assembly.layout().combinations) {
     const auto concerns = [&](std::size_t j) {
@@ -114,7 +114,7 @@ double Spectrum::half_width(const Vector& direction) const {
   return quantile * std::sqrt((V.transpose() * direction).cwiseAbs2().dot(variance));
 }
 
-Matrix Spectrum::projector(Seen how) const {
+Matrix Spectrum::projector(Visibility how) const {
   Matrix P = Matrix::Zero(V.rows(), V.rows());
   for (Eigen::Index k = 0; k < V.cols(); ++k) {
     if (seen[static_cast<std::size_t>(k)] == how) P += V.col(k) * V.col(k).transpose();
@@ -122,12 +122,12 @@ Matrix Spectrum::projector(Seen how) const {
   return P;
 }
 
-void add_valleys(const assembly::Assembly& assembly, std::span<const double> free, const Spectrum& spectrum, Seen how,
-                 Identifiability& found) {
+void add_valleys(const assembly::Assembly& assembly, std::span<const double> free, const Spectrum& spectrum,
+                 Visibility how, Identifiability& found) {
   const Matrix P = spectrum.projector(how);
   for (const Group& group : connected(P)) {
     Valley valley;
-    valley.exact = how == Seen::not_at_all;
+    valley.exact = how == Visibility::not_at_all;
     // A weak direction may move a parameter by little enough to leave it a useful interval of its own.
     for (const bool all : {false, true}) {
       if (!valley.parameters.empty()) break;

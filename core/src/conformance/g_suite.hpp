@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "conformance/function_problem.hpp"
 
-namespace tunica::testing {
-
-using namespace conformance;
+namespace tunica::conformance {
 
 /// Problems of Michalewicz & Schoenauer (1996), numbered as by Runarsson & Yao (2000, 2005), each with several
 /// constraints active at the optimum. The objective has to be a sum of squares here: r = √(f + offset), where the
@@ -126,4 +125,4 @@ inline Function g_function(const GProblem& g) {
   return function;
 }
 
-}  // namespace tunica::testing
+}  // namespace tunica::conformance
