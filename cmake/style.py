@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the sources that need no compiler: style.py ROOT lines|licence|prose|format CLANG_FORMAT."""
+"""Checks of the sources that need no compiler: style.py ROOT lines|licence|comments|prose|format CLANG_FORMAT."""
 import pathlib
 import re
 import subprocess
@@ -9,6 +9,7 @@ import sys
 CODE = {".cpp", ".hpp"}
 SCRIPTS = {".py", ".cmake", ".sh"}
 LONGEST = 400
+COMMENTS = 40  # per cent of the lines of a public header
 
 
 def sources(root):
@@ -56,6 +57,18 @@ def check_licence(root):
         head = path.read_text().splitlines()[:3]
         if sum("SPDX-License-Identifier: Apache-2.0" in line for line in head) != 1:
             problems.append(f"{path.relative_to(root)}: expected one line 'SPDX-License-Identifier: Apache-2.0' at the top")
+    return problems
+
+
+def check_comments(root):
+    """The contracts of the SDK: lines that are comment, of all that are not blank, without the licence."""
+    problems = []
+    for path in sorted((root / "core/include/tunica").glob("*.hpp")):
+        lines = [line.strip() for line in path.read_text().splitlines()[1:] if line.strip()]
+        share = 100 * sum(line.startswith("//") for line in lines) / len(lines)
+        if share < COMMENTS:
+            problems.append(f"{path.relative_to(root)}: {share:.0f} % of the lines are comment, expected at least "
+                            f"{COMMENTS} %; say what an author of plugins asks: shapes, units, failure, threads, source")
     return problems
 
 
@@ -118,7 +131,7 @@ def check_prose(root):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    checks = {"lines": check_lines, "licence": check_licence, "prose": check_prose}
+    checks = {"lines": check_lines, "licence": check_licence, "comments": check_comments, "prose": check_prose}
     check = sys.argv[2]
     problems = check_format(root, sys.argv[3]) if check == "format" else checks[check](root)
     for problem in problems:

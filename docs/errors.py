@@ -35,7 +35,7 @@ SUBJECTS = [
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
-     ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/free_strip", "core/src/stability/"]),
+     ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
     ("Diagnosis", "", ["core/src/diagnosis/"]),
@@ -43,7 +43,7 @@ SUBJECTS = [
     ("Plugins that are refused", "Exit code 3 where the file was named with --plugin-path, else a warning.",
      ["core/src/plugins/"]),
     ("Writing a plugin", "What the SDK says where it is not used as its headers have it.",
-     ["core/include/tunica/hyperelastic", "core/include/tunica/joint_energy", "core/include/tunica/options",
+     ["core/include/tunica/models/", "core/include/tunica/options",
       "core/include/tunica/model", "core/include/tunica/test"]),
     ("`tunica plugin check`", "Told beside the property that could not be checked.", ["core/src/conformance/"]),
     ("Models and mechanisms", "", ["plugins/models/", "plugins/mechanisms/"]),

@@ -94,7 +94,10 @@ TEST(ViscoelasticityTangent, IsTheDerivativeOfTheStep) {
     // A shear component stands in C twice, so it moves the stress by twice its tensor derivative.
     const double count = q < 3 ? 1 : 2;
     std::vector<double> ahead = C, behind = C;
-    for (std::size_t i = 0; i < 5; ++i) ahead[5 * q + i] += h, behind[5 * q + i] -= h;
+    for (std::size_t i = 0; i < 5; ++i) {
+      ahead[5 * q + i] += h;
+      behind[5 * q + i] -= h;
+    }
     const auto plus = evaluate(*viscous, ahead, with_branch, {}, time_step, start.state).stress;
     const auto minus = evaluate(*viscous, behind, with_branch, {}, time_step, start.state).stress;
     for (std::size_t p = 0; p < 6; ++p) {
