@@ -3,8 +3,8 @@
 // invariant, and as one function of several invariants. What the convenience costs is measured against gho.
 #include <cmath>
 
-#include "tunica/arterial_fibres.hpp"
-#include "tunica/joint_energy.hpp"
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/models/joint_energy.hpp"
 
 namespace {
 

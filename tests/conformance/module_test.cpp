@@ -10,7 +10,7 @@
 #include "conformance/differences.hpp"
 #include "conformance/model_properties.hpp"
 #include "conformance/partners.hpp"
-#include "conformance/test_bench.hpp"
+#include "conformance/test_cases.hpp"
 #include "support/loaded.hpp"
 
 namespace tunica::conformance {
@@ -83,14 +83,18 @@ TEST(Declarations, NameWhatIsMissing) {
   EXPECT_THAT(complaint([](Parameter& p) { p.doc = ""; }), HasSubstr("has no doc"));
   EXPECT_THAT(complaint([](Parameter& p) { p.max = std::numeric_limits<double>::infinity(); }), HasSubstr("finite"));
   EXPECT_THAT(complaint([](Parameter& p) { p.initial = 0.5; }), HasSubstr("outside its bounds"));
-  EXPECT_THAT(complaint([](Parameter& p) { p.min = 0, p.initial = 1; }), HasSubstr("expected min > 0"));
+  EXPECT_THAT(complaint([](Parameter& p) {
+                p.min = 0;
+                p.initial = 1;
+              }),
+              HasSubstr("expected min > 0"));
   EXPECT_THAT(parameters_are_declared({good, good}).counter_example, HasSubstr("declared twice"));
 }
 
 /// Rows are made up for every built-in test, without a word about any of them in the module.
 TEST(TestBench, MakesUpRowsForEveryTestThatIsLoaded) {
   for (const auto& [type, entry] : testing::catalogue().tests()) {
-    const Benched bench = make_up(entry, 1);
+    const TestCase bench = synthetic_case(entry, 1);
     ASSERT_TRUE(bench.test) << type;
     EXPECT_GE(bench.test->rows().channels.size(), 1u) << type;
     EXPECT_EQ(bench.own.size(), bench.test->describe().parameters.size()) << type;

@@ -42,7 +42,9 @@ def with_a_gap(folder):
 def left_out(pages):
     """Doxygen is silent about what stands in a namespace, and about macros of a file, that have no documentation."""
     hidden = re.search(r"EXCLUDE_SYMBOLS *= (.*)", (source / "docs/Doxyfile").read_text(encoding="utf-8"))[1].split()
-    for header in sorted((source / "core/include/tunica").glob("*.hpp")):
+    for header in sorted((source / "core/include/tunica").rglob("*.hpp")):
+        if header.parent.name == "detail":
+            continue
         text = header.read_text(encoding="utf-8")
         for name in re.findall(r"^namespace ([\w:]+) {", text, re.MULTILINE):
             page = "namespace" + name.replace("_", "__").replace("::", "_1_1") + ".html"

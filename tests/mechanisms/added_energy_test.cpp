@@ -84,7 +84,10 @@ TEST(AddedEnergy, AddsTheSameToAModelThatExposesNoParts) {
       ASSERT_EQ(x.size(), y.size());
       for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], y[k], 1e-9 * (1 + std::abs(y[k]))) << mechanism;
     };
-    close(a.energy, b.energy), close(a.stress, b.stress), close(a.tangent, b.tangent), close(a.stress_dp, b.stress_dp);
+    close(a.energy, b.energy);
+    close(a.stress, b.stress);
+    close(a.tangent, b.tangent);
+    close(a.stress_dp, b.stress_dp);
   }
 }
 

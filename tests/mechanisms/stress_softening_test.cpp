@@ -125,11 +125,16 @@ TEST_P(SofteningBesideOthers, TheTangentIsThatOfTheStressAtAGivenState) {
   std::vector<double> C(6 * n), direction(6 * n), up, down;
   for (std::size_t k = 0; k < 6 * n; ++k) {
     const double rest = k < 3 * n ? 1 : 0;
-    C[k] = rest + 0.5 * (there[k] - rest), direction[k] = aim[k] - rest;
+    C[k] = rest + 0.5 * (there[k] - rest);
+    direction[k] = aim[k] - rest;
   }
   constexpr double h = 1e-6;
-  up = C, down = C;
-  for (std::size_t k = 0; k < 6 * n; ++k) up[k] += h * direction[k], down[k] -= h * direction[k];
+  up = C;
+  down = C;
+  for (std::size_t k = 0; k < 6 * n; ++k) {
+    up[k] += h * direction[k];
+    down[k] -= h * direction[k];
+  }
   const auto at = evaluate(*made, C, parameters, {}, second, first.state);
   const auto above = evaluate(*made, up, parameters, {}, second, first.state);
   const auto below = evaluate(*made, down, parameters, {}, second, first.state);
@@ -153,9 +158,14 @@ TEST_P(SofteningBesideOthers, ABatchIsItsPointsAndATrialCommitsNothing) {
   const std::size_t history = made->describe().history_size;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<double> C, state, stress, after;
-    for (std::size_t c = 0; c < 6; ++c) C.push_back(then[c * n + i]), stress.push_back(batch.stress[c * n + i]);
-    for (std::size_t k = 0; k < history; ++k)
-      state.push_back(start.state[k * n + i]), after.push_back(batch.state[k * n + i]);
+    for (std::size_t c = 0; c < 6; ++c) {
+      C.push_back(then[c * n + i]);
+      stress.push_back(batch.stress[c * n + i]);
+    }
+    for (std::size_t k = 0; k < history; ++k) {
+      state.push_back(start.state[k * n + i]);
+      after.push_back(batch.state[k * n + i]);
+    }
     const auto one = evaluate(*made, C, parameters, {.state = true}, {1}, state);
     EXPECT_EQ(one.stress, stress) << i;
     EXPECT_EQ(one.state, after) << i;

@@ -27,7 +27,7 @@ class Regauged final : public Model {
     const std::size_t n = points.count;
     MaterialResponse bare = response;
     bare.state = {};
-    if (Status status = base_->evaluate({n, points.C, points.parameters, {}, {}}, bare); !status.ok()) return status;
+    if (Status status = base_->evaluator().evaluate({n, points.C, points.parameters, {}, {}}, bare); !status.ok()) return status;
     for (std::size_t i = 0; i < n; ++i) {
       const double tt = points.C[i], zz = points.C[n + i], rr = points.C[2 * n + i];
       const double tz = points.C[3 * n + i], zr = points.C[4 * n + i], tr = points.C[5 * n + i];
@@ -94,7 +94,10 @@ TEST(ViscoelasticityTangent, IsTheDerivativeOfTheStep) {
     // A shear component stands in C twice, so it moves the stress by twice its tensor derivative.
     const double count = q < 3 ? 1 : 2;
     std::vector<double> ahead = C, behind = C;
-    for (std::size_t i = 0; i < 5; ++i) ahead[5 * q + i] += h, behind[5 * q + i] -= h;
+    for (std::size_t i = 0; i < 5; ++i) {
+      ahead[5 * q + i] += h;
+      behind[5 * q + i] -= h;
+    }
     const auto plus = evaluate(*viscous, ahead, with_branch, {}, time_step, start.state).stress;
     const auto minus = evaluate(*viscous, behind, with_branch, {}, time_step, start.state).stress;
     for (std::size_t p = 0; p < 6; ++p) {

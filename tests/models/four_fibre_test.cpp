@@ -19,7 +19,8 @@ TEST(FourFibre, EnergyIsHgoAndOneFamilyAlongEachAxis) {
   Sampler sampler(6);
   for (int draw = 0; draw < 50; ++draw) {
     std::vector<double> p = sampler.parameters(model->describe());
-    p[5] = std::min(p[5], 10.0), p[7] = std::min(p[7], 10.0);
+    p[5] = std::min(p[5], 10.0);
+    p[7] = std::min(p[7], 10.0);
     const Tensor C = sampler.right_cauchy_green();
     const double expected = evaluate(*hgo, C, std::vector<double>(p.begin(), p.begin() + 4)).energy +
                             exponential(p[4], p[5], C[1] - 1) + exponential(p[6], p[7], C[0] - 1);

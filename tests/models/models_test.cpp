@@ -7,9 +7,9 @@
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "tunica/autodiff.hpp"
-#include "tunica/hyperelastic.hpp"
-#include "tunica/laws.hpp"
+#include "tunica/models/autodiff.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/laws.hpp"
 
 namespace tunica::testing {
 using namespace conformance;

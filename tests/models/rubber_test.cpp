@@ -8,8 +8,8 @@
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
 #include "support/loaded.hpp"
-#include "tunica/autodiff.hpp"
-#include "tunica/rubber_laws.hpp"
+#include "tunica/models/autodiff.hpp"
+#include "tunica/models/rubber_laws.hpp"
 
 namespace tunica::testing::rubber_test {
 using namespace conformance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tunica/augmented_lagrangian.hpp"
+#include "tunica/optimizers/augmented_lagrangian.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,44 +13,74 @@
 
 namespace tunica {
 
-/// Where a mechanism acts; also the canonical order of composition, whatever the file says.
-enum class Stage { invariants, energy, stress, history, test, data };
+/// Where a mechanism acts. Mechanisms are composed in this order, whatever the order in the experiment file.
+enum class Stage {
+  invariants,  ///< on the invariants of energy parts
+  energy,      ///< on the energy: a part is changed or added
+  stress,      ///< on the stress
+  history,     ///< on the response to the past
+  test,        ///< on the simulated experiment: its geometry, its rig, its sensors
+  data         ///< on single readings
+};
 
-/// A mechanism: something the base simulation leaves out, with a null at which it vanishes exactly. It is no fourth
-/// interface: a descriptor, and a function that wraps a Model or a Test in a decorator with the mechanism's
-/// parameters behind the wrapped object's own. At the null the decorator delegates to the bare object, bit for bit,
-/// and its limit there agrees with it to 1e-12; derivatives at the null are those of the formula.
+/// A mechanism: something that a base simulation leaves out, with an amplitude whose null value switches it off.
+///
+/// It is no fourth interface. A mechanism is this declaration and one function, which wraps a Model or a Test. The
+/// wrapper appends the mechanism's parameters to those of the wrapped object, the amplitude first.
+///
+/// At the null: the wrapper delegates to the bare object, bit for bit. Beside the null it agrees with it to 1e-12, and
+/// derivatives by the amplitude are those of the formula. Diagnosis depends on all three, and `tunica plugin check`
+/// holds a plugin to them.
+///
+/// Bases: DecoratedModel for changed or added energy parts, HistoryModel for memory, DecoratedTest for tests.
 struct MechanismFactory {
-  /// Where amplitudes lie about the null, and with it which test against the null is the right one.
-  enum class Side { positive, both, even };  ///< amplitude ≥ null; either; first derivative zero at the null
+  /// Where amplitudes lie relative to the null. It decides which test against the null is right.
+  enum class Side {
+    positive,  ///< at the null or above
+    both,      ///< on either side
+    even       ///< on either side, with equal effect: the first derivative vanishes at the null
+  };
 
-  std::string id;                        ///< "fibre_dispersion"
-  std::string cause;                     ///< one sentence: what physically happens
-  Stage stage;                           ///< where it acts, and which of the two wrappers is set
-  std::vector<std::string> applies_to;   ///< test types; empty = every one (test and data stages)
-  std::vector<Parameter> parameters;     ///< the amplitude first; nuisance parameters after it
-  double null;                           ///< of the amplitude
-  Side side;                             ///< of the amplitude
-  double plausible_min,                  ///< least amplitude that physics allows
-      plausible_max;                     ///< largest
-  std::vector<std::string> look_alikes;  ///< ids of mechanisms hard to tell from it; named in its explanation
-  std::string isolated_by;               ///< the kind of test that separates it
-  std::string reference;                 ///< source of formula and range
-  std::vector<Option> options;           ///< of its object in the experiment file
+  /// Name in experiment files and reports, for example "fibre_dispersion".
+  std::string id = {};
+  /// One sentence for the report: what happens physically.
+  std::string cause = {};
+  /// Where it acts. Stages before `test` need wrap_model, the others wrap_test or `native`.
+  Stage stage = Stage::energy;
+  /// The test types that it applies to; empty = all. For the stages test and data.
+  std::vector<std::string> applies_to = {};
+  /// Its parameters: the amplitude first, nuisance parameters after it.
+  std::vector<Parameter> parameters = {};
+  /// The null of the amplitude.
+  double null = 0;
+  /// The side of the null on which amplitudes lie.
+  Side side = Side::positive;
+  double plausible_min = 0,  ///< smallest amplitude that is physically plausible
+      plausible_max = 0;     ///< largest plausible amplitude
+  /// Ids of mechanisms with a similar effect; an explanation names them.
+  std::vector<std::string> look_alikes = {};
+  /// The experiment that tells it from its look-alikes.
+  std::string isolated_by = {};
+  /// Source of formula and range.
+  std::string reference = {};
+  /// Options of its object in the experiment file.
+  std::vector<Option> options = {};
 
-  /// Instead of wrap_test: the test's own parameter of this name, a native imperfection that is held at its null
-  /// unless this mechanism is there. Options that the test declares as well override those of the test.
+  /// In place of wrap_test: the name of a parameter that tests have themselves, a native imperfection. It rests at its
+  /// null unless this mechanism frees it. An option that the test declares too overrides the test's.
   std::string native = {};
-  /// Diagnosis tries one amplitude in all tests that it applies to, besides one a test.
+  /// Whether diagnosis also tries one common amplitude in all tests that it applies to.
   bool shared = false;
-  /// Where diagnosis looks for the effect: values of nuisance parameters and of number options, by name. Empty: every
-  /// nuisance at its initial value, those in s from the shortest step to the duration of the data.
+  /// Values of nuisance parameters and of number options, by name.
   using Setting = std::vector<std::pair<std::string, double>>;
-  std::vector<Setting> scan = {};  ///< one search a setting
+  /// Where diagnosis looks for the effect: one search for each setting. Empty: every nuisance parameter at its initial
+  /// value; those in s from the shortest time step to the duration of the data.
+  std::vector<Setting> scan = {};
 
-  /// Stages invariants … history. Throws InputError where it cannot apply, for example for want of fibre parts.
+  /// Wraps a model, for the stages invariants to history. Throws InputError if it cannot apply, for example without
+  /// fibre parts.
   std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};
-  /// Stages test and data.
+  /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply.
   std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
 };
 

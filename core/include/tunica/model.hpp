@@ -10,81 +10,113 @@
 #include "tunica/parameter.hpp"
 #include "tunica/status.hpp"
 
-/// What plugins are written against; docs/sdk.md says in which order to read it.
+/// The interfaces that plugins implement, and the declarations they share. docs/sdk.md gives a reading order.
 namespace tunica {
 
-/// What a model says of itself; it never changes during the model's life.
+/// The properties of a model. They never change during the model's life.
 struct ModelDescription {
-  std::string type;                       ///< "gho"
-  std::vector<Parameter> parameters;      ///< order of every parameter span below
-  std::size_t history_size = 0;           ///< doubles of state a material point carries; 0 = no memory
-  bool principal_axes = false;            ///< evaluate_axes() is implemented
-  bool parameter_derivatives = true;      ///< false: the host differences (whole paths, for models with history)
-  std::vector<Combination> combinations;  ///< known invariances, see Combination
-  /// Inequalities value ≥ 0 that an admissible material keeps, beyond the bounds of single parameters; the host checks
-  /// them at every result and imposes them on demand. `remedy` is not used.
+  /// Name in experiment files, for example "gho".
+  std::string type = {};
+  /// The parameters. Their order is the order of every parameter span below.
+  std::vector<Parameter> parameters = {};
+  /// Doubles of state that a material point carries from step to step; 0 = no memory.
+  std::size_t history_size = 0;
+  /// Whether evaluate_axes() is implemented. Point tests are then several times faster.
+  bool principal_axes = false;
+  /// Whether `stress_dp` and `gradient_dp` are exact. If false the host differences predictions; a model with history
+  /// is differenced over its whole path.
+  bool parameter_derivatives = true;
+  /// Functions of the parameters that data may fix although they leave the parameters themselves free.
+  std::vector<Combination> combinations = {};
+  /// Inequalities value ≥ 0 of an admissible material, beyond the bounds of single parameters. The host checks them at
+  /// every result, and imposes them if the experiment file asks for it. `remedy` is not used.
   std::vector<Combination> admissible = {};
 };
 
-/// A batch of n material points, structure of arrays: component c of point i at [c·n + i].
+/// The input of one evaluation: a batch of n material points as a structure of arrays.
+///
+/// Component c of point i stands at [c·n + i]. Tensors are symmetric and have six components in the order tt, zz, rr,
+/// tz, zr, tr, with t circumferential, z axial and r radial; an off-diagonal entry is the tensor's, not twice it.
 struct MaterialPoints {
-  std::size_t count = 0;               ///< n
-  std::span<const double> C;           ///< 6n; right Cauchy–Green tensor in material axes: tt, zz, rr, tz, zr, tr
-  std::span<const double> parameters;  ///< in the order and base units of the description
-  std::span<const double> time_step;   ///< n, in s, ≥ 0; empty = equilibrium (infinitely slow)
-  std::span<const double> state;       ///< history_size·n, old state; empty = every point at rest
+  /// n, the number of points; any number from 0.
+  std::size_t count = 0;
+  /// 6n entries: the right Cauchy–Green tensor C = FᵀF in material axes. det C need not be 1.
+  std::span<const double> C;
+  /// The model's parameters, in the order and base units of the description; the same for all points.
+  std::span<const double> parameters;
+  /// n entries ≥ 0: time since the step before, in s. Empty = equilibrium, loading is infinitely slow.
+  std::span<const double> time_step;
+  /// history_size·n entries: the state after the step before. Empty = every point starts from rest.
+  std::span<const double> state;
 };
 
-/// Outputs into memory of the caller; an empty span means "not wanted".
+/// The output of one evaluation, in memory of the caller. An empty span means "not wanted".
+///
+/// Layout as in MaterialPoints. Spans do not overlap each other or the inputs.
 struct MaterialResponse {
-  std::span<double> energy;  ///< n; W per reference volume, kPa
-  std::span<double> stress;  ///< 6n; S = 2 ∂W/∂C (+ what history adds), second Piola–Kirchhoff without pressure, kPa
-  std::span<double> tangent;    ///< 36n; row (a,b) of point i at [(6a+b)n + i]: 2 ∂S_a/∂C_b, tensor components
-  std::span<double> stress_dp;  ///< n_p·6n; ∂S/∂p_j at [(6j+c)n + i]
-  std::span<double> state;      ///< history_size·n, new state; may not alias the old one
+  /// n entries: energy W per reference volume, kPa.
+  std::span<double> energy;
+  /// 6n entries: second Piola–Kirchhoff stress S = 2 ∂W/∂C plus what history adds, without pressure, kPa.
+  std::span<double> stress;
+  /// 36n entries: 2 ∂S_a/∂C_b in tensor components, kPa; row (a, b) of point i at [(6a + b)n + i]. With history it is
+  /// the derivative of this step, consistent with the stress.
+  std::span<double> tangent;
+  /// n_p·6n entries: ∂S_c/∂p_j of point i at [(6j + c)n + i].
+  std::span<double> stress_dp;
+  /// history_size·n entries: the new state. It never aliases the old one.
+  std::span<double> state;
 };
 
-/// Points whose C is diagonal in material axes, given by the squared stretches c = (c_t, c_z, c_r).
+/// The input of an evaluation in principal axes: points whose C is diagonal in material axes.
 struct AxisPoints {
-  std::size_t count = 0;               ///< n
-  std::span<const double> c;           ///< 3n, component-major
-  std::span<const double> parameters;  ///< in the order and base units of the description
+  /// n, the number of points.
+  std::size_t count = 0;
+  /// 3n entries: squared stretches c = (c_t, c_z, c_r), component-major.
+  std::span<const double> c;
+  /// The model's parameters, in the order and base units of the description.
+  std::span<const double> parameters;
 };
 
-/// First and second derivatives of W by the squared stretches; empty = not wanted.
+/// First and second derivatives of W by the squared stretches. An empty span means "not wanted".
 struct AxisResponse {
-  std::span<double> energy;       ///< n
-  std::span<double> gradient;     ///< 3n; g_a = ∂W/∂c_a, so that S_aa = 2 g_a
-  std::span<double> hessian;      ///< 6n; ∂²W/∂c_a∂c_b in the order tt, zz, rr, tz, zr, tr
-  std::span<double> gradient_dp;  ///< n_p·3n; ∂g_a/∂p_j at [(3j+a)n + i]
+  /// n entries: W, kPa.
+  std::span<double> energy;
+  /// 3n entries: g_a = ∂W/∂c_a, so that S_aa = 2 g_a.
+  std::span<double> gradient;
+  /// 6n entries: ∂²W/∂c_a∂c_b in the order tt, zz, rr, tz, zr, tr.
+  std::span<double> hessian;
+  /// n_p·3n entries: ∂g_a/∂p_j of point i at [(3j + a)n + i].
+  std::span<double> gradient_dp;
 };
 
 /// The constitutive response of a material.
 ///
-/// Mathematics: an energy W(C; p) per reference volume, defined for det C ≠ 1 too; S = 2 ∂W/∂C carries no pressure
-/// and no isochoric split, so S at rest need not vanish, only its deviatoric part. Incompressibility is the test's
-/// affair. Sizes and layout: see the structs above; a whole batch in one virtual call.
-/// Required: describe, evaluate. Optional: evaluate_axes (the fast path of point tests) where the description says
-/// so; parts, for energies that are sums over invariants (mechanisms then can transform them).
-/// Threads: every method is const and safe to call concurrently; no mutable scratch. A trial evaluation never
-/// commits state: the old state is read, the new one written to the caller's memory.
-/// Failure: a point where the energy overflows or is undefined yields non-finite numbers at that point, and the
-/// test turns them into a status; a status other than ok means that no point could be evaluated. No exceptions.
-/// Ownership: the model owns what describe() and parts() refer to, for its whole life.
-/// Source: physics as in docs/theory.md.
+/// Mathematics: an energy W(C; p) per reference volume, defined for det C ≠ 1 as well, and S = 2 ∂W/∂C. S carries no
+/// pressure and no isochoric split, so only its deviatoric part vanishes at rest. The test enforces incompressibility.
+/// Physics: docs/theory.md.
+///
+/// Required: describe() and evaluate(). Optional: evaluate_axes(), the fast path of point tests; parts(), through which
+/// mechanisms change an energy that is a sum. Few authors implement this interface from nothing: tunica/models/ has
+/// bases that need only the energy.
+///
+/// Threads: every method is const and is called concurrently, so there is no mutable scratch in members. A call is a
+/// trial: it reads the old state and writes the new one, and a second call must give the same bits.
+/// Failure: where the energy overflows or is undefined, write non-finite numbers at that point; the test turns them
+/// into a status. Return a status other than ok only if no point could be evaluated. Do not throw.
+/// Ownership: the model owns what describe() and parts() return, for its whole life. Spans live as long as the call.
 class Model {
  public:
   virtual ~Model() = default;
-  /// Asked at any time, by any thread; cheap.
+  /// The properties of the model. Called at any time and by any thread, so it returns a member.
   [[nodiscard]] virtual const ModelDescription& describe() const = 0;
-  /// Energy, stress and derivatives of a batch; writes what `response` has room for, and nothing else.
+  /// Evaluates a batch. Writes the outputs that are not empty, and nothing else.
   virtual Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const = 0;
-  /// The same in principal axes, called only where ModelDescription::principal_axes says so.
-  virtual Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const {
-    static_cast<void>(points), static_cast<void>(response);
+  /// Evaluates a batch in principal axes. Called only if ModelDescription::principal_axes is true.
+  virtual Status evaluate_axes([[maybe_unused]] const AxisPoints& points,
+                               [[maybe_unused]] const AxisResponse& response) const {
     return Status::failed("this model has no principal-axes path");
   }
-  /// The terms of the energy that mechanisms can transform; empty where it is no sum over invariants.
+  /// The terms of the energy that mechanisms can change. Expose all of them, so that they add up to W, or none.
   [[nodiscard]] virtual std::span<const std::unique_ptr<EnergyPart>> parts() const { return {}; }
 };
 

@@ -17,10 +17,11 @@
 #include "tunica/test.hpp"
 
 /// \file
-/// What a plugin registers, and the one symbol by which the host finds and checks it.
+/// The factories that a plugin registers, and the one symbol by which the host finds and checks a plugin.
 
-/// Raised with every change of an interface or of a struct that crosses the boundary.
-#define TUNICA_PLUGIN_API 4
+/// Version of the interface. It rises with every change of an interface or of a struct that crosses the boundary. The
+/// host refuses plugins that were built for another number. docs/migration.md says what to change.
+#define TUNICA_PLUGIN_API 5
 
 #define TUNICA_TEXT_(x) #x
 /// The value of a macro as text, for TUNICA_ABI_FINGERPRINT.
@@ -30,8 +31,8 @@
 #else
 #define TUNICA_LIBRARY_DEBUG_ "release"
 #endif
-/// What must be equal on both sides for C++ objects to cross: compiler, standard library and its modes, language,
-/// Eigen and its alignment, JSON. Fields are separated by "; " so that a refusal can show the ones that differ.
+/// What must be equal on both sides so that C++ objects can cross: compiler, standard library and its modes, language,
+/// Eigen and its alignment, JSON. "; " separates the fields, so that a refusal can show those that differ.
 #define TUNICA_ABI_FINGERPRINT \
   "compiler " TUNICA_TEXT(__GNUC__) "; libstdc++ cxx11-abi " TUNICA_TEXT(_GLIBCXX_USE_CXX11_ABI) " "    \
   TUNICA_LIBRARY_DEBUG_ "; c++ " TUNICA_TEXT(__cplusplus) "; eigen " TUNICA_TEXT(EIGEN_WORLD_VERSION) "." \
@@ -41,64 +42,100 @@
 
 namespace tunica {
 
-/// How the host makes a model, and what it prints of it before there is one.
+/// How the host makes a model, and what it prints about the type before there is one.
 struct ModelFactory {
-  std::string type,             ///< its name in files: lower case, with underscores
-      doc,                      ///< one sentence for `list` and the schema
-      reference;                ///< source; may be empty
-  std::vector<Option> options;  ///< of its object in the experiment file
-  /// Called with checked options; throws InputError for combinations that make no sense.
+  /// Name in experiment files: lower case, with underscores. It must be unique among all models.
+  std::string type;
+  /// One sentence for `tunica list` and the schema.
+  std::string doc;
+  /// Source in the literature; may be empty.
+  std::string reference;
+  /// The options of its object in the experiment file.
+  std::vector<Option> options;
+  /// Makes a model from checked options. Throws InputError for combinations that make no sense.
   std::function<std::unique_ptr<Model>(const Options&)> create;
 };
 
-/// How the host makes a test, and what it prints of it before there is one.
+/// How the host makes a test, and what it prints about the type before there is one.
 struct TestFactory {
-  std::string type,                     ///< its name in files: lower case, with underscores
-      doc,                              ///< one sentence for `list` and the schema
-      reference;                        ///< source; may be empty
-  std::vector<Option> options;          ///< of its object in the experiment file
-  std::vector<Observable> observables;  ///< columns its data can have
-  /// Called once a data file and again for simulations; throws InputError for rows it cannot simulate.
+  /// Name in experiment files: lower case, with underscores. It must be unique among all tests.
+  std::string type;
+  /// One sentence for `tunica list` and the schema.
+  std::string doc;
+  /// Source in the literature; may be empty.
+  std::string reference;
+  /// The options of its object in the experiment file.
+  std::vector<Option> options;
+  /// The columns that its data can have.
+  std::vector<Observable> observables;
+  /// Makes a test: once for each data file, and again for simulations. Throws InputError for rows that it cannot
+  /// simulate.
   std::function<std::unique_ptr<Test>(const TestSetup&)> create;
-  /// Every parameter a test of this type can have, as TestDescription declares it: files are checked against it
-  /// before there are data to make a test from.
+  /// Every parameter that a test of this type can have, as TestDescription declares it. The host checks experiment
+  /// files against it before there are data to make a test from.
   std::vector<Parameter> parameters = {};
-  bool layered = false;  ///< takes a wall of layers with models of their own, see TestSetup::layers
+  /// Whether it takes a wall of layers with a model each, see TestSetup::layers.
+  bool layered = false;
 };
 
-/// How the host makes an optimiser, and what it prints of it before there is one.
+/// How the host makes an optimizer, and what it prints about the type before there is one.
 struct OptimizerFactory {
-  std::string type,             ///< its name in files: lower case, with underscores
-      doc,                      ///< one sentence for `list` and the schema
-      reference;                ///< source; may be empty
-  std::vector<Option> options;  ///< of its object in the experiment file
-  /// Called anew for every search, so that an optimiser may keep scratch in members.
+  /// Name in experiment files: lower case, with underscores. It must be unique among all optimizers.
+  std::string type;
+  /// One sentence for `tunica list` and the schema.
+  std::string doc;
+  /// Source in the literature; may be empty.
+  std::string reference;
+  /// The options of its object in the experiment file.
+  std::vector<Option> options;
+  /// Makes an optimizer, a new one for every search. Throws InputError for combinations that make no sense.
   std::function<std::unique_ptr<Optimizer>(const Options&)> create;
 };
 
-/// Receives what a plugin provides. Registration is staged: it counts only if `register_into` returns normally.
+/// Receives the factories of a plugin, any number of each kind. Nothing counts unless the registration returns
+/// normally.
+///
+/// Names are lower case, with digits and underscores, for example "fibre_damage".
+/// The host checks names after that: a name that is taken already, or that breaks the rules, refuses the whole plugin.
 class Registry {
  public:
   virtual ~Registry() = default;
-  virtual void add(ModelFactory factory) = 0;  ///< checked after register_into has returned: a name can be taken once
-  virtual void add(TestFactory factory) = 0;   ///< as for models
-  virtual void add(OptimizerFactory factory) = 0;  ///< as for models
-  virtual void add(MechanismFactory factory) = 0;  ///< as for models; its id is the name
+  /// Adds a type of models.
+  virtual void add(ModelFactory factory) = 0;
+  /// Adds a type of tests.
+  virtual void add(TestFactory factory) = 0;
+  /// Adds a type of optimizers.
+  virtual void add(OptimizerFactory factory) = 0;
+  /// Adds a mechanism; its id is the name.
+  virtual void add(MechanismFactory factory) = 0;
 };
 
-/// What the one exported symbol, `tunica_plugin`, returns: plain data, compared before any C++ object is touched.
+/// The result of the one exported symbol, `tunica_plugin`: plain data that the host compares before it touches any C++
+/// object of the plugin. TUNICA_PLUGIN fills it in.
 struct PluginHeader {
-  std::uint32_t struct_size;         ///< sizeof(PluginHeader) of the plugin's build
-  std::uint32_t api;                 ///< TUNICA_PLUGIN_API of the headers it was built with
-  const char* fingerprint;           ///< TUNICA_ABI_FINGERPRINT there
-  const char* name;                  ///< of the plugin, for messages and results
-  const char* version;               ///< of the plugin itself, its author's own count
-  void (*register_into)(Registry&);  ///< the body that follows TUNICA_PLUGIN; not called before all above is right
+  /// Sizeof(PluginHeader) in the plugin's build.
+  std::uint32_t struct_size;
+  /// TUNICA_PLUGIN_API of the headers it was built with.
+  std::uint32_t api;
+  /// TUNICA_ABI_FINGERPRINT in the plugin's build.
+  const char* fingerprint;
+  /// Name of the plugin in messages and results.
+  const char* name;
+  /// Version of the plugin; its author counts.
+  const char* version;
+  /// The body that follows TUNICA_PLUGIN; called only if all of the above is right.
+  void (*register_into)(Registry&);
 };
 
 }  // namespace tunica
 
-/// Defines the exported symbol of a plugin; the body that follows registers what it provides, once, at loading:
+/// Defines the exported symbol of a plugin.
+///
+/// It stands once in a plugin, at global scope, in one of its source files.
+/// cmake/tunica_plugin.map hides every other symbol.
+///
+/// The first argument is the name of the plugin in messages and results, the second its version. The body that follows
+/// registers what the plugin provides; the host runs it once, when it loads the plugin.
 ///
 ///     TUNICA_PLUGIN("gho", "0.1.0") { registry.add(tunica::ModelFactory{…}); }
 #define TUNICA_PLUGIN(plugin_name, plugin_version)                                                \

@@ -13,130 +13,175 @@ namespace tunica {
 
 /// A quantity of a test that a data column can be mapped to.
 struct Observable {
-  /// What the column is for.
-  enum class Role { abscissa, channel, time };  ///< prescribed; measured and predicted; clock
-  /// What the host may check and convert.
-  enum class Kind { plain, stretch, stress };  ///< stretch: percent-for-fraction check; stress: has a measure
-  std::string name;                            ///< "stretch", "stress", "transverse_stretch"
-  std::string unit;                            ///< base unit
-  Role role = Role::channel;                   ///< abscissae are given to the test, channels are compared with it
-  bool required = false;                       ///< a file that maps no column to it is refused
-  std::string doc;                             ///< one sentence
-  Kind kind = Kind::plain;                     ///< plain: nothing beyond its unit
+  /// The use of a column.
+  enum class Role {
+    abscissa,  ///< prescribed in the experiment and given to the test
+    channel,   ///< measured, and compared with the prediction
+    time       ///< the clock, in s; models with history need it
+  };
+  /// What the host can check and convert beyond the unit.
+  enum class Kind {
+    plain,    ///< nothing
+    stretch,  ///< the host warns where a strain, or a percentage, was given for a stretch
+    stress    ///< the data state a stress measure: Cauchy, first or second Piola–Kirchhoff
+  };
+  /// Name in "columns" of the experiment file, for example "stretch".
+  std::string name;
+  /// Base unit in UDUNITS spelling.
+  std::string unit;
+  /// What the column is used for.
+  Role role = Role::channel;
+  /// Whether a file that maps no column to it is refused.
+  bool required = false;
+  /// One sentence.
+  std::string doc;
+  /// What the host checks and converts.
+  Kind kind = Kind::plain;
 };
 
-/// The rows of one test in loading order, in base units; spans live as long as the call that receives them.
+/// The rows of one experiment in loading order, in base units. Spans live as long as the call that receives them.
 struct TestRows {
   /// The values of one mapped observable.
   struct Column {
     std::string observable;          ///< Observable::name
-    std::span<const double> values;  ///< one per row
+    std::span<const double> values;  ///< one a row
   };
-  std::size_t count = 0;              ///< rows
-  std::vector<Column> abscissae;      ///< mapped observables of role abscissa
-  std::vector<std::string> channels;  ///< fitted observables, in the order of the predictions
-  std::span<const double> time;       ///< s; empty = equilibrium
+  /// n, the number of rows.
+  std::size_t count = 0;
+  /// The mapped observables of role abscissa.
+  std::vector<Column> abscissae;
+  /// Names of the fitted observables. Predictions come in this order.
+  std::vector<std::string> channels;
+  /// n entries: time of each row, s. Empty = equilibrium.
+  std::span<const double> time;
 };
 
-/// What a test is made from. The test copies what it keeps.
+/// The arguments of TestFactory::create. The test copies what it keeps.
 struct TestSetup {
-  Options options;             ///< as TestFactory::options declares them, checked
-  TestRows rows;               ///< of the data file, or of the ones to simulate
-  std::string stress_measure;  ///< "cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"
-  /// Thickness in mm of each layer from inside, positive, where the type takes layers (TestFactory::layered) and the
-  /// file gives them; empty = one model.
+  /// The options of the test, as TestFactory::options declares them; checked.
+  Options options;
+  /// The rows of the data file, or the rows to simulate.
+  TestRows rows;
+  /// Measure of the data's stress: "cauchy", "first_piola_kirchhoff" or "second_piola_kirchhoff".
+  std::string stress_measure;
+  /// Thickness of each layer from inside, in mm, positive. Empty = one model; others only if TestFactory::layered.
   std::vector<double> layers = {};
 };
 
-/// What a test says of itself; it never changes during the test's life.
+/// The properties of a test. They never change during the test's life.
 struct TestDescription {
-  std::vector<Parameter> parameters;     ///< the test's own, and its native imperfections
-  std::vector<double> nulls;             ///< null of each parameter; NaN = an ordinary parameter, fitted unless fixed
-  std::vector<std::string> diagnostics;  ///< names of the diagnostics rows, for example "transverse_stretch"
-  std::vector<std::string> diagnostic_units;  ///< base unit of each
-  /// A strip with free lateral faces, pulled along this material axis (0 = circumferential, 1 = axial) to the values of
-  /// its abscissa "stretch": there the host can ask for transverse stability.
+  /// The test's own parameters, among them the imperfections that it can simulate.
+  std::vector<Parameter> parameters;
+  /// The null of each parameter: the value at which an imperfection vanishes. NaN marks an ordinary parameter, which
+  /// is fitted unless the file fixes it; the others rest at their null unless a mechanism frees them.
+  std::vector<double> nulls;
+  /// Names of the diagnostics: quantities that the test can report and nobody fits, for example "transverse_stretch".
+  std::vector<std::string> diagnostics;
+  /// Base unit of each diagnostic.
+  std::vector<std::string> diagnostic_units;
+  /// The material axis that a strip with free lateral faces is pulled along to its abscissa "stretch": 0 =
+  /// circumferential, 1 = axial. The host then checks transverse stability. None for other tests.
   std::optional<std::size_t> free_strip_axis = {};
-  /// Not worth simulating where cheaper tests fail or a constraint is broken (finite elements): the host does it last,
-  /// and at a point that breaks a constraint only for an optimiser that needs it there, see Optimizer::Needs.
+  /// Whether a prediction takes long, as with finite elements. The host then runs cheaper tests first, and skips this
+  /// one where those fail. Where a constraint is violated it runs only for optimizers that need it, see
+  /// Optimizer::Needs::infeasible.
   bool costly = false;
 };
 
-/// What one prediction is made of; nothing of it is kept.
+/// The input of one prediction. The test keeps nothing of it.
 struct TestInput {
-  const Model& model;                        ///< of the first layer, where there are several
-  std::span<const double> model_parameters;  ///< of all layers, one after the other
-  std::span<const double> test_parameters;   ///< in the order of TestDescription
-  /// Abscissae instead of the bound ones (a mechanism corrects them): one span per mapped abscissa, or empty.
+  /// The model of the first layer, or the only one.
+  const Model& model;
+  /// Parameters of all layers, one layer after the other.
+  std::span<const double> model_parameters;
+  /// The test's parameters, in the order of TestDescription.
+  std::span<const double> test_parameters;
+  /// Abscissae in place of the rows' own, one span for each mapped abscissa: a mechanism corrects readings this way.
+  /// Empty = the rows' own.
   std::span<const std::span<const double>> abscissae = {};
-  /// The model of each layer of TestSetup::layers, one model perhaps in several of them; empty = `model` alone. A layer
-  /// that shares its model has its own copy of the parameters, and own rows of the Jacobian: the host adds them up.
+  /// The model of each layer of TestSetup::layers; several layers may share a model. Empty = `model` alone. Every
+  /// layer has its own copy of the parameters and its own rows of the Jacobian; the host adds shared ones up.
   std::span<const Model* const> layers = {};
 };
 
-/// Predictions into memory of the caller; with c channels and n rows, channel k of row i at [k·n + i].
-/// An empty span means "not wanted".
+/// The output of one prediction, in memory of the caller. An empty span means "not wanted".
+///
+/// With c channels and n rows, channel k of row i stands at [k·n + i].
 struct TestOutput {
-  std::span<double> values;    ///< c·n, in base units and in the data's stress measure
-  std::span<double> jacobian;  ///< (n_model + n_test)·c·n; ∂values/∂p_j at [j·c·n + …], model first
-  std::span<double> abscissa_derivative;  ///< n_abscissae·c·n; ∂values/∂(abscissa a of the same row)
-  std::span<double> diagnostics;          ///< n_diagnostics·n
+  /// c·n entries: predictions, in base units and in the stress measure of the data.
+  std::span<double> values;
+  /// (n_model + n_test)·c·n entries: ∂values/∂p_j at [j·c·n + k·n + i], parameters of the model before the test's.
+  std::span<double> jacobian;
+  /// n_abscissae·c·n entries: derivatives by the abscissa of the same row, abscissa a at [a·c·n + k·n + i].
+  std::span<double> abscissa_derivative;
+  /// n_diagnostics·n entries: diagnostic d of row i at [d·n + i].
+  std::span<double> diagnostics;
 };
 
-/// How far a test is from an independent solution of a problem that both can solve, at the same material.
+/// The distance between a test and an independent solution of a problem that both can solve, with one material.
 struct Agreement {
-  std::string with;       ///< "the semi-analytic long tube, ends sliding: outer diameter stretch"
-  double difference = 0;  ///< the largest, in `unit`
-  std::string unit;       ///< as printed
-  double expected = 0;    ///< what discretisation explains; beyond it something is wrong
+  /// What was compared: "the semi-analytic long tube, ends sliding: outer diameter stretch".
+  std::string with;
+  /// The largest difference, in `unit`.
+  double difference = 0;
+  /// Unit of both numbers, as printed.
+  std::string unit;
+  /// The largest difference that discretisation explains. A larger one is a fault.
+  double expected = 0;
 };
 
 /// Fields over a simulated body at one row, on a mesh of quadrilaterals.
 struct Snapshot {
   /// One scalar, vector or tensor over the body.
   struct Field {
-    std::string name,            ///< "cauchy_stress"
-        unit;                    ///< base unit
-    std::size_t components = 1;  ///< 1, 3 or 6, as VTK has them
-    bool of_cells = false;       ///< one value a cell instead of one a point
-    std::vector<double> values;  ///< components of the first point, of the second, …
+    std::string name;            ///< for example "cauchy_stress"
+    std::string unit;            ///< base unit
+    std::size_t components = 1;  ///< 1, 3 or 6, in the order of VTK
+    bool of_cells = false;       ///< whether values belong to cells instead of points
+    std::vector<double> values;  ///< all components of the first point, then of the second, …
   };
-  std::size_t row = 0;             ///< of the test
-  std::vector<double> points;      ///< x, y, z of each, in the loaded state, mm
-  std::vector<std::size_t> cells;  ///< four points each, in turn around it
-  std::vector<Field> fields;       ///< any number
-  /// One column of the table.
+  /// One column of the table along a line.
   struct Column {
-    std::string name,            ///< heading
-        unit;                    ///< base unit
+    std::string name;            ///< heading
+    std::string unit;            ///< base unit
     std::vector<double> values;  ///< one a point of the line
   };
-  std::vector<Column> section;  ///< a table along a line worth looking at, as through a wall; may be empty
+  std::size_t row = 0;             ///< the row of the test, from 0
+  std::vector<double> points;      ///< x, y, z of each point in the loaded state, mm
+  std::vector<std::size_t> cells;  ///< four point indices a cell, in turn around it
+  std::vector<Field> fields;       ///< any number of fields
+  std::vector<Column> section;     ///< a table along a line, for example through a wall; may be empty
 };
 
-/// Simulates one experiment with a model, at the rows it was made with.
+/// Simulates one experiment with a model, at the rows that it was made with.
 ///
-/// Required: describe, predict. Rows are in loading order; a model with history sees them so, with time where the
-/// data have it, else at equilibrium. The Jacobian is exact where the model has parameter derivatives; else the
-/// test returns `failed` when it is asked for one and the host differences whole predictions.
-/// Threads: const, safe to call concurrently. Failure: a status with a reason that names row and abscissa, never a
-/// NaN under `ok`, never an exception. Ownership: the test owns its copy of the rows.
+/// Required: describe(), rows() and predict(). Rows come in loading order; a model with history sees them in that
+/// order, with time if the data have it, else at equilibrium. If every row's deformation follows from its abscissa
+/// alone, tunica/tests/point_test.hpp needs only two formulas. A test around another one begins with
+/// tunica/tests/decorated_test.hpp.
+///
+/// Derivatives: the Jacobian is exact wherever the model has parameter derivatives. Where it has none, the test
+/// returns `failed` if a Jacobian is wanted, and the host differences whole predictions.
+/// Threads: every method is const and is called concurrently.
+/// Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
+/// Ownership: the test owns its copy of the rows, and what describe() returns.
 class Test {
  public:
   virtual ~Test() = default;
-  [[nodiscard]] virtual const TestDescription& describe() const = 0;  ///< cheap; asked at any time
-  [[nodiscard]] virtual const TestRows& rows() const = 0;  ///< the rows it was made with; spans into the test
-  /// Simulates every row; writes what `output` has room for.
+  /// The properties of the test. Called at any time, so it returns a member.
+  [[nodiscard]] virtual const TestDescription& describe() const = 0;
+  /// The rows that it was made with. Their spans point into the test.
+  [[nodiscard]] virtual const TestRows& rows() const = 0;
+  /// Simulates every row. Writes the outputs that are not empty, and nothing else.
   virtual Status predict(const TestInput& input, const TestOutput& output) const = 0;
-  /// Checks of the simulation by other means, for `tunica check`; appends to `found`. Optional.
-  virtual Status agreement(const TestInput& input, std::vector<Agreement>& found) const {
-    static_cast<void>(input), static_cast<void>(found);
+  /// Optional, for `tunica check`: compares the simulation with other solutions, and appends to `found`.
+  virtual Status agreement([[maybe_unused]] const TestInput& input,
+                           [[maybe_unused]] std::vector<Agreement>& found) const {
     return {};
   }
-  /// Fields at the given rows, one snapshot each; for `tunica simulate --fields`. Optional.
-  virtual Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
-                           std::vector<Snapshot>& found) const {
-    static_cast<void>(input), static_cast<void>(rows), static_cast<void>(found);
+  /// Optional, for `tunica simulate --fields`: appends one snapshot for each of the given rows.
+  virtual Status snapshots([[maybe_unused]] const TestInput& input, [[maybe_unused]] std::span<const std::size_t> rows,
+                           [[maybe_unused]] std::vector<Snapshot>& found) const {
     return Status::failed("this test has no fields to show");
   }
 };

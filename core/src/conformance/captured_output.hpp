@@ -14,8 +14,10 @@ class CapturedOutput {
   CapturedOutput() : file_(std::tmpfile()) {
     std::fflush(nullptr);
     if (file_ == nullptr) return;
-    out_ = ::dup(STDOUT_FILENO), err_ = ::dup(STDERR_FILENO);
-    ::dup2(::fileno(file_), STDOUT_FILENO), ::dup2(::fileno(file_), STDERR_FILENO);
+    out_ = ::dup(STDOUT_FILENO);
+    err_ = ::dup(STDERR_FILENO);
+    ::dup2(::fileno(file_), STDOUT_FILENO);
+    ::dup2(::fileno(file_), STDERR_FILENO);
   }
   CapturedOutput(const CapturedOutput&) = delete;
   CapturedOutput& operator=(const CapturedOutput&) = delete;
@@ -36,8 +38,10 @@ class CapturedOutput {
   void give_back() {
     if (out_ < 0) return;
     std::fflush(nullptr);
-    ::dup2(out_, STDOUT_FILENO), ::dup2(err_, STDERR_FILENO);
-    ::close(out_), ::close(err_);
+    ::dup2(out_, STDOUT_FILENO);
+    ::dup2(err_, STDERR_FILENO);
+    ::close(out_);
+    ::close(err_);
     out_ = err_ = -1;
   }
   std::FILE* file_;

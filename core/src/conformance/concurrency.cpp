@@ -38,10 +38,12 @@ void doze(int) {
 class Interruptions {
  public:
   Interruptions() {
-    ::sigemptyset(&alarm_), ::sigaddset(&alarm_, SIGALRM);
+    ::sigemptyset(&alarm_);
+    ::sigaddset(&alarm_, SIGALRM);
     ::pthread_sigmask(SIG_BLOCK, &alarm_, &mask_);
     struct sigaction action {};
-    action.sa_handler = doze, action.sa_flags = SA_RESTART;
+    action.sa_handler = doze;
+    action.sa_flags = SA_RESTART;
     ::sigaction(SIGALRM, &action, &before_);
     set(70);
   }
@@ -94,14 +96,16 @@ Race race_threads(std::size_t count, const std::function<bool(std::size_t)>& agr
           ++calls;
           if (agrees(input)) continue;
           const std::lock_guard lock(guard);
-          over = race.lost = true, race.input = input;
+          over = race.lost = true;
+          race.input = input;
           return;
         }
       } while (std::chrono::steady_clock::now() < end);
       Interruptions::stop();  // the last ones are not kept from their end
     } catch (...) {
       const std::lock_guard lock(guard);
-      over = true, thrown = std::current_exception();
+      over = true;
+      thrown = std::current_exception();
     }
   };
   {

@@ -38,7 +38,10 @@ inline Function half_sphere() {
 inline Function rosenbrock_in_disc() {
   Function function = constrained(rosenbrock(2), 1, -2, 2, [](const auto& y, std::span<double> c, std::span<double> d) {
     c[0] = y[0] * y[0] + y[1] * y[1] - 1;
-    if (!d.empty()) d[0] = 2 * y[0], d[1] = 2 * y[1];
+    if (!d.empty()) {
+      d[0] = 2 * y[0];
+      d[1] = 2 * y[1];
+    }
   });
   function.name = "rosenbrock_in_disc";
   function.optimum = 0.04567480872;
@@ -53,7 +56,12 @@ inline Function hock_schittkowski_65() {
         r[0] = y[0] - y[1];
         r[1] = (y[0] + y[1] - 10) / 3;
         r[2] = y[2] - 5;
-        if (!d.empty()) d[0] = 1, d[1] = -1, d[3] = d[4] = 1.0 / 3, d[8] = 1;
+        if (!d.empty()) {
+          d[0] = 1;
+          d[1] = -1;
+          d[3] = d[4] = 1.0 / 3;
+          d[8] = 1;
+        }
       });
   function = constrained(function, 1, -5, 5, [](const auto& y, std::span<double> c, std::span<double> d) {
     c[0] = y[0] * y[0] + y[1] * y[1] + y[2] * y[2] - 48;

@@ -46,7 +46,8 @@ void write_all(int file, const std::string& text) {
 
 [[noreturn]] void work(const std::function<Verdict()>& check, int out) {
   const int nowhere = ::open("/dev/null", O_WRONLY);
-  ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::dup2(nowhere, STDERR_FILENO);
   write_all(out, to_text(guarded_check(check)));
   ::close(out);
   ::_exit(0);
@@ -86,7 +87,8 @@ Verdict isolated(const std::function<Verdict()>& check, double seconds) {
   if (::pipe(ends.data()) != 0) return guarded_check(check);
   const pid_t process = ::fork();
   if (process < 0) {
-    ::close(ends[0]), ::close(ends[1]);
+    ::close(ends[0]);
+    ::close(ends[1]);
     return guarded_check(check);
   }
   if (process == 0) {

@@ -17,22 +17,23 @@ struct Job {
 using Jobs = std::vector<Job>;
 
 /// What the jobs need to know; lives as long as they do.
-struct Around {
+struct CheckContext {
   const plugins::Catalogue& catalogue;
   const CheckSettings& settings;
 };
 
-Jobs model_jobs(const std::string& type, const Around& around);
-Jobs test_jobs(const std::string& type, const Around& around);
-Jobs optimizer_jobs(const std::string& type, const Around& around);
-Jobs mechanism_jobs(const std::string& id, const Around& around);
+Jobs model_jobs(const std::string& type, const CheckContext& context);
+Jobs test_jobs(const std::string& type, const CheckContext& context);
+Jobs optimizer_jobs(const std::string& type, const CheckContext& context);
+Jobs mechanism_jobs(const std::string& id, const CheckContext& context);
 
 /// Every property of a list, for a subject that `make` makes anew for each.
 template <class Subject, class Make>
 void add_properties(Jobs& jobs, Finding head, const std::vector<PropertyOf<Subject>>& properties, std::uint64_t seed,
                     const Make& make) {
   for (const PropertyOf<Subject>& property : properties) {
-    head.property = property.name, head.advisory = property.advisory;
+    head.property = property.name;
+    head.advisory = property.advisory;
     jobs.push_back({head, [make, property, seed] {
                       return make([&](const Subject& subject) { return property.check(subject, seed); });
                     }});
@@ -40,7 +41,8 @@ void add_properties(Jobs& jobs, Finding head, const std::vector<PropertyOf<Subje
 }
 
 inline void add(Jobs& jobs, Finding head, const char* property, std::function<Verdict()> check) {
-  head.property = property, head.advisory = false;
+  head.property = property;
+  head.advisory = false;
   jobs.push_back({std::move(head), std::move(check)});
 }
 

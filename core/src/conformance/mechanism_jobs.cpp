@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/composition.hpp"
+#include "assembly/composition.hpp"
 #include "conformance/declarations.hpp"
 #include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
@@ -28,7 +28,10 @@ std::vector<Options> guesses(const std::vector<Option>& declared, const TestRows
     if (option.kind != Option::Kind::text) continue;
     const std::vector<Options> before = all;
     for (const Options& one : before)
-      for (const std::string& word : words) all.push_back(one), all.back().set(option.name, word);
+      for (const std::string& word : words) {
+        all.push_back(one);
+        all.back().set(option.name, word);
+      }
   }
   return all;
 }
@@ -45,8 +48,8 @@ WrappedModel around_model(const Entry& entry, const std::function<std::unique_pt
   throw InputError(last);
 }
 
-/// Around the first of our own materials that it applies to, or else of the models that are loaded.
-WrappedModel around_some_model(const Entry& entry, const Around& around) {
+/// CheckContext the first of our own materials that it applies to, or else of the models that are loaded.
+WrappedModel around_some_model(const Entry& entry, const CheckContext& context) {
   std::string last;
   const std::vector<double> wall = materials().front().parameters, soft = materials().back().parameters;
   const std::vector<std::pair<std::unique_ptr<Model> (*)(), std::vector<double>>> own{
@@ -56,7 +59,7 @@ WrappedModel around_some_model(const Entry& entry, const Around& around) {
     } catch (const InputError& problem) {
       last = problem.what();
     }
-  for (const auto& [name, model] : around.catalogue.models()) try {
+  for (const auto& [name, model] : context.catalogue.models()) try {
       const auto make = [&model = model] { return plugins::create(model, plausible_options(model.factory.options)); };
       return around_model(entry, make, initial_values(make()->describe().parameters));
     } catch (const InputError& problem) {
@@ -66,20 +69,20 @@ WrappedModel around_some_model(const Entry& entry, const Around& around) {
 }
 
 /// A test of the experiment once more: one that is wrapped is owned.
-std::unique_ptr<Test> composed_test(const std::string& name, const Around& around) {
-  return calibration::compose_test(around.settings.experiment->test(name), around.catalogue).test;
+std::unique_ptr<Test> composed_test(const std::string& name, const CheckContext& context) {
+  return assembly::compose_test(context.settings.experiment->test(name), context.catalogue).test;
 }
 
-WrappedTest around_test(const Entry& entry, const std::string& type, const Around& around) {
+WrappedTest around_test(const Entry& entry, const std::string& type, const CheckContext& context) {
   const MechanismFactory& mechanism = entry.factory;
-  const auto& factory = around.catalogue.tests().find(type)->second;
-  const auto made = [&]() -> Benched {
-    if (around.settings.experiment == nullptr) return make_up(factory, around.settings.seed);
-    auto all = from_experiment(*around.settings.experiment, {type}, around.catalogue);
+  const auto& factory = context.catalogue.tests().find(type)->second;
+  const auto made = [&]() -> TestCase {
+    if (context.settings.experiment == nullptr) return synthetic_case(factory, context.settings.seed);
+    auto all = experiment_cases(*context.settings.experiment, {type}, context.catalogue);
     if (all.empty()) throw std::runtime_error("the experiment has no test of type '" + type + "'");
     return std::move(all.front());
   };
-  Benched bare = made();
+  TestCase bare = made();
   WrappedTest on{mechanism, bare.test, bare.test, 0, bare.own, bare.own, bare.material};
   if (!mechanism.native.empty()) {
     const auto& own = bare.test->describe().parameters;
@@ -93,7 +96,7 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Aroun
   std::string last;
   for (const Options& options : guesses(mechanism.options, &bare.test->rows())) try {
       on.with = plugins::wrap(
-          entry, bare.from ? plugins::create(factory, bare.from->setup()) : composed_test(bare.name, around), options);
+          entry, bare.from ? plugins::create(factory, bare.from->setup()) : composed_test(bare.name, context), options);
       on.amplitude = bare.own.size();
       on.own.push_back(mechanism.null);
       for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) on.own.push_back(mechanism.parameters[k].initial);
@@ -107,43 +110,43 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Aroun
 /// Adds the properties of what `wrap` makes, or why it cannot be made.
 template <class Subject, class Wrap>
 void add_wrapped(Jobs& jobs, const Finding& head, const std::vector<PropertyOf<Subject>>& properties,
-                 const Around& around, const Wrap& wrap) {
+                 const CheckContext& context, const Wrap& wrap) {
   const Verdict able = isolated(
       [&] {
         static_cast<void>(wrap());
         return Verdict{};
       },
-      around.settings.time_limit);
+      context.settings.time_limit);
   if (!able.held()) {
     const std::string why = able.counter_example;
     add(jobs, head, properties.front().name,
         [why] { return not_checked("what it wraps with what it makes of that", why); });
     return;
   }
-  add_properties(jobs, head, properties, around.settings.seed, [wrap](const auto& check) { return check(wrap()); });
+  add_properties(jobs, head, properties, context.settings.seed, [wrap](const auto& check) { return check(wrap()); });
 }
 
 }  // namespace
 
-Jobs mechanism_jobs(const std::string& id, const Around& around) {
-  const auto& entry = around.catalogue.mechanisms().find(id)->second;
+Jobs mechanism_jobs(const std::string& id, const CheckContext& context) {
+  const auto& entry = context.catalogue.mechanisms().find(id)->second;
   Finding head{"mechanism", id, "", ""};
   Jobs jobs;
   add(jobs, head, "declaration_is_complete",
-      [&entry, around] { return declaration_is_complete(entry.factory, around.catalogue); });
+      [&entry, context] { return declaration_is_complete(entry.factory, context.catalogue); });
   if (entry.factory.stage < Stage::test) {
-    add_wrapped(jobs, head, wrapped_model_properties(), around,
-                [&entry, around] { return around_some_model(entry, around); });
+    add_wrapped(jobs, head, wrapped_model_properties(), context,
+                [&entry, context] { return around_some_model(entry, context); });
     return jobs;
   }
   std::vector<std::string> types = entry.factory.applies_to;
   if (types.empty())
-    for (const auto& [type, factory] : around.catalogue.tests()) types.push_back(type);
+    for (const auto& [type, factory] : context.catalogue.tests()) types.push_back(type);
   for (const std::string& type : types) {
-    if (!around.catalogue.tests().contains(type)) continue;  // the declaration says so
+    if (!context.catalogue.tests().contains(type)) continue;  // the declaration says so
     head.with = "on " + type;
-    add_wrapped(jobs, head, wrapped_test_properties(), around,
-                [&entry, type, around] { return around_test(entry, type, around); });
+    add_wrapped(jobs, head, wrapped_test_properties(), context,
+                [&entry, type, context] { return around_test(entry, type, context); });
   }
   return jobs;
 }

@@ -15,13 +15,14 @@ namespace tunica::conformance {
 namespace {
 
 constexpr std::size_t n = 40;
-constexpr Wanted no_derivatives{true, true, true, false, false};
+constexpr OutputSelection no_derivatives{true, true, true, false, false};
 
 /// States at which the bare model is finite; no history yet.
 Batch states(const WrappedModel& on, std::uint64_t seed) {
   Sampler sampler(seed);
   Batch batch;
-  batch.count = n, batch.p = on.base;
+  batch.count = n;
+  batch.p = on.base;
   batch.C.resize(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const Tensor C = sampler.right_cauchy_green();
@@ -30,7 +31,7 @@ Batch states(const WrappedModel& on, std::uint64_t seed) {
   return batch;
 }
 
-std::vector<double> ask(const Model& model, Batch batch, std::vector<double> p, const Wanted& wanted) {
+std::vector<double> ask(const Model& model, Batch batch, std::vector<double> p, const OutputSelection& wanted) {
   batch.p = std::move(p);
   return answers(model, batch, wanted);
 }
@@ -38,7 +39,8 @@ std::vector<double> ask(const Model& model, Batch batch, std::vector<double> p, 
 /// The last stress of a path from rest to each state and half way back, 1 s a step.
 std::vector<double> path(const Model& model, const Batch& there, const std::vector<double>& p) {
   Batch step = there;
-  step.p = p, step.time_step.assign(n, 1.0);
+  step.p = p;
+  step.time_step.assign(n, 1.0);
   if (model.describe().history_size > 0) step.state = answers(model, step, {false, false, false, false, true});
   for (std::size_t k = 0; k < step.C.size(); ++k) step.C[k] = 0.5 * (there.C[k] + (k < 3 * n ? 1 : 0));
   return answers(model, step, {false, true, false, false, false});
@@ -102,7 +104,7 @@ Verdict limit_is_the_bare_model(const WrappedModel& on, std::uint64_t seed) {
   const Batch batch = states(on, seed);
   const double near = next_to_the_null(on.mechanism);
   for (const std::size_t kind : {0u, 1u, 2u}) {
-    const Wanted wanted{kind == 0, kind == 1, kind == 2, false, false};
+    const OutputSelection wanted{kind == 0, kind == 1, kind == 2, false, false};
     see(meter, ask(*on.with, batch, on.at(near), wanted), ask(*on.bare, batch, on.base, wanted),
         fmt::format("next to the null, at {:.3g}", near));
   }
@@ -115,7 +117,7 @@ Verdict base_derivatives_at_the_null_are_those_of_the_base(const WrappedModel& o
     return not_checked(meter.verdict().compared,
                        "it declares no parameter derivatives; tunica differences predictions");
   const Batch batch = states(on, seed);
-  constexpr Wanted wanted{false, false, false, true, false};
+  constexpr OutputSelection wanted{false, false, false, true, false};
   std::vector<double> with = ask(*on.with, batch, on.at(on.mechanism.null), wanted);
   const std::vector<double> bare = ask(*on.bare, batch, on.base, wanted);
   with.resize(bare.size());

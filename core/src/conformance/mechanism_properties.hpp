@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "conformance/partners.hpp"
-#include "conformance/test_bench.hpp"
+#include "conformance/test_cases.hpp"
 #include "conformance/verdict.hpp"
 #include "tunica/mechanism.hpp"
 
@@ -58,7 +58,8 @@ Verdict has_properties(std::string compared, const std::vector<PropertyOf<Subjec
     Verdict one = check(property);
     if (!one.counter_example.empty()) {
       one.counter_example = fmt::format("{}: {}", property.name, one.counter_example);
-      one.skipped.clear(), one.note.clear();
+      one.skipped.clear();
+      one.note.clear();
       return one;
     }
     held += one.held();

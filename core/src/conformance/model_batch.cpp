@@ -60,7 +60,7 @@ Point Batch::point(std::size_t i) const {
   return point;
 }
 
-std::vector<double> answers(const Model& model, const Batch& batch, const Wanted& wanted) {
+std::vector<double> answers(const Model& model, const Batch& batch, const OutputSelection& wanted) {
   const std::size_t n = batch.count;
   const ModelDescription& description = model.describe();
   std::array outputs{Fenced(wanted.energy ? n : 0), Fenced(wanted.stress ? 6 * n : 0),

@@ -19,7 +19,7 @@ inline bool same(std::span<const double> a, std::span<const double> b) {
 }
 
 /// Which outputs are asked for.
-struct Wanted {
+struct OutputSelection {
   bool energy = true, stress = true, tangent = true, stress_dp = true, state = true;
 };
 
@@ -36,6 +36,6 @@ struct Batch {
 
 /// All answers one behind the other: energy, stress, tangent, stress_dp, state; of the kinds wanted only. Throws
 /// std::runtime_error for a status that is not ok, and where memory beyond an output was written to.
-std::vector<double> answers(const Model& model, const Batch& batch, const Wanted& wanted = {});
+std::vector<double> answers(const Model& model, const Batch& batch, const OutputSelection& wanted = {});
 
 }  // namespace tunica::conformance

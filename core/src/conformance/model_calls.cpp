@@ -93,7 +93,10 @@ Verdict calls_leave_nothing_behind(const Model& model, std::uint64_t seed) {
              where(model, batches[k].point(0));
     });
   };
-  for (std::size_t k = 0; k < batches.size(); ++k) again(k, "when called again"), again(k, "when called twice");
+  for (std::size_t k = 0; k < batches.size(); ++k) {
+    again(k, "when called again");
+    again(k, "when called twice");
+  }
   for (std::size_t k = batches.size(); k-- > 0;) again(k, "after calls in reverse order");
   std::vector<std::size_t> order(batches.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -115,15 +118,15 @@ Verdict concurrent_calls_agree(const Model& model, std::uint64_t seed) {
   Meter meter("answers of many threads with those of one", 0);
   const std::vector<Batch> batches = draw_batches(model, seed, {1, 300, 2, 64, 131, 17});
   // Few outputs at a time as well: the shorter a call, the larger the part of it in which scratch is in use.
-  const std::vector<Wanted> kinds{{}, {true, false, false, false, false}, {false, true, false, false, false}};
+  const std::vector<OutputSelection> kinds{{}, {true, false, false, false, false}, {false, true, false, false, false}};
   struct Call {
     const Batch& batch;
-    const Wanted& wanted;
+    const OutputSelection& wanted;
     std::vector<double> reference;
   };
   std::vector<Call> calls;
   for (const Batch& batch : batches)
-    for (const Wanted& wanted : kinds) calls.push_back({batch, wanted, answers(model, batch, wanted)});
+    for (const OutputSelection& wanted : kinds) calls.push_back({batch, wanted, answers(model, batch, wanted)});
   const auto agrees = [&](std::size_t k) {
     return same(calls[k].reference, answers(model, calls[k].batch, calls[k].wanted));
   };

@@ -67,7 +67,8 @@ Verdict stress_is_the_gradient_of_the_energy(const Model& model, std::uint64_t s
     Tensor expected{}, uncertainty{};
     for (std::size_t c = 0; c < 6; ++c) {
       const auto slope = along(model, point, c, [](const Evaluated& e) { return std::vector<double>{e.energy}; });
-      expected[c] = by_tensor(c) * slope[0].value, uncertainty[c] = by_tensor(c) * slope[0].uncertainty;
+      expected[c] = by_tensor(c) * slope[0].value;
+      uncertainty[c] = by_tensor(c) * slope[0].uncertainty;
     }
     const double scale = std::max(scale_of(at.stress), scale_of(expected));
     if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled * scale)) return false;

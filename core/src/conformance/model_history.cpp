@@ -35,7 +35,8 @@ void see(Meter& meter, const Model& model, const Batch& batch, const std::vector
 Batch at_states(const Model& model, std::uint64_t seed) {
   Sampler sampler(seed);
   Batch batch = Batch::draw(model, sampler, points);
-  batch.state.clear(), batch.time_step.clear();
+  batch.state.clear();
+  batch.time_step.clear();
   return batch;
 }
 

@@ -8,8 +8,8 @@
 
 namespace tunica::conformance {
 
-Jobs model_jobs(const std::string& type, const Around& around) {
-  const auto& entry = around.catalogue.models().find(type)->second;
+Jobs model_jobs(const std::string& type, const CheckContext& context) {
+  const auto& entry = context.catalogue.models().find(type)->second;
   const Finding head{"model", type, "", ""};
   const auto made = [&entry] { return plugins::create(entry, plausible_options(entry.factory.options)); };
   Jobs jobs;
@@ -24,20 +24,20 @@ Jobs model_jobs(const std::string& type, const Around& around) {
   add(jobs, head, "is_made_with_every_option", [&entry] {
     return made_with_every_option(entry.factory.options, [&](const Options& o) { plugins::create(entry, o); });
   });
-  add_properties(jobs, head, model_properties(), around.settings.seed,
+  add_properties(jobs, head, model_properties(), context.settings.seed,
                  [made](const auto& check) { return check(*made()); });
   return jobs;
 }
 
-Jobs optimizer_jobs(const std::string& type, const Around& around) {
-  const auto& entry = around.catalogue.optimizers().find(type)->second;
+Jobs optimizer_jobs(const std::string& type, const CheckContext& context) {
+  const auto& entry = context.catalogue.optimizers().find(type)->second;
   const Finding head{"optimizer", type, "", ""};
   Jobs jobs;
   add(jobs, head, "declaration_is_complete", [&entry] { return declaration_is_complete(entry.factory); });
   add(jobs, head, "is_made_with_every_option", [&entry] {
     return made_with_every_option(entry.factory.options, [&](const Options& o) { plugins::create(entry, o); });
   });
-  add_properties(jobs, head, optimizer_properties(), around.settings.seed, [&entry](const auto& check) {
+  add_properties(jobs, head, optimizer_properties(), context.settings.seed, [&entry](const auto& check) {
     return check(Candidate{[&entry] { return plugins::create(entry, plausible_options(entry.factory.options)); }});
   });
   return jobs;

@@ -10,7 +10,7 @@
 #include "conformance/differences.hpp"
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
-#include "tunica/hyperelastic_tensor.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
 
 namespace tunica::conformance {
 namespace {
@@ -93,7 +93,8 @@ Verdict response_has_the_symmetry_of_the_wall(const Model& model, std::uint64_t 
     const Tensor mirrored{C[0], C[1], C[2], -C[3], C[4], -C[5]};
     const Evaluated one = evaluate(model, C, point.p);
     Tensor other = evaluate(model, mirrored, point.p).stress;
-    other[3] = -other[3], other[5] = -other[5];
+    other[3] = -other[3];
+    other[5] = -other[5];
     meter.see(largest_difference(one.stress, other) / scale_of(one.stress), [&] {
       return fmt::format(
                  "S_tt = {:.10g}, {:.10g} mirrored: a material with fewer symmetries than a wall with paired fibres. "

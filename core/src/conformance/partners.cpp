@@ -3,23 +3,12 @@
 
 #include <algorithm>
 
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
 
 namespace tunica::conformance {
 namespace {
 
 enum { mu, k1, k2, theta, parameter_count };
-
-struct Diagonal {
-  template <class T>
-  static InvariantOf<T> invariant(std::span<const T> p) {
-    InvariantOf<T> e;
-    e.fibre = T(1);
-    e.offset = T(-1);
-    e.angle = p[theta] * degree;
-    return e;
-  }
-};
 
 std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
   ModelDescription description;
@@ -27,10 +16,10 @@ std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
   description.parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()};
   Options options;
   options.set("fibre_switch", fibre_switch);
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
-  parts.push_back(arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options));
-  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+  using Diagonal = arterial::AlignedFibres<theta>;
+  return std::make_unique<Hyperelastic>(
+      std::move(description), energy_parts(isotropic::neo_hookean<parameter_count>(mu),
+                                           arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options)));
 }
 
 }  // namespace
@@ -39,9 +28,7 @@ std::unique_ptr<Model> rubber() {
   ModelDescription description;
   description.type = "rubber";
   description.parameters = {arterial::mu()};
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<1>(mu));
-  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+  return std::make_unique<Hyperelastic>(std::move(description), energy_parts(isotropic::neo_hookean<1>(mu)));
 }
 std::unique_ptr<Model> fibrous() { return with_fibres("none"); }
 std::unique_ptr<Model> slack_fibrous() { return with_fibres("strain"); }

@@ -14,10 +14,10 @@
 namespace tunica::conformance {
 namespace {
 
-template <class Shelf>
-std::vector<std::string> names_on(const Shelf& shelf) {
+template <class Entries>
+std::vector<std::string> names_of(const Entries& entries) {
   std::vector<std::string> names;
-  for (const auto& [name, entry] : shelf) names.push_back(name);
+  for (const auto& [name, entry] : entries) names.push_back(name);
   return names;
 }
 
@@ -43,17 +43,17 @@ Jobs chosen(Jobs all, const std::vector<std::string>& only) {
 }  // namespace
 
 Contents contents_of(const plugins::Catalogue& catalogue) {
-  return {names_on(catalogue.models()), names_on(catalogue.tests()), names_on(catalogue.optimizers()),
-          names_on(catalogue.mechanisms())};
+  return {names_of(catalogue.models()), names_of(catalogue.tests()), names_of(catalogue.optimizers()),
+          names_of(catalogue.mechanisms())};
 }
 
 std::vector<Finding> check_plugin(const Contents& contents, const plugins::Catalogue& catalogue,
                                   const CheckSettings& settings, const std::function<void(const Finding&)>& show) {
-  const Around around{catalogue, settings};
+  const CheckContext context{catalogue, settings};
   Jobs all;
-  const auto append = [&](const std::vector<std::string>& names, Jobs (*make)(const std::string&, const Around&)) {
+  const auto append = [&](const std::vector<std::string>& names, Jobs (*make)(const std::string&, const CheckContext&)) {
     for (const std::string& name : names)
-      for (Job& job : make(name, around)) all.push_back(std::move(job));
+      for (Job& job : make(name, context)) all.push_back(std::move(job));
   };
   append(contents.models, model_jobs);
   append(contents.tests, test_jobs);

@@ -9,34 +9,36 @@
 #include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
 #include "conformance/option_values.hpp"
-#include "conformance/test_bench.hpp"
+#include "conformance/test_cases.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::conformance {
 namespace {
 
 /// The simulations that a property is checked with: other materials, and imperfections that are there.
-std::vector<Simulation> simulations(const Benched& bench) {
+std::vector<Simulation> simulations(const TestCase& test_case) {
   std::vector<const Model*> layers;
-  for (const auto& layer : bench.layers) layers.push_back(layer.get());
-  std::vector<Simulation> all{{*bench.test, *bench.material.model, bench.material.parameters, bench.own, layers}};
-  const TestDescription& description = bench.test->describe();
+  for (const auto& layer : test_case.layers) layers.push_back(layer.get());
+  std::vector<Simulation> all{
+      {*test_case.test, *test_case.material.model, test_case.material.parameters, test_case.own, layers}};
+  const TestDescription& description = test_case.test->describe();
   if (description.costly) return all;
-  std::vector<double> moved = bench.own;
+  std::vector<double> moved = test_case.own;
   for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += 0.1 * (description.parameters[k].max - moved[k]);
-  if (moved != bench.own) all.push_back({*bench.test, *bench.material.model, bench.material.parameters, moved, layers});
-  if (bench.from) {
+  if (moved != test_case.own)
+    all.push_back({*test_case.test, *test_case.material.model, test_case.material.parameters, moved, layers});
+  if (test_case.from) {
     static const Material other = materials().back();
-    all.push_back({*bench.test, *other.model, other.parameters, bench.own, {}});
+    all.push_back({*test_case.test, *other.model, other.parameters, test_case.own, {}});
   }
   return all;
 }
 
 /// The worst of the verdicts.
-Verdict check_all(const TestProperty& property, const Benched& bench, std::uint64_t seed) {
+Verdict check_all(const TestProperty& property, const TestCase& test_case, std::uint64_t seed) {
   Verdict worst;
   bool first = true;
-  for (const Simulation& simulation : simulations(bench)) {
+  for (const Simulation& simulation : simulations(test_case)) {
     // Where imperfections as large as these cannot be simulated, the test has said so.
     if (!first) {
       std::vector<double> values(simulation.test.rows().count * simulation.test.rows().channels.size());
@@ -52,9 +54,9 @@ Verdict check_all(const TestProperty& property, const Benched& bench, std::uint6
 }
 
 /// A test copies what it keeps, and gives it back as rows().
-Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const MadeUp& from) {
+Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& from) {
   const std::string compared = "rows() with the rows the test was made from, after these are gone";
-  auto given = std::make_unique<MadeUp>(from);
+  auto given = std::make_unique<OwnedSetup>(from);
   const auto test = plugins::create(entry, given->setup());
   for (auto& [name, values] : given->abscissae) std::fill(values.begin(), values.end(), -1e9);
   given.reset();
@@ -74,55 +76,57 @@ Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const
   return {.compared = compared};
 }
 
-std::string words(const Benched& bench) {
-  if (!bench.from) return fmt::format("as '{}' in the experiment, with model '{}'", bench.name, bench.material.name);
-  return fmt::format("with made-up rows: {}", bench.from->words());
+std::string words(const TestCase& test_case) {
+  if (!test_case.from)
+    return fmt::format("as '{}' in the experiment, with model '{}'", test_case.name, test_case.material.name);
+  return fmt::format("with made-up rows: {}", test_case.from->words());
 }
 
 }  // namespace
 
-Jobs test_jobs(const std::string& type, const Around& around) {
-  const auto& entry = around.catalogue.tests().find(type)->second;
-  const std::uint64_t seed = around.settings.seed;
+Jobs test_jobs(const std::string& type, const CheckContext& context) {
+  const auto& entry = context.catalogue.tests().find(type)->second;
+  const std::uint64_t seed = context.settings.seed;
   Finding head{"test", type, "", ""};
   Jobs jobs;
   add(jobs, head, "declaration_is_complete", [&entry] { return declaration_is_complete(entry.factory); });
 
-  std::vector<std::shared_ptr<const Benched>> benches;
+  std::vector<std::shared_ptr<const TestCase>> cases;
   std::string why = "the experiment has no test of this type";
-  if (around.settings.experiment != nullptr) {
-    for (Benched& bench : from_experiment(*around.settings.experiment, {type}, around.catalogue))
-      benches.push_back(std::make_shared<const Benched>(std::move(bench)));
+  if (context.settings.experiment != nullptr) {
+    for (TestCase& test_case : experiment_cases(*context.settings.experiment, {type}, context.catalogue))
+      cases.push_back(std::make_shared<const TestCase>(std::move(test_case)));
   } else {
     // First in a process of its own: what a wrong test does while it is made and asked is not known yet.
     const Verdict able = isolated(
         [&] {
-          static_cast<void>(make_up(entry, seed));
+          static_cast<void>(synthetic_case(entry, seed));
           return Verdict{};
         },
-        around.settings.time_limit);
+        context.settings.time_limit);
     why = able.counter_example;
-    if (able.held()) benches.push_back(std::make_shared<const Benched>(make_up(entry, seed)));
+    if (able.held()) cases.push_back(std::make_shared<const TestCase>(synthetic_case(entry, seed)));
   }
-  if (benches.empty())
+  if (cases.empty())
     add(jobs, head, "predictions_are_numbers", [why] { return not_checked("predictions of the test with data", why); });
-  for (const auto& bench : benches) {
-    head.with = words(*bench);
+  for (const auto& test_case : cases) {
+    head.with = words(*test_case);
     add(jobs, head, "parameters_are_declared",
-        [bench, &entry] { return parameters_are_declared(bench->test->describe(), entry.factory); });
-    if (bench->from) {
-      add(jobs, head, "rows_are_kept", [bench, &entry] { return rows_are_kept(entry, *bench->from); });
-      add(jobs, head, "is_made_with_every_option", [bench, &entry] {
+        [test_case, &entry] { return parameters_are_declared(test_case->test->describe(), entry.factory); });
+    if (test_case->from) {
+      add(jobs, head, "rows_are_kept", [test_case, &entry] { return rows_are_kept(entry, *test_case->from); });
+      add(jobs, head, "is_made_with_every_option", [test_case, &entry] {
         return made_with_every_option(entry.factory.options, [&](const Options& options) {
-          MadeUp from = *bench->from;
+          OwnedSetup from = *test_case->from;
           for (const auto& [name, value] : options.values()) from.options.set(name, value);
           plugins::create(entry, from.setup());
         });
       });
     }
     for (const TestProperty& property : test_properties()) {
-      head.property = property.name, head.advisory = property.advisory;
-      jobs.push_back({head, [bench, property, seed] { return check_all(property, *bench, seed); }});
+      head.property = property.name;
+      head.advisory = property.advisory;
+      jobs.push_back({head, [test_case, property, seed] { return check_all(property, *test_case, seed); }});
     }
   }
   return jobs;

@@ -16,6 +16,12 @@ constexpr double step = 5e-4;        // of l = ln λ1, in the five-point formula
 constexpr double rest = 2.5 * step;  // closer to λ1 = 1 the slope is taken here
 constexpr double tight = 1e-9;       // relative step of u; after it the error is its square
 
+/// One scratch a thread: constraints are evaluated concurrently, and thousands of times a second.
+free_strip::Scratch& thread_scratch() {
+  thread_local free_strip::Scratch instance;
+  return instance;
+}
+
 }  // namespace
 
 FreePath::FreePath(const Model& model, std::size_t axis, std::vector<double> stretches)
@@ -26,7 +32,7 @@ FreePath::FreePath(const Model& model, std::size_t axis, std::vector<double> str
 
 Status FreePath::solve(std::span<const double> parameters, double shift, bool derivatives, std::span<double> u,
                        std::vector<double>& stretch) const {
-  free_strip::Scratch& s = free_strip::scratch();
+  free_strip::Scratch& s = thread_scratch();
   s.reserve(at_.size(), parameters.size());
   const free_strip::Pull pull{view_, parameters, axis_};
   stretch.resize(at_.size());
@@ -50,7 +56,7 @@ Status FreePath::slopes(std::span<const double> parameters, std::span<double> sl
   shifted.resize(n);
   if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
   const free_strip::Pull pull{view_, parameters, axis_};
-  free_strip::Scratch& s = free_strip::scratch();
+  free_strip::Scratch& s = thread_scratch();
   const free_strip::Batch batch(pull, stretch, s);
   std::size_t bad = n;
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,8 +107,8 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
   const std::size_t n = at_.size();
   std::vector<double> u(n), stretch;
   if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
-  const free_strip::Scratch& s = free_strip::scratch();
-  const free_strip::Batch batch({view_, parameters, axis_}, stretch, free_strip::scratch());
+  const free_strip::Scratch& s = thread_scratch();
+  const free_strip::Batch batch({view_, parameters, axis_}, stretch, thread_scratch());
   for (std::size_t i = 0; i < n; ++i) {
     double stress_by_l, y_by_l;
     batch.by_stretch(i, stress_by_l, y_by_l);

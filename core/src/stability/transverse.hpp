@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stability/axes_view.hpp"
-#include "tunica/free_strip.hpp"
+#include "tunica/detail/free_strip.hpp"
 #include "tunica/model.hpp"
 
 /// Transverse stability (Canales et al., Mathematics 11:922, 2023; corrected, see docs/theory.md). On the equilibrium

@@ -2,16 +2,12 @@
 // Demiray (1972), J. Biomech. 5:309–311, doi 10.1016/0021-9290(72)90047-4: soft tissue without a direction,
 //
 //   W = a/(2b) (e^{b (I1 − 3)} − 1),   shear modulus a.
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/isotropic.hpp"
 #include "tunica/plugin.hpp"
 
-namespace {
-
 using namespace tunica;
-enum { a, b, parameter_count };
 
-/// The energy as a function of its invariant x; every derivative follows from it.
+/// The energy as a function of its invariant x = I1 − 3; every derivative follows from it.
 struct DemirayLaw {
   static constexpr std::size_t parameter_count = 2;
   template <class T>
@@ -21,24 +17,11 @@ struct DemirayLaw {
   }
 };
 
-std::unique_ptr<Model> create(const Options&) {
-  const std::string source = "Demiray, J. Biomech. 5:309 (1972)";
-  ModelDescription description;
-  description.type = "demiray";
-  description.parameters = {{"a", "kPa", 10, 0.1, 1000, Scale::log, "Shear modulus.", source},
-                            {"b", "1", 1, 0.01, 50, Scale::log, "How fast the tissue stiffens.", source}};
-  // A sum of named parts, each a law of one invariant, here x = I1 − 3: mechanisms can change them or add others.
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(isotropic::part<DemirayLaw, isotropic::FirstInvariant, parameter_count>("matrix", {a, b}));
-  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
-}
-
-}  // namespace
-
 TUNICA_PLUGIN("demiray", "1.0.0") {
-  registry.add(ModelFactory{"demiray",
-                            "Soft tissue without a direction, an exponential of I1.",
-                            "Demiray, J. Biomech. 5:309 (1972)",
-                            {},
-                            create});
+  const char* const source = "Demiray, J. Biomech. 5:309 (1972)";
+  registry.add(isotropic::first_invariant_factory<DemirayLaw>(
+      {.type = "demiray",
+       .parameters = {{"a", "kPa", 10, 0.1, 1000, Scale::log, "Shear modulus.", source},
+                      {"b", "1", 1, 0.01, 50, Scale::log, "How fast the tissue stiffens.", source}}},
+      "Soft tissue without a direction, an exponential of I1.", source));
 }

@@ -9,19 +9,13 @@
 // consumed, ∫ D'(b) b db, so that S stays its derivative, on loading and unloading alike.
 #include <cmath>
 
-#include "tunica/arterial_fibres.hpp"
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/plugin.hpp"
 
 namespace {
 
 using namespace tunica;
 enum { mu, k1, k2, theta, d, psi_c, m, parameter_count };
-
-struct Fibres {
-  template <class T>
-  static InvariantOf<T> invariant(std::span<const T> p) {
-    return {.fibre = T(1), .offset = T(-1), .angle = p[theta] * degree};
-  }
-};
 
 /// D, D' and ∫_0^β D'(b) b db at β.
 struct Damage {
@@ -29,7 +23,8 @@ struct Damage {
   Damage(double beta, std::span<const double> p) {
     if (!(beta > p[psi_c])) return;
     const double left = std::exp(-(beta - p[psi_c]) / p[m]);
-    value = p[d] * (1 - left), slope = p[d] / p[m] * left;
+    value = p[d] * (1 - left);
+    slope = p[d] / p[m] * left;
     consumed = p[d] * (p[psi_c] + p[m] - (beta + p[m]) * left);
   }
 };
@@ -48,18 +43,12 @@ ModelDescription description() {
   return it;
 }
 
-template <class... Part>
-Hyperelastic sum(Part... part) {
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  (parts.push_back(std::move(part)), ...);
-  return {description(), std::move(parts)};
-}
-
 class FibreDamage final : public Model {
  public:
   explicit FibreDamage(const Options& options)
-      : matrix_(sum(arterial::matrix<parameter_count>(mu))),
-        fibres_(sum(arterial::fibres<Fibres, parameter_count>({theta}, {k1, k2}, options))),
+      : matrix_(::description(), energy_parts(isotropic::neo_hookean<parameter_count>(mu))),
+        fibres_(::description(), energy_parts(arterial::fibres<arterial::AlignedFibres<theta>, parameter_count>(
+                                     {theta}, {k1, k2}, options))),
         description_(::description()) {
     description_.history_size = 1;
     description_.parameter_derivatives = false;  // β remembers other parameters' paths: the host differences whole ones

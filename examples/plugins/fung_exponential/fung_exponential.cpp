@@ -3,9 +3,9 @@
 // matrix, and an exponential of Fung's type in the Green–Lagrange strains of the wall,
 //
 //   W = μ/2 (I1 − 3) + c/2 (e^Q − 1),   Q = a_t E_t² + a_z E_z² + 2 a_tz E_t E_z.
-#include "tunica/joint_energy.hpp"
+#include <numbers>
 
-namespace {
+#include "tunica/models/joint_energy.hpp"
 
 using namespace tunica;
 
@@ -41,7 +41,5 @@ struct Fung {
     return 0.5 * p[mu] * x[0] + 0.5 * p[c] * (exp(Q) - 1.0);
   }
 };
-
-}  // namespace
 
 TUNICA_PLUGIN("fung_exponential", "1.0.0") { registry.add(joint_energy<Fung>()); }

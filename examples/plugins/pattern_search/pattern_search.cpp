@@ -13,7 +13,7 @@ using namespace tunica;
 class PatternSearchOptimizer final : public Optimizer {
  public:
   explicit PatternSearchOptimizer(const Options& options)
-      : starts_(static_cast<std::size_t>(options.integer("starts"))),
+      : starts_(options.count("starts")),
         first_step_(options.number("initial_step")),
         last_step_(options.number("step_tolerance")) {}
   [[nodiscard]] const Needs& needs() const override { return needs_; }
@@ -44,8 +44,10 @@ class PatternSearchOptimizer final : public Optimizer {
   bool descend(Problem& problem, std::vector<double> x, std::string& last_failure) const {
     const std::size_t n = x.size();
     double here = 0;
-    if (const Status status = problem.evaluate(x, here); !status.ok())
-      here = std::numeric_limits<double>::infinity(), last_failure = status.reason();
+    if (const Status status = problem.evaluate(x, here); !status.ok()) {
+      here = std::numeric_limits<double>::infinity();
+      last_failure = status.reason();
+    }
     std::vector<double> around(2 * n * n), objectives(2 * n);
     std::vector<Status> statuses(2 * n);
     for (double step = n == 0 ? 0 : first_step_; step > last_step_ && !problem.should_stop();) {
@@ -59,7 +61,10 @@ class PatternSearchOptimizer final : public Optimizer {
       std::size_t best = count;
       for (std::size_t k = 0; k < count; ++k) {
         if (!statuses[k].ok()) last_failure = statuses[k].reason();
-        if (statuses[k].ok() && objectives[k] < here) here = objectives[k], best = k;
+        if (statuses[k].ok() && objectives[k] < here) {
+          here = objectives[k];
+          best = k;
+        }
       }
       if (best == count) {
         step /= 2;
@@ -76,15 +81,6 @@ class PatternSearchOptimizer final : public Optimizer {
   Needs needs_{.batch = true};  // no constraints: along oblique ones it would stand still
 };
 
-Option part_of_range(std::string name, double fallback, double min, double max, std::string doc) {
-  return {.name = std::move(name),
-          .kind = Option::Kind::number,
-          .fallback = fallback,
-          .doc = std::move(doc),
-          .min = min,
-          .max = max};
-}
-
 }  // namespace
 
 TUNICA_PLUGIN("pattern_search", "1.0.0") {
@@ -92,13 +88,8 @@ TUNICA_PLUGIN("pattern_search", "1.0.0") {
       "pattern_search",
       "Compass search: a step along every axis, halved where none is better.",
       "Kolda, Lewis, Torczon, SIAM Review 45:385 (2003)",
-      {{.name = "starts",
-        .kind = Option::Kind::integer,
-        .fallback = std::int64_t{4},
-        .doc = "Searches, the first from the initial values.",
-        .min = 1,
-        .max = 1e6},
-       part_of_range("initial_step", 0.25, 1e-6, 1, "First step, as a part of the range of each parameter."),
-       part_of_range("step_tolerance", 1e-6, 1e-15, 0.1, "A search ends at steps below this part of the range.")},
+      {Option::integer("starts", 4, {1, 1e6}, "Searches, the first from the initial values."),
+       Option::number("initial_step", 0.25, {1e-6, 1}, "First step, as a part of the range of each parameter."),
+       Option::number("step_tolerance", 1e-6, {1e-15, 0.1}, "A search ends at steps below this part of the range.")},
       [](const Options& options) { return std::make_unique<PatternSearchOptimizer>(options); }});
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors of what is prescribed: a pressure transducer not zeroed or with a wrong gain, true = measured + c or
 // (1 + γ) measured, and the length that the stretch of a strip refers to, true = (1 + ε) measured.
-#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "corrected.hpp"
 #include "stress_measure.hpp"
 #include "tunica/plugin.hpp"
+#include "tunica/tests/decorated_test.hpp"
 
 namespace tunica::abscissa_errors {
 namespace {
@@ -15,12 +16,10 @@ Correction shifted(double c) { return {1, c, 0, 1}; }
 Correction scaled(double gamma) { return {1 + gamma, 0, 1, 0}; }
 
 std::size_t abscissa_named(const std::string& id, const std::string& name, const TestRows& rows) {
-  for (std::size_t k = 0; k < rows.abscissae.size(); ++k)
-    if (rows.abscissae[k].observable == name) return k;
+  if (const std::optional<std::size_t> index = abscissa_index(rows, name)) return *index;
   throw InputError(id + ": the test's data have no '" + name +
-                   "', which is what the mechanism corrects; map a column "
-                   "to '" +
-                   name + "', or take the mechanism out");
+                   "', which is what the mechanism corrects; map a column to '" + name +
+                   "', or take the mechanism out");
 }
 
 /// A strip's stress was computed from a force that is right, and from the measured stretch m: σ = P m, S = P/m. With
@@ -28,9 +27,9 @@ std::size_t abscissa_named(const std::string& id, const std::string& name, const
 Where of_strip(const std::string& id, const Test& strip) {
   const TestRows& rows = strip.rows();
   Where where{.abscissa = abscissa_named(id, "stretch", rows)};
-  const auto stress = std::find(rows.channels.begin(), rows.channels.end(), "stress");
-  if (stress == rows.channels.end()) return where;
-  where.channel = static_cast<std::size_t>(stress - rows.channels.begin());
+  const std::optional<std::size_t> stress = channel_index(rows, "stress");
+  if (!stress) return where;
+  where.channel = *stress;
   const std::optional<int> power = force_power(strip, where.abscissa, where.channel);
   if (!power)
     throw InputError(id +
@@ -42,13 +41,14 @@ Where of_strip(const std::string& id, const Test& strip) {
 
 MechanismFactory described(std::string id, std::string cause, std::vector<std::string> tests, Parameter amplitude,
                            double plausible) {
-  MechanismFactory mechanism{};
-  mechanism.id = std::move(id), mechanism.cause = std::move(cause);
-  mechanism.stage = tunica::Stage::test, mechanism.applies_to = std::move(tests);
-  mechanism.parameters = {std::move(amplitude)};
-  mechanism.null = 0, mechanism.side = MechanismFactory::Side::both;
-  mechanism.plausible_min = -plausible, mechanism.plausible_max = plausible;
-  return mechanism;
+  return {.id = std::move(id),
+          .cause = std::move(cause),
+          .stage = tunica::Stage::test,
+          .applies_to = std::move(tests),
+          .parameters = {std::move(amplitude)},
+          .side = MechanismFactory::Side::both,
+          .plausible_min = -plausible,
+          .plausible_max = plausible};
 }
 
 MechanismFactory pressure_error(MechanismFactory mechanism, Error error) {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
-#include "tunica/rubber_laws.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/rubber_laws.hpp"
 
 namespace tunica::abscissa_errors {
 

@@ -3,10 +3,10 @@
 // invariant in the matrix, the tone of the smooth muscle.
 #include <functional>
 
-#include "beside.hpp"
-#include "tunica/arterial_fibres.hpp"
-#include "tunica/decorated_model.hpp"
-#include "tunica/rubber_laws.hpp"
+#include "model_with_part.hpp"
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/models/decorated_model.hpp"
+#include "tunica/models/rubber_laws.hpp"
 
 namespace {
 
@@ -35,8 +35,8 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
   mechanism.wrap_model = [parameters = mechanism.parameters, make = std::move(make)](
                              std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> shared(std::move(base));
-    if (shared->parts().empty()) return std::make_unique<added_energy::Beside>(shared, parameters, make());
-    std::vector<std::unique_ptr<EnergyPart>> parts;
+    if (shared->parts().empty()) return std::make_unique<added_energy::ModelWithPart>(shared, parameters, make());
+    EnergyParts parts;
     for (const auto& part : shared->parts()) parts.push_back(std::make_unique<ForwardedPart>(shared, *part));
     parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(), make()));
     return std::make_unique<DecoratedModel>(shared, parameters, 0, std::move(parts));
@@ -59,12 +59,15 @@ std::unique_ptr<EnergyPart> fibres(const std::string& name) {
 
 std::vector<MechanismFactory> factories() {
   const auto stated = [](std::string id, std::string cause, std::vector<Parameter> parameters, double plausible_max,
-                         std::vector<std::string> look_alikes, std::string isolated_by, std::string reference) {
-    MechanismFactory mechanism{};
-    mechanism.id = std::move(id), mechanism.cause = std::move(cause), mechanism.parameters = std::move(parameters);
-    mechanism.plausible_max = plausible_max, mechanism.look_alikes = std::move(look_alikes);
-    mechanism.isolated_by = std::move(isolated_by), mechanism.reference = std::move(reference);
-    return mechanism;
+                         std::vector<std::string> look_alikes, std::string isolated_by,
+                         std::string reference) -> MechanismFactory {
+    return {.id = std::move(id),
+            .cause = std::move(cause),
+            .parameters = std::move(parameters),
+            .plausible_max = plausible_max,
+            .look_alikes = std::move(look_alikes),
+            .isolated_by = std::move(isolated_by),
+            .reference = std::move(reference)};
   };
   const std::string four = "Baek, Gleason, Rajagopal, Humphrey, Comput. Methods Appl. Mech. Eng. 196:3070 (2007)";
   return {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "tunica/decorated_model.hpp"
-#include "tunica/laws.hpp"
+#include "tunica/models/decorated_model.hpp"
+#include "tunica/models/laws.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {
@@ -153,7 +153,6 @@ std::vector<MechanismFactory> factories() {
       changing({.id = "matrix_stiffening",
                 .cause = "The matrix stiffens as it is stretched, instead of keeping its modulus.",
                 .stage = tunica::Stage::energy,
-                .applies_to = {},
                 .parameters = {{"b", "1", 0.1, 0, 20, Scale::linear, "How fast the matrix stiffens.", "Demiray 1972"}},
                 .null = 0,
                 .side = MechanismFactory::Side::positive,
@@ -161,13 +160,11 @@ std::vector<MechanismFactory> factories() {
                 .plausible_max = 5,
                 .look_alikes = {"chain_extensibility", "fibre_dispersion", "axial_fibres"},
                 .isolated_by = "a specimen without its collagen, or large stretches of the matrix alone",
-                .reference = "Demiray, J. Biomech. 5:309 (1972)",
-                .options = {}},
+                .reference = "Demiray, J. Biomech. 5:309 (1972)"},
                matrix, stiffened(exponential)),
       changing({.id = "chain_extensibility",
                 .cause = "The chains of the network come to the end of their length.",
                 .stage = tunica::Stage::energy,
-                .applies_to = {},
                 .parameters = {{"inverse_limit", "1", 0.01, 0, 0.3, Scale::linear,
                                 "1/Jm: one over the I1 - 3 at which the chains are fully stretched.", "Gent 1996"}},
                 .null = 0,
@@ -176,13 +173,11 @@ std::vector<MechanismFactory> factories() {
                 .plausible_max = 0.2,
                 .look_alikes = {"matrix_stiffening", "fibre_dispersion", "second_invariant"},
                 .isolated_by = "stretches near the limit",
-                .reference = "Gent, Rubber Chem. Technol. 69:59 (1996)",
-                .options = {}},
+                .reference = "Gent, Rubber Chem. Technol. 69:59 (1996)"},
                matrix, stiffened(limited)),
       changing({.id = "fibre_recruitment",
                 .cause = "The fibres are crimped: they carry load only from a stretch beyond 1 on.",
                 .stage = tunica::Stage::invariants,
-                .applies_to = {},
                 .parameters = {{"stretch", "1", 1.05, 1, 2, Scale::linear, "Stretch at which the fibres are taken up.",
                                 "Lanir 1983"}},
                 .null = 1,
@@ -191,8 +186,7 @@ std::vector<MechanismFactory> factories() {
                 .plausible_max = 1.5,
                 .look_alikes = {"fibre_dispersion", "axial_fibres", "matrix_stiffening"},
                 .isolated_by = "imaging of the fibres' waviness, or small stretches",
-                .reference = "Lanir, J. Biomech. 16:1 (1983)",
-                .options = {}},
+                .reference = "Lanir, J. Biomech. 16:1 (1983)"},
                "fibres, for example in hgo or gho", recruited)};
 }
 

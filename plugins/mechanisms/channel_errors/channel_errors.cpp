@@ -19,17 +19,17 @@ const std::vector<std::string> tubes{"thick_wall_pressurisation", "fe_pressurisa
 const std::vector<std::string> diameters{"outer_diameter", "inner_diameter", "outer_diameter_stretch",
                                          "inner_diameter_stretch"};
 
-/// What a person is told.
-struct Told {
+/// The texts of a mechanism.
+struct Explanation {
   std::string cause;
   std::vector<std::string> look_alikes;
   std::string isolated_by, reference;
 };
 
 MechanismFactory described(std::string id, std::vector<std::string> tests, Parameter amplitude, double plausible,
-                           Told told) {
+                           Explanation texts) {
   return {.id = std::move(id),
-          .cause = std::move(told.cause),
+          .cause = std::move(texts.cause),
           .stage = tunica::Stage::test,
           .applies_to = std::move(tests),
           .parameters = {std::move(amplitude)},
@@ -37,10 +37,9 @@ MechanismFactory described(std::string id, std::vector<std::string> tests, Param
           .side = MechanismFactory::Side::both,
           .plausible_min = -plausible,
           .plausible_max = plausible,
-          .look_alikes = std::move(told.look_alikes),
-          .isolated_by = std::move(told.isolated_by),
-          .reference = std::move(told.reference),
-          .options = {}};
+          .look_alikes = std::move(texts.look_alikes),
+          .isolated_by = std::move(texts.isolated_by),
+          .reference = std::move(texts.reference)};
 }
 
 /// Misreads those of the channels that the test has.

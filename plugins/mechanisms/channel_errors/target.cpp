@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tunica/error.hpp"
+#include "tunica/tests/decorated_test.hpp"
 
 namespace tunica::channel_errors {
 
@@ -29,8 +30,7 @@ std::vector<std::size_t> channels_named(const std::string& id, const std::vector
 std::size_t channel_chosen(const std::string& id, const Options& options, const TestRows& rows) {
   const std::string& wanted = options.text("channel");
   if (wanted.empty() && rows.channels.size() == 1) return 0;
-  const auto found = std::find(rows.channels.begin(), rows.channels.end(), wanted);
-  if (found != rows.channels.end()) return static_cast<std::size_t>(found - rows.channels.begin());
+  if (const std::optional<std::size_t> found = channel_index(rows, wanted)) return *found;
   const std::string fitted = fmt::format("{}", fmt::join(rows.channels, ", "));
   if (wanted.empty())
     throw InputError(fmt::format("{}: the test has several channels; say which one with \"channel\": {}", id, fitted));
@@ -82,33 +82,29 @@ std::vector<double> elapsed(const std::string& id, const TestRows& rows) {
 }
 
 Parameter in_unit_of(const std::string& channel, Parameter general) {
-  struct Suit {
+  struct UnitRule {
     const char *ending, *unit;
     double largest;
   };
-  static constexpr Suit suits[] = {
+  static constexpr UnitRule rules[] = {
       {"stress", "kPa", 100}, {"axial_force", "mN", 1000}, {"diameter", "mm", 5}, {"stretch", "1", 0.5}};
-  for (const auto& [ending, unit, largest] : suits) {
+  for (const auto& [ending, unit, largest] : rules) {
     if (!channel.ends_with(ending)) continue;
-    general.unit = unit, general.min = -largest, general.max = largest;
+    general.unit = unit;
+    general.min = -largest;
+    general.max = largest;
   }
   return general;
 }
 
 Option channel_option() {
-  return {.name = "channel",
-          .kind = Option::Kind::text,
-          .fallback = std::string(),
-          .doc = "The channel that is read wrongly; may be left out where the test has one."};
+  return Option::text("channel", "", "The channel that is read wrongly; may be left out where the test has one.");
 }
 
 Option rows_option() {
-  return {.name = "rows",
-          .kind = Option::Kind::text,
-          .fallback = std::string("all"),
-          .doc =
-              "The rows that are read wrongly, first:last:step from 0 of those that the test uses, last not "
-              "included; or all, the whole curve."};
+  return Option::text("rows", "all",
+                      "The rows that are read wrongly, first:last:step from 0 of those that the test uses, last not "
+                      "included; or all, the whole curve.");
 }
 
 }  // namespace tunica::channel_errors

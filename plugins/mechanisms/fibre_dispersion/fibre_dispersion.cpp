@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/decorated_model.hpp"
+#include "tunica/models/decorated_model.hpp"
 #include "tunica/plugin.hpp"
 
 namespace {
@@ -94,7 +94,6 @@ MechanismFactory factory() {
       .id = "fibre_dispersion",
       .cause = "The collagen fibres scatter about their mean direction instead of being perfectly aligned.",
       .stage = tunica::Stage::invariants,
-      .applies_to = {},
       .parameters = {kappa()},
       .null = 0,
       .side = MechanismFactory::Side::positive,
@@ -102,8 +101,7 @@ MechanismFactory factory() {
       .plausible_max = 1. / 3,
       .look_alikes = {"matrix_stiffening", "chain_extensibility", "fibre_recruitment"},
       .isolated_by = "transverse stretch of a strip, or imaging of the fibre directions",
-      .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)",
-      .options = {}};
+      .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)"};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> shared(std::move(base));
     return std::make_unique<DecoratedModel>(shared, std::vector<Parameter>{kappa()}, 0, dispersed(shared));

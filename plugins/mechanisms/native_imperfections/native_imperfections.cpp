@@ -29,7 +29,6 @@ MechanismFactory residual_stress() {
           .look_alikes = {"pressure_scale_error", "layered_wall", "pressure_offset"},
           .isolated_by = "the opening angle of a ring that is cut",
           .reference = "Chuong, Fung, J. Biomech. Eng. 108:189 (1986)",
-          .options = {},
           .native = "opening_angle",
           .shared = true};
 }
@@ -47,7 +46,6 @@ MechanismFactory axial_stretch_error() {
           .look_alikes = {"axial_force_scale_error", "axial_force_offset", "geometry_error"},
           .isolated_by = "markers on the wall, or the same test at a second axial stretch",
           .reference = "van Loon, Klip, Bradley, Biorheology 14:181 (1977)",
-          .options = {},
           .native = "axial_stretch_error",
           .shared = true};
 }
@@ -66,7 +64,6 @@ MechanismFactory tethering() {
           .look_alikes = {"pressure_scale_error", "layered_wall", "residual_stress"},
           .isolated_by = "the same test with the surrounding tissue taken off",
           .reference = "Liu, Dang, Garcia, Gregersen, Kassab, Am. J. Physiol. Heart 293:H3290 (2007)",
-          .options = {},
           .native = "tethering",
           .shared = true};
 }
@@ -86,13 +83,10 @@ MechanismFactory layered_wall() {
           .look_alikes = {"residual_stress", "pressure_scale_error", "axial_force_scale_error"},
           .isolated_by = "strips of the separated layers",
           .reference = "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)",
-          .options = {{.name = "layer_interface",
-                       .kind = Option::Kind::number,
-                       .fallback = 0.5,
-                       .doc = "Where the layers meet: fraction of the thickness from inside. It takes the place of the "
-                              "test's own.",
-                       .min = 0.05,
-                       .max = 0.95}},
+          .options = {Option::number(
+              "layer_interface", 0.5, {0.05, 0.95},
+              "Where the layers meet: fraction of the thickness from inside. It takes the place of the "
+              "test's own.")},
           .native = "layer_ratio",
           .shared = true,
           .scan = {{{"layer_interface", 0.5}}, {{"layer_interface", 2. / 3}}}};
@@ -112,7 +106,6 @@ MechanismFactory geometry_error() {
       .look_alikes = {"axial_stretch_error", "axial_force_offset", "axial_force_scale_error"},
       .isolated_by = "a second measurement of the thickness, by microscopy of the section",
       .reference = "O'Leary, Doyle, McGloughlin, J. Biomech. 46:1955 (2013)",
-      .options = {},
       .native = "thickness_error",
       .shared = true};
 }
@@ -131,7 +124,6 @@ MechanismFactory specimen_misalignment() {
           .look_alikes = {"force_scale_error", "reference_length_error", "circumferential_fibres"},
           .isolated_by = "imaging of the fibre directions, or shear strains in the middle of the strip",
           .reference = "Pagano, Halpin, J. Compos. Mater. 2:18 (1968)",
-          .options = {},
           .native = "misalignment"};
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "tunica/models/history_model.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::stress_softening {
@@ -41,62 +42,56 @@ struct Softening {
   }
 };
 
-/// State: the base's, then Wmax. No exact parameter derivatives: the host differences paths. The energy answered is
-/// that of the base, which is what Wmax is compared with.
-class Softened final : public Model {
+/// State: Wmax. The energy it returns is that of the base, with which Wmax is compared.
+class SoftenedModel final : public HistoryModel {
  public:
-  explicit Softened(std::unique_ptr<Model> base) : base_(std::move(base)), description_(base_->describe()) {
-    for (Parameter& parameter : own_parameters()) description_.parameters.push_back(std::move(parameter));
-    description_.history_size += 1;
-    description_.principal_axes = false;
-    description_.parameter_derivatives = false;
-  }
+  explicit SoftenedModel(std::unique_ptr<Model> base)
+      : HistoryModel("stress_softening", std::move(base), own_parameters(), 1) {}
 
-  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
-  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return base_->parts(); }
-
-  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    if (!response.stress_dp.empty())
-      return Status::failed("stress_softening: no parameter derivatives at a single step; difference the whole path");
-    const std::size_t n = points.count, own = points.parameters.size() - 2;
-    const double s = points.parameters[own], m = points.parameters[own + 1];
-    const std::size_t base_state = n * base_->describe().history_size;
-    MaterialPoints bare = points;
-    bare.parameters = points.parameters.first(own);
-    bare.state = points.state.first(points.state.empty() ? 0 : base_state);
-    MaterialResponse out = response;
-    out.state = response.state.first(response.state.empty() ? 0 : base_state);
+ private:
+  Status evaluate_step(Step& step) const override {
+    const MaterialPoints& points = step.base_points;
+    MaterialResponse& out = step.base_response;
+    const std::size_t n = points.count;
+    const double s = step.parameters[0], m = step.parameters[1];
+    const bool tangent = !out.tangent.empty();
     // Points at rest are on their first path: nothing is soft yet.
-    const bool soft = s != 0 && !points.state.empty() && !(response.stress.empty() && response.tangent.empty());
-    if (!soft && response.state.empty()) return base_->evaluate(bare, out);
+    const bool soft = s != 0 && !step.old_state.empty() && (tangent || !out.stress.empty());
+    if (!soft && step.new_state.empty()) return base().evaluate(points, out);
 
     std::vector<double> energy, stress;
-    if (response.energy.empty()) energy.resize(n), out.energy = energy;
-    if (soft && response.stress.empty()) stress.resize(6 * n), out.stress = stress;
-    if (Status status = base_->evaluate(bare, out); !status.ok()) return status;
+    if (out.energy.empty()) {
+      energy.resize(n);
+      out.energy = energy;
+    }
+    if (soft && out.stress.empty()) {
+      stress.resize(6 * n);
+      out.stress = stress;
+    }
+    if (Status status = base().evaluate(points, out); !status.ok()) return status;
     double at_rest = 0;
-    if (Status status = energy_at_rest(bare.parameters, at_rest); !status.ok()) return status;
+    if (Status status = energy_at_rest(points.parameters, at_rest); !status.ok()) return status;
     std::vector<double> conservative;
     std::span<const double> by_energy = out.stress;
-    if (soft && !response.tangent.empty() && base_->describe().history_size > 0) {
-      conservative.resize(6 * n), by_energy = conservative;
-      if (Status status = base_->evaluate({n, bare.C, bare.parameters, {}, {}}, {{}, conservative, {}, {}, {}});
+    if (soft && tangent && base().describe().history_size > 0) {
+      conservative.resize(6 * n);
+      by_energy = conservative;
+      if (Status status = base().evaluate({n, points.C, points.parameters, {}, {}}, {{}, conservative, {}, {}, {}});
           !status.ok())
         return status;
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const double W = out.energy[i] - at_rest, before = points.state.empty() ? 0 : points.state[base_state + i];
+      const double W = out.energy[i] - at_rest, before = step.old_state.empty() ? 0 : step.old_state[i];
       if (soft && before > unloaded * largest_stress(out.stress, n, i))
         soften(Softening(W, before, s, m), n, i, by_energy, out);
-      if (!response.state.empty()) response.state[base_state + i] = std::isnan(W) ? W : std::max(before, W);
+      if (!step.new_state.empty()) step.new_state[i] = std::isnan(W) ? W : std::max(before, W);
     }
     return {};
   }
 
- private:
   Status energy_at_rest(std::span<const double> parameters, double& W) const {
     const double identity[] = {1, 1, 1, 0, 0, 0};
-    return base_->evaluate({1, identity, parameters, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
+    return base().evaluate({1, identity, parameters, {}, {}}, {{&W, 1}, {}, {}, {}, {}});
   }
 
   static double largest_stress(std::span<const double> stress, std::size_t n, std::size_t i) {
@@ -117,9 +112,6 @@ class Softened final : public Model {
     // The stress last: where the base has no memory, `by_energy` is it.
     for (std::size_t a = 0; a < 6; ++a) out.stress[a * n + i] *= softening.eta;
   }
-
-  std::unique_ptr<Model> base_;
-  ModelDescription description_;
 };
 
 MechanismFactory factory() {
@@ -127,7 +119,6 @@ MechanismFactory factory() {
       .id = "stress_softening",
       .cause = "The tissue is softer where it has been loaded further before: it unloads along another curve.",
       .stage = tunica::Stage::history,
-      .applies_to = {},
       .parameters = own_parameters(),
       .null = 0,
       .side = MechanismFactory::Side::positive,
@@ -136,10 +127,9 @@ MechanismFactory factory() {
       .look_alikes = {"viscoelasticity", "signal_drift"},
       .isolated_by = "a second loading to the same stretch, and one beyond it",
       .reference = "Ogden, Roxburgh, Proc. R. Soc. A 455:2861 (1999)",
-      .options = {},
       .scan = {{{"m", 0.1}}, {{"m", 0.5}}, {{"m", 2}}}};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
-    return std::make_unique<Softened>(std::move(base));
+    return std::make_unique<SoftenedModel>(std::move(base));
   };
   return mechanism;
 }

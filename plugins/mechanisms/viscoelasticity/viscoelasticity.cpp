@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "deviator.hpp"
+#include "tunica/models/history_model.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::viscoelasticity {
@@ -39,80 +40,65 @@ void store(std::span<double> into, std::size_t n, std::size_t i, const Tensor& t
 }
 
 /// For S' linear over the step, exactly: h₊ = e^{−Δt/τ} h + g φ ΔS', φ = (1 − e^{−Δt/τ})/(Δt/τ).
-struct Step {
+struct Relaxation {
   double decay, slope;  ///< e^{−Δt/τ}, g φ
-  Step(double time_step, double g, double tau) {
+  Relaxation(double time_step, double g, double tau) {
     const double x = time_step / tau;
     decay = std::exp(-x);
     slope = x == 0 ? g : g * (-std::expm1(-x) / x);
   }
 };
 
-/// State: the base's, then h and S' of the last step. No exact parameter derivatives: the host differences paths.
-class Viscoelastic final : public Model {
+/// State: h, then S' of the last step.
+class ViscoelasticModel final : public HistoryModel {
  public:
-  explicit Viscoelastic(std::unique_ptr<Model> base) : base_(std::move(base)), description_(base_->describe()) {
-    for (Parameter& parameter : own_parameters()) description_.parameters.push_back(std::move(parameter));
-    description_.history_size += own_history;
-    description_.principal_axes = false;
-    description_.parameter_derivatives = false;
-  }
+  explicit ViscoelasticModel(std::unique_ptr<Model> base)
+      : HistoryModel("viscoelasticity", std::move(base), own_parameters(), own_history) {}
 
-  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
-  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return base_->parts(); }
-
-  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    if (!response.stress_dp.empty())
-      return Status::failed("viscoelasticity: no parameter derivatives at a single step; difference the whole path");
-    const std::size_t n = points.count, own = points.parameters.size() - 2;
-    const double g = points.parameters[own], tau = points.parameters[own + 1];
-    const std::size_t base_state = n * base_->describe().history_size;
-
-    MaterialPoints bare = points;
-    bare.parameters = points.parameters.first(own);
-    bare.state = points.state.first(points.state.empty() ? 0 : base_state);
-    MaterialResponse out = response;
-    out.state = response.state.first(response.state.empty() ? 0 : base_state);
-    const bool branch = g != 0 && (!response.stress.empty() || !response.tangent.empty());
-    if (!branch && response.state.empty()) return base_->evaluate(bare, out);
+ private:
+  Status evaluate_step(Step& call) const override {
+    const MaterialPoints& points = call.base_points;
+    const std::size_t n = points.count;
+    const double g = call.parameters[0], tau = call.parameters[1];
+    const std::span<double> stress = call.base_response.stress, tangent = call.base_response.tangent;
+    const bool branch = g != 0 && (!stress.empty() || !tangent.empty());
+    if (!branch && call.new_state.empty()) return base().evaluate(points, call.base_response);
 
     std::vector<double> unwanted;
-    if (response.stress.empty()) {
+    if (stress.empty()) {
       unwanted.resize(6 * n);
-      out.stress = unwanted;
+      call.base_response.stress = unwanted;
     }
-    if (Status status = base_->evaluate(bare, out); !status.ok()) return status;
+    if (Status status = base().evaluate(points, call.base_response); !status.ok()) return status;
     Tensor rest{};
-    if (points.state.empty() && g != 0) {
-      if (Status status = deviator_at_rest(bare.parameters, rest); !status.ok()) return status;
+    if (call.old_state.empty() && g != 0) {
+      if (Status status = deviator_at_rest(points.parameters, rest); !status.ok()) return status;
     }
     for (std::size_t i = 0; i < n; ++i) {
-      const Tensor C = load(points.C, n, i), S = load(out.stress, n, i), C_inverse = inverse(C);
+      const Tensor C = load(points.C, n, i), S = load(call.base_response.stress, n, i), C_inverse = inverse(C);
       const Tensor now = deviator(S, C, C_inverse);
       Tensor h{};
       if (g != 0 && !points.time_step.empty()) {
-        const Step step(points.time_step[i], g, tau);
-        const auto old = points.state.subspan(bare.state.size());
-        if (!points.state.empty()) h = load(old, n, i);
-        const Tensor before = points.state.empty() ? rest : load(old.subspan(6 * n), n, i);
-        for (std::size_t c = 0; c < 6; ++c) h[c] = step.decay * h[c] + step.slope * (now[c] - before[c]);
-        if (!response.tangent.empty()) add_tangent(response.tangent, n, i, step.slope, S, C, C_inverse);
-        if (!response.stress.empty()) {
-          for (std::size_t c = 0; c < 6; ++c) response.stress[c * n + i] += h[c];
+        const Relaxation relaxation(points.time_step[i], g, tau);
+        if (!call.old_state.empty()) h = load(call.old_state, n, i);
+        const Tensor before = call.old_state.empty() ? rest : load(call.old_state.subspan(6 * n), n, i);
+        for (std::size_t c = 0; c < 6; ++c) h[c] = relaxation.decay * h[c] + relaxation.slope * (now[c] - before[c]);
+        if (!tangent.empty()) add_tangent(tangent, n, i, relaxation.slope, S, C, C_inverse);
+        if (!stress.empty()) {
+          for (std::size_t c = 0; c < 6; ++c) stress[c * n + i] += h[c];
         }
       }
-      if (response.state.empty()) continue;
-      store(response.state.subspan(base_state), n, i, h);
-      store(response.state.subspan(base_state + 6 * n), n, i, now);
+      if (call.new_state.empty()) continue;
+      store(call.new_state, n, i, h);
+      store(call.new_state.subspan(6 * n), n, i, now);
     }
     return {};
   }
 
- private:
   Status deviator_at_rest(std::span<const double> parameters, Tensor& rest) const {
     const Tensor identity{1, 1, 1, 0, 0, 0};
     Tensor S{};
-    Status status = base_->evaluate({1, identity, parameters, {}, {}}, {{}, S, {}, {}, {}});
+    Status status = base().evaluate({1, identity, parameters, {}, {}}, {{}, S, {}, {}, {}});
     rest = deviator(S, identity, identity);
     return status;
   }
@@ -125,9 +111,6 @@ class Viscoelastic final : public Model {
     const Tangent change = deviator_tangent(S, A, C, C_inverse);
     for (std::size_t k = 0; k < 36; ++k) tangent[k * n + i] += slope * change[k];
   }
-
-  std::unique_ptr<Model> base_;
-  ModelDescription description_;
 };
 
 MechanismFactory factory() {
@@ -135,7 +118,6 @@ MechanismFactory factory() {
       .id = "viscoelasticity",
       .cause = "Part of the stress relaxes with time: the tissue was pulled faster than it comes to equilibrium.",
       .stage = tunica::Stage::history,
-      .applies_to = {},
       .parameters = own_parameters(),
       .null = 0,
       .side = MechanismFactory::Side::positive,
@@ -145,10 +127,9 @@ MechanismFactory factory() {
       .isolated_by = "a hold at constant stretch, or a second rate",
       .reference =
           "Simo, Comput. Methods Appl. Mech. Eng. 60:153 (1987); Holzapfel, Nonlinear Solid Mechanics (2000), "
-          "section 6.10",
-      .options = {}};
+          "section 6.10"};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
-    return std::make_unique<Viscoelastic>(std::move(base));
+    return std::make_unique<ViscoelasticModel>(std::move(base));
   };
   return mechanism;
 }

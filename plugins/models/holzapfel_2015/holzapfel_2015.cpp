@@ -5,23 +5,20 @@
 //   W = μ/2 (I1 − 3) + k1/(2 k2) Σ_{i=4,6} [exp(k2 E_i²) − 1],   E_i = A I1 + B I_i + (1 − 3A − B) I_n − 1,
 //
 // I_n = C_rr in a planar wall. A = κ, B = 1 − 3κ is the `gho`.
-#include "tunica/arterial_fibres.hpp"
+#include <cmath>
+
+#include "tunica/models/arterial_fibres.hpp"
+#include "tunica/plugin.hpp"
 
 namespace {
 
 using namespace tunica;
 enum { mu, A, B, k1, k2, theta, parameter_count };
 
-struct Fibres {
+struct DispersedFibres {
   template <class T>
   static InvariantOf<T> invariant(std::span<const T> p) {
-    InvariantOf<T> e;
-    e.i1 = p[A];
-    e.fibre = p[B];
-    e.normal = 1.0 - 3.0 * p[A] - p[B];
-    e.offset = T(-1);
-    e.angle = p[theta] * degree;
-    return e;
+    return {.i1 = p[A], .fibre = p[B], .normal = 1.0 - 3.0 * p[A] - p[B], .offset = T(-1), .angle = p[theta] * degree};
   }
 };
 
@@ -44,31 +41,30 @@ std::vector<Combination> admissible() {
           {"1 - 2A - B", "1", {A, B}, [](std::span<const double> p) { return 1 - 2 * p[A] - p[B]; }, ""}};
 }
 
-std::unique_ptr<Model> create(const Options& options) {
-  const std::string source = "Holzapfel, Niestrawska, Ogden, Reinisch, Schriefl 2015, eq. 2.24";
-  ModelDescription description;
-  description.type = "holzapfel_2015";
-  description.parameters = {
-      arterial::mu(),
-      {"A", "1", 0.2, 0, 1. / 3, Scale::linear, "Weight of the isotropic invariant I1 (2 κ_op κ_ip).", source},
-      {"B", "1", 0.4, 0, 1, Scale::linear, "Weight of the fibre direction (2 κ_op (1 − 2 κ_ip)).", source},
-      arterial::k1(),
-      arterial::k2(),
-      arterial::theta()};
-  description.combinations = combinations();
-  description.admissible = admissible();
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<parameter_count>(mu));
-  parts.push_back(arterial::fibres<Fibres, parameter_count>({A, B, theta}, {k1, k2}, options));
-  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+EnergyParts parts(const Options& options) {
+  return energy_parts(isotropic::neo_hookean<parameter_count>(mu),
+                      arterial::fibres<DispersedFibres, parameter_count>({A, B, theta}, {k1, k2}, options));
+}
+
+ModelDescription description() {
+  const char* const source = "Holzapfel, Niestrawska, Ogden, Reinisch, Schriefl 2015, eq. 2.24";
+  return {.type = "holzapfel_2015",
+          .parameters = {arterial::mu(),
+                         {"A", "1", 0.2, 0, 1. / 3, Scale::linear,
+                          "Weight of the isotropic invariant I1 (2 κ_op κ_ip).", source},
+                         {"B", "1", 0.4, 0, 1, Scale::linear, "Weight of the fibre direction (2 κ_op (1 − 2 κ_ip)).",
+                          source},
+                         arterial::k1(),
+                         arterial::k2(),
+                         arterial::theta()},
+          .combinations = combinations(),
+          .admissible = admissible()};
 }
 
 }  // namespace
 
 TUNICA_PLUGIN("holzapfel_2015", TUNICA_PLUGIN_VERSION) {
-  registry.add(tunica::ModelFactory{"holzapfel_2015",
-                                    "Two fibre families with non-symmetric dispersion in a neo-Hookean matrix.",
-                                    "Holzapfel et al., J. R. Soc. Interface 12:20150188 (2015)",
-                                    {tunica::arterial::fibre_switch()},
-                                    create});
+  registry.add(hyperelastic_factory(
+      description(), "Two fibre families with non-symmetric dispersion in a neo-Hookean matrix.",
+      "Holzapfel et al., J. R. Soc. Interface 12:20150188 (2015)", parts, {arterial::fibre_switch()}));
 }

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Treloar (1943), Trans. Faraday Soc. 39:241–246: W = μ/2 (I1 − 3).
-#include "tunica/arterial_fibres.hpp"
-
-namespace {
-
-using namespace tunica;
-
-std::unique_ptr<Model> create(const Options&) {
-  ModelDescription description;
-  description.type = "neo_hooke";
-  description.parameters = {
-      {"mu", "kPa", 100, 0.1, 1e5, Scale::log, "Shear modulus.", "Treloar, Trans. Faraday Soc. 39:241 (1943)"}};
-  std::vector<std::unique_ptr<EnergyPart>> parts;
-  parts.push_back(arterial::matrix<1>(0));
-  return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
-}
-
-}  // namespace
+#include "tunica/models/isotropic.hpp"
+#include "tunica/plugin.hpp"
 
 TUNICA_PLUGIN("neo_hooke", TUNICA_PLUGIN_VERSION) {
-  registry.add(tunica::ModelFactory{"neo_hooke",
-                                    "Incompressible rubber with Gaussian chains: one modulus.",
-                                    "Treloar, Trans. Faraday Soc. 39:241 (1943)",
-                                    {},
-                                    create});
+  using namespace tunica;
+  const char* const source = "Treloar, Trans. Faraday Soc. 39:241 (1943)";
+  registry.add(hyperelastic_factory(
+      {.type = "neo_hooke", .parameters = {{"mu", "kPa", 100, 0.1, 1e5, Scale::log, "Shear modulus.", source}}},
+      "Incompressible rubber with Gaussian chains: one modulus.", source,
+      [](const Options&) { return energy_parts(isotropic::neo_hookean<1>(0)); }));
 }

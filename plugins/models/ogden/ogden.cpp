@@ -4,9 +4,9 @@
 //   W = Σ_i (μ_i/α_i) (λ1^α_i + λ2^α_i + λ3^α_i − 3),   shear modulus ½ Σ_i μ_i α_i.
 //
 // Finite-element codes often write 2 μ_i/α_i² instead of μ_i/α_i; their μ_i is ½ μ_i α_i here.
+#include "tunica/models/principal_stretches.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/principal_stretches.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace {
 
@@ -33,21 +33,16 @@ std::unique_ptr<Model> create() {
 
 std::unique_ptr<Model> create_with(const Options& options) {
   static constexpr std::array makers{create<1>, create<2>, create<3>, create<4>, create<5>, create<6>};
-  return makers.at(static_cast<std::size_t>(options.integer("terms")) - 1)();
+  return makers.at(options.count("terms") - 1)();
 }
 
 }  // namespace
 
 TUNICA_PLUGIN("ogden", TUNICA_PLUGIN_VERSION) {
-  registry.add(tunica::ModelFactory{
+  registry.add(ModelFactory{
       "ogden",
       "Incompressible rubber, powers of the principal stretches: W = sum of mu/alpha (sum of lambda^alpha - 3).",
       "Ogden, Proc. R. Soc. A 326:565 (1972)",
-      {{.name = "terms",
-        .kind = Option::Kind::integer,
-        .fallback = std::int64_t{3},
-        .doc = "Number of terms; each has its own mu and alpha.",
-        .min = 1,
-        .max = most_terms}},
+      {Option::integer("terms", 3, {1, most_terms}, "Number of terms; each has its own mu and alpha.")},
       create_with});
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tunica/augmented_lagrangian.hpp"
+#include "tunica/optimizers/augmented_lagrangian.hpp"
 
 namespace tunica::ceres_lm {
 namespace {

@@ -9,58 +9,25 @@
 namespace tunica::ceres_lm {
 namespace {
 
-using Kind = Option::Kind;
-
 const std::vector<Option> options = {
-    {.name = "starts",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{20},
-     .doc = "Number of starting points; the first is the initial values of the parameters.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "sampling",
-     .kind = Kind::choice,
-     .fallback = "latin_hypercube",
-     .doc = "How the other starts are spread over the bounds: latin_hypercube, or sobol, a randomly shifted Sobol' "
-            "sequence.",
-     .choices = {"latin_hypercube", "sobol"}},
-    {.name = "max_iterations",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{200},
-     .doc = "Iterations of one descent; five times as many where there are constraints.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "screening_iterations",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{0},
-     .doc = "Iterations every start gets before only the best are continued; 0 follows every start to its end.",
-     .min = 0,
-     .max = 1e6},
-    {.name = "polished",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{5},
-     .doc = "Starts that are continued after screening.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "function_tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-10,
-     .doc = "A descent ends when a step changes the objective by less than this fraction.",
-     .min = 0,
-     .max = 1},
-    {.name = "gradient_tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-10,
-     .doc = "A descent ends when the projected gradient, with parameters scaled to their ranges, is smaller.",
-     .min = 0,
-     .max = 1e6},
-    {.name = "parameter_tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-9,
-     .doc = "A descent ends when a step is shorter than this fraction of the parameters scaled to their ranges.",
-     .min = 0,
-     .max = 1},
-};
+    Option::integer("starts", 20, {1, 1e6},
+                    "Number of starting points; the first is the initial values of the parameters."),
+    Option::choice("sampling", {"latin_hypercube", "sobol"}, "latin_hypercube",
+                   "How the other starts are spread over the bounds: latin_hypercube, or sobol, a randomly shifted "
+                   "Sobol' sequence."),
+    Option::integer("max_iterations", 200, {1, 1e6},
+                    "Iterations of one descent; five times as many where there are constraints."),
+    Option::integer("screening_iterations", 0, {0, 1e6},
+                    "Iterations every start gets before only the best are continued; 0 follows every start to its "
+                    "end."),
+    Option::integer("polished", 5, {1, 1e6}, "Starts that are continued after screening."),
+    Option::number("function_tolerance", 1e-10, {0, 1},
+                   "A descent ends when a step changes the objective by less than this fraction."),
+    Option::number("gradient_tolerance", 1e-10, {0, 1e6},
+                   "A descent ends when the projected gradient, with parameters scaled to their ranges, is smaller."),
+    Option::number("parameter_tolerance", 1e-9, {0, 1},
+                   "A descent ends when a step is shorter than this fraction of the parameters scaled to their "
+                   "ranges.")};
 
 std::unique_ptr<Optimizer> create(const Options& given) {
   const std::string& sampling = given.text("sampling");
@@ -68,11 +35,11 @@ std::unique_ptr<Optimizer> create(const Options& given) {
     throw InputError(fmt::format("'{}' is not a choice of 'sampling'", sampling));
   }
   return std::make_unique<MultiStart>(
-      Settings{.starts = static_cast<std::size_t>(given.integer("starts")),
+      Settings{.starts = given.count("starts"),
                .sampling = sampling == "sobol" ? Sampling::sobol : Sampling::latin_hypercube,
                .max_iterations = static_cast<int>(given.integer("max_iterations")),
                .screening_iterations = static_cast<int>(given.integer("screening_iterations")),
-               .polished = static_cast<std::size_t>(given.integer("polished")),
+               .polished = given.count("polished"),
                .function_tolerance = given.number("function_tolerance"),
                .gradient_tolerance = given.number("gradient_tolerance"),
                .parameter_tolerance = given.number("parameter_tolerance")});

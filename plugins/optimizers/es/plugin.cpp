@@ -4,101 +4,42 @@
 #include <fmt/core.h>
 
 #include "evolution_strategy.hpp"
+#include "search_options.hpp"
 
 namespace tunica::es {
 namespace {
 
-using Kind = Option::Kind;
+std::vector<Option> declared() {
+  std::vector<Option> options{
+      Option::integer("parents", 10, {1, 1e6}, "Number of parents, μ."),
+      Option::integer("offspring", 40, {1, 1e7}, "Number of offspring a generation, λ."),
+      Option::choice("selection", {"plus", "comma"}, "plus",
+                     "Who the next parents are: the best of parents and offspring (plus, elitist) or the best of the "
+                     "offspring (comma)."),
+      Option::choice("adaptation", {"isotropic", "axes", "covariance"}, "covariance",
+                     "What mutations adapt: one step size (isotropic), one an axis (axes), or one step size and the "
+                     "covariance of successful mutations (covariance). Only covariance follows valleys oblique to the "
+                     "axes."),
+      Option::choice("step_control", {"automatic", "self_adaptive", "cumulative"}, "automatic",
+                     "How steps are found: each is inherited and mutated (self_adaptive), or all follow the path of "
+                     "the parents' mean (cumulative, as in CMA-ES). Cumulative needs covariance and global "
+                     "recombination; automatic chooses it where it can."),
+      Option::choice("recombination", {"global", "intermediate", "discrete", "none"}, "global",
+                     "What an offspring descends from: the rank-weighted mean of all parents (global), the mean of two "
+                     "(intermediate), every coordinate from one of two (discrete), or one parent (none)."),
+      Option::choice("bounds", {"reflect", "clamp", "resample"}, "reflect",
+                     "A mutation that leaves the bounds is folded back (reflect), set on the bound (clamp), or drawn "
+                     "again (resample)."),
+      Option::choice("infeasible", {"rank_by_violation", "constant_penalty"}, "rank_by_violation",
+                     "How points that break a constraint are ranked: behind all others and by their violation "
+                     "(rank_by_violation), or by their objective, as under a large constant penalty "
+                     "(constant_penalty).")};
+  const std::vector<Option> common = search_options(0.15);
+  options.insert(options.end(), common.begin(), common.end());
+  return options;
+}
 
-const std::vector<Option> options = {
-    {.name = "parents",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{10},
-     .doc = "Number of parents, μ.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "offspring",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{40},
-     .doc = "Number of offspring a generation, λ.",
-     .min = 1,
-     .max = 1e7},
-    {.name = "selection",
-     .kind = Kind::choice,
-     .fallback = "plus",
-     .doc = "Parents of the next generation are the best of parents and offspring (plus, elitist) or of the offspring "
-            "alone (comma).",
-     .choices = {"plus", "comma"}},
-    {.name = "adaptation",
-     .kind = Kind::choice,
-     .fallback = "covariance",
-     .doc = "What mutations adapt: one step size (isotropic), one an axis (axes), or one step size and the covariance "
-            "of successful mutations; only covariance follows valleys oblique to the axes.",
-     .choices = {"isotropic", "axes", "covariance"}},
-    {.name = "step_control",
-     .kind = Kind::choice,
-     .fallback = "automatic",
-     .doc = "How steps are found: inherited and mutated (self_adaptive), or by the length of the path that the mean of "
-            "the parents takes (cumulative, as in CMA-ES; needs covariance and global recombination); automatic is "
-            "cumulative where that is possible.",
-     .choices = {"automatic", "self_adaptive", "cumulative"}},
-    {.name = "recombination",
-     .kind = Kind::choice,
-     .fallback = "global",
-     .doc = "An offspring descends from the rank-weighted mean of all parents (global), the mean of two "
-            "(intermediate), two with every coordinate from one of them (discrete), or one (none).",
-     .choices = {"global", "intermediate", "discrete", "none"}},
-    {.name = "bounds",
-     .kind = Kind::choice,
-     .fallback = "reflect",
-     .doc = "A mutation that leaves the bounds is folded back (reflect), set on the bound (clamp), or drawn again "
-            "(resample).",
-     .choices = {"reflect", "clamp", "resample"}},
-    {.name = "infeasible",
-     .kind = Kind::choice,
-     .fallback = "rank_by_violation",
-     .doc =
-         "Points that break a constraint rank behind all others, by how far they break it (rank_by_violation), or by "
-         "their objective, as under a large constant penalty (constant_penalty).",
-     .choices = {"rank_by_violation", "constant_penalty"}},
-    {.name = "initial_step",
-     .kind = Kind::number,
-     .fallback = 0.15,
-     .doc = "First standard deviation of the mutations, as a fraction of the range of each parameter.",
-     .min = 1e-6,
-     .max = 1},
-    {.name = "restarts",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{10},
-     .doc = "Further searches from new random points after the first has converged or stalled, as far as the stop "
-            "block allows.",
-     .min = 0,
-     .max = 1e6},
-    {.name = "restart_growth",
-     .kind = Kind::number,
-     .fallback = 2.0,
-     .doc = "Factor on parents and offspring at every restart; 1 keeps them.",
-     .min = 1,
-     .max = 10},
-    {.name = "stall_generations",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{30},
-     .doc = "A search ends after so many generations without progress.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-9,
-     .doc = "Relative improvement of the objective that counts as progress.",
-     .min = 0,
-     .max = 1},
-    {.name = "step_tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-12,
-     .doc = "A search ends when the mean mutation is shorter than this fraction of the range.",
-     .min = 0,
-     .max = 1},
-};
+const std::vector<Option> options = declared();
 
 /// Position of the chosen word, which is the value of the enumerator.
 template <class Choice>
@@ -111,20 +52,15 @@ Choice chosen(const Options& given, const std::string& name) {
 }
 
 std::unique_ptr<Optimizer> create(const Options& given) {
-  Settings settings{.parents = static_cast<std::size_t>(given.integer("parents")),
-                    .offspring = static_cast<std::size_t>(given.integer("offspring")),
+  Settings settings{.parents = given.count("parents"),
+                    .offspring = given.count("offspring"),
                     .selection = chosen<Selection>(given, "selection"),
                     .adaptation = chosen<Adaptation>(given, "adaptation"),
                     .step_control = chosen<StepControl>(given, "step_control"),
                     .recombination = chosen<Recombination>(given, "recombination"),
                     .bounds = chosen<Bounds>(given, "bounds"),
-                    .infeasible = chosen<Infeasible>(given, "infeasible"),
-                    .initial_step = given.number("initial_step"),
-                    .restarts = static_cast<std::size_t>(given.integer("restarts")),
-                    .restart_growth = given.number("restart_growth"),
-                    .stall_generations = static_cast<std::size_t>(given.integer("stall_generations")),
-                    .tolerance = given.number("tolerance"),
-                    .step_tolerance = given.number("step_tolerance")};
+                    .infeasible = chosen<Infeasible>(given, "infeasible")};
+  set_search_options(given, settings);
   if (settings.selection == Selection::comma && settings.offspring <= settings.parents) {
     throw InputError(
         fmt::format("'offspring' is {} and 'parents' {}: with 'selection' \"comma\" the parents are chosen among the "

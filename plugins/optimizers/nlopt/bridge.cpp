@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tunica/augmented_lagrangian.hpp"
+#include "tunica/optimizers/augmented_lagrangian.hpp"
 
 namespace tunica::nlopt_plugin {
 namespace {

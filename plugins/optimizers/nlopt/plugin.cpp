@@ -10,65 +10,29 @@
 namespace tunica::nlopt_plugin {
 namespace {
 
-using Kind = Option::Kind;
-
 const std::vector<Option> options = {
-    {.name = "algorithm",
-     .kind = Kind::choice,
-     .fallback = "crs2_lm",
-     .doc = "Global: crs2_lm (controlled random search), isres (evolution strategy with stochastic ranking), direct_l "
-            "(dividing rectangles), mlsl (many local searches). Local, from many starts: cobyla and bobyqa (no "
-            "derivatives), slsqp (gradient).",
-     .choices = {"crs2_lm", "isres", "direct_l", "mlsl", "cobyla", "bobyqa", "slsqp"}},
-    {.name = "local_algorithm",
-     .kind = Kind::choice,
-     .fallback = "slsqp",
-     .doc = "The local algorithm of mlsl.",
-     .choices = {"cobyla", "bobyqa", "slsqp"}},
-    {.name = "starts",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{20},
-     .doc = "Number of starting points of a local algorithm; the first is the initial values of the parameters.",
-     .min = 1,
-     .max = 1e6},
-    {.name = "restarts",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{10},
-     .doc = "Further searches of crs2_lm and isres, with other random numbers, after one made no more progress.",
-     .min = 0,
-     .max = 1e6},
-    {.name = "population",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{0},
-     .doc = "Points that crs2_lm, isres and mlsl keep; 0 leaves it to NLopt: 10 (n + 1), 20 (n + 1), 4.",
-     .min = 0,
-     .max = 1e6},
-    {.name = "initial_step",
-     .kind = Kind::number,
-     .fallback = 0.1,
-     .doc = "First step of cobyla and bobyqa, as a fraction of the range of each parameter.",
-     .min = 1e-6,
-     .max = 0.5},
-    {.name = "stall",
-     .kind = Kind::integer,
-     .fallback = std::int64_t{0},
-     .doc = "Evaluations without progress after which a global search ends; 0 means 200 (n + 1), for isres "
-            "2000 (n + 1).",
-     .min = 0,
-     .max = 1e9},
-    {.name = "tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-10,
-     .doc = "Relative improvement of the objective that counts as progress; a local search ends below it.",
-     .min = 0,
-     .max = 1},
-    {.name = "step_tolerance",
-     .kind = Kind::number,
-     .fallback = 1e-9,
-     .doc = "A local search ends when its steps are shorter than this fraction of the ranges.",
-     .min = 0,
-     .max = 1},
-};
+    Option::choice("algorithm", {"crs2_lm", "isres", "direct_l", "mlsl", "cobyla", "bobyqa", "slsqp"}, "crs2_lm",
+                   "Global: crs2_lm (controlled random search), isres (evolution strategy with stochastic ranking), "
+                   "direct_l (dividing rectangles), mlsl (many local searches). Local, from many starts: cobyla and "
+                   "bobyqa (no derivatives), slsqp (gradient)."),
+    Option::choice("local_algorithm", {"cobyla", "bobyqa", "slsqp"}, "slsqp", "The local algorithm of mlsl."),
+    Option::integer("starts", 20, {1, 1e6},
+                    "Number of starting points of a local algorithm; the first is the initial values of the "
+                    "parameters."),
+    Option::integer("restarts", 10, {0, 1e6},
+                    "Further searches of crs2_lm and isres, with other random numbers, after one made no more "
+                    "progress."),
+    Option::integer("population", 0, {0, 1e6},
+                    "Points that crs2_lm, isres and mlsl keep; 0 leaves it to NLopt: 10 (n + 1), 20 (n + 1), 4."),
+    Option::number("initial_step", 0.1, {1e-6, 0.5},
+                   "First step of cobyla and bobyqa, as a fraction of the range of each parameter."),
+    Option::integer("stall", 0, {0, 1e9},
+                    "Evaluations without progress after which a global search ends; 0 means 200 (n + 1), for isres "
+                    "2000 (n + 1)."),
+    Option::number("tolerance", 1e-10, {0, 1},
+                   "Relative improvement of the objective that counts as progress; a local search ends below it."),
+    Option::number("step_tolerance", 1e-9, {0, 1},
+                   "A local search ends when its steps are shorter than this fraction of the ranges.")};
 
 Algorithm chosen(const Options& given, const std::string& name) {
   // The first option lists the names in the order of the enumerators.
@@ -81,11 +45,11 @@ Algorithm chosen(const Options& given, const std::string& name) {
 std::unique_ptr<Optimizer> create(const Options& given) {
   const Settings settings{.algorithm = chosen(given, "algorithm"),
                           .local = chosen(given, "local_algorithm"),
-                          .starts = static_cast<std::size_t>(given.integer("starts")),
-                          .restarts = static_cast<std::size_t>(given.integer("restarts")),
-                          .population = static_cast<std::size_t>(given.integer("population")),
+                          .starts = given.count("starts"),
+                          .restarts = given.count("restarts"),
+                          .population = given.count("population"),
                           .initial_step = given.number("initial_step"),
-                          .stall = static_cast<std::size_t>(given.integer("stall")),
+                          .stall = given.count("stall"),
                           .tolerance = given.number("tolerance"),
                           .step_tolerance = given.number("step_tolerance")};
   return std::make_unique<NloptOptimizer>(settings);

@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "tunica/augmented_lagrangian.hpp"
+#include "tunica/optimizers/augmented_lagrangian.hpp"
 
 namespace tunica::nlopt_plugin {
 namespace {

@@ -18,8 +18,6 @@
 namespace tunica::pagmo_plugin {
 namespace {
 
-using Kind = Option::Kind;
-
 // Generations are not what ends a search: see Search.
 constexpr unsigned generations = std::numeric_limits<unsigned>::max() / 4;
 
@@ -33,37 +31,15 @@ struct Generation {
 
 std::vector<Option> with_common(std::vector<Option> own) {
   const std::vector<Option> common = {
-      {.name = "population",
-       .kind = Kind::integer,
-       .fallback = std::int64_t{0},
-       .doc = "Number of individuals, rounded up to a multiple of four; 0 means ten a parameter, and 20 at least.",
-       .min = 0,
-       .max = 1e6},
-      {.name = "restarts",
-       .kind = Kind::integer,
-       .fallback = std::int64_t{10},
-       .doc = "Further searches from new random populations after one made no more progress.",
-       .min = 0,
-       .max = 1e6},
-      {.name = "restart_growth",
-       .kind = Kind::number,
-       .fallback = 2.0,
-       .doc = "Factor on the population at every restart; 1 keeps it.",
-       .min = 1,
-       .max = 10},
-      {.name = "stall_generations",
-       .kind = Kind::integer,
-       .fallback = std::int64_t{50},
-       .doc = "A search ends after so many populations' evaluations without progress.",
-       .min = 1,
-       .max = 1e6},
-      {.name = "tolerance",
-       .kind = Kind::number,
-       .fallback = 1e-9,
-       .doc = "Relative improvement of the objective that counts as progress.",
-       .min = 0,
-       .max = 1},
-  };
+      Option::integer("population", 0, {0, 1e6},
+                      "Number of individuals, rounded up to a multiple of four; 0 means ten a parameter, and at least "
+                      "20."),
+      Option::integer("restarts", 10, {0, 1e6},
+                      "Further searches from new random populations after one made no more progress."),
+      Option::number("restart_growth", 2, {1, 10}, "Factor on the population at every restart; 1 keeps it."),
+      Option::integer("stall_generations", 50, {1, 1e6},
+                      "A search ends after this many populations' evaluations without progress."),
+      Option::number("tolerance", 1e-9, {0, 1}, "Relative improvement of the objective that counts as progress.")};
   own.insert(own.end(), common.begin(), common.end());
   return own;
 }
@@ -75,13 +51,12 @@ std::unique_ptr<Optimizer> make(const Options& given, std::int64_t least,
     throw InputError(
         fmt::format("a population of {} is too small, {} is the least; 0 leaves it to the number of parameters",
                     population, least));
-  return std::make_unique<PagmoOptimizer>(
-      Settings{.algorithm = std::move(algorithm),
-               .population = static_cast<std::size_t>(given.integer("population")),
-               .restarts = static_cast<std::size_t>(given.integer("restarts")),
-               .restart_growth = given.number("restart_growth"),
-               .stall_generations = static_cast<std::size_t>(given.integer("stall_generations")),
-               .tolerance = given.number("tolerance")});
+  return std::make_unique<PagmoOptimizer>(Settings{.algorithm = std::move(algorithm),
+                                                   .population = given.count("population"),
+                                                   .restarts = given.count("restarts"),
+                                                   .restart_growth = given.number("restart_growth"),
+                                                   .stall_generations = given.count("stall_generations"),
+                                                   .tolerance = given.number("tolerance")});
 }
 
 OptimizerFactory differential_evolution() {
@@ -92,11 +67,8 @@ OptimizerFactory differential_evolution() {
           .reference =
               "S. Elsayed, R. Sarker, D. Essam, CEC 2011 (sade); J. Brest et al., IEEE Trans. Evol. Comput. 10 "
               "(2006) 646-657; F. Biscani, D. Izzo, J. Open Source Softw. 5 (2020) 2338.",
-          .options = with_common({{.name = "variant",
-                                   .kind = Kind::choice,
-                                   .fallback = "de1220",
-                                   .doc = "sade adapts its rates, de1220 its mutation strategies as well.",
-                                   .choices = {"sade", "de1220"}}}),
+          .options = with_common({Option::choice("variant", {"sade", "de1220"}, "de1220",
+                                                 "sade adapts its rates, de1220 its mutation strategies as well.")}),
           .create = [](const Options& given) {
             const bool sade = given.text("variant") == "sade";
             return make(given, 7, [sade](unsigned seed, Search&) {

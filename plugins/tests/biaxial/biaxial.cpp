@@ -147,32 +147,27 @@ using Role = Observable::Role;
 using Kind = Observable::Kind;
 
 TestFactory factory() {
-  return {"biaxial",
-          "A thin sheet stretched along the circumferential and the axial direction, its faces free.",
-          "Holzapfel & Ogden, Math. Mech. Solids 14:474 (2009)",
-          {{.name = "protocol",
-            .kind = Option::Kind::choice,
-            .fallback = std::string("general"),
-            .doc = "Which stretches the data have: both (general), one for both directions (equibiaxial), or one "
-                   "while the other is held at 1 (pure_shear).",
-            .choices = {"general", "equibiaxial", "pure_shear"}},
-           {.name = "direction",
-            .kind = Option::Kind::choice,
-            .fallback = std::string("circumferential"),
-            .doc = "The direction that is pulled in pure shear; the other protocols do not ask for it.",
-            .choices = {"circumferential", "axial"}}},
-          {{"stretch_circumferential", "1", Role::abscissa, false, "Circumferential stretch (protocol general).",
-            Kind::stretch},
-           {"stretch_axial", "1", Role::abscissa, false, "Axial stretch (protocol general).", Kind::stretch},
-           {"stretch", "1", Role::abscissa, false, "The one stretch of the protocols equibiaxial and pure_shear.",
-            Kind::stretch},
-           {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
-           {"stress_circumferential", "kPa", Role::channel, false, "Circumferential stress.", Kind::stress},
-           {"stress_axial", "kPa", Role::channel, false, "Axial stress.", Kind::stress},
-           {"stress", "kPa", Role::channel, false,
-            "Stress along the pulled direction of pure_shear; mean of both directions in equibiaxial.", Kind::stress}},
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Biaxial>(setup); },
-          {}};
+  return {
+      "biaxial",
+      "A thin sheet stretched along the circumferential and the axial direction, its faces free.",
+      "Holzapfel & Ogden, Math. Mech. Solids 14:474 (2009)",
+      {Option::choice("protocol", {"general", "equibiaxial", "pure_shear"}, "general",
+                      "Which stretches the data have: both (general), one for both directions (equibiaxial), or one "
+                      "while the other is held at 1 (pure_shear)."),
+       Option::choice("direction", {"circumferential", "axial"}, "circumferential",
+                      "The direction that is pulled in pure shear; the other protocols do not ask for it.")},
+      {{"stretch_circumferential", "1", Role::abscissa, false, "Circumferential stretch (protocol general).",
+        Kind::stretch},
+       {"stretch_axial", "1", Role::abscissa, false, "Axial stretch (protocol general).", Kind::stretch},
+       {"stretch", "1", Role::abscissa, false, "The one stretch of the protocols equibiaxial and pure_shear.",
+        Kind::stretch},
+       {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
+       {"stress_circumferential", "kPa", Role::channel, false, "Circumferential stress.", Kind::stress},
+       {"stress_axial", "kPa", Role::channel, false, "Axial stress.", Kind::stress},
+       {"stress", "kPa", Role::channel, false,
+        "Stress along the pulled direction of pure_shear; mean of both directions in equibiaxial.", Kind::stress}},
+      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Biaxial>(setup); },
+      {}};
 }
 
 }  // namespace

@@ -12,7 +12,11 @@ constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}
 }  // namespace
 
 void Response::reserve(std::size_t n, std::size_t parameters) {
-  if (c.size() < 3 * n) c.resize(3 * n), stress.resize(3 * n), tangent.resize(6 * n);
+  if (c.size() < 3 * n) {
+    c.resize(3 * n);
+    stress.resize(3 * n);
+    tangent.resize(6 * n);
+  }
   if (stress_dp.size() < 3 * n * parameters) stress_dp.resize(3 * n * parameters);
 }
 
@@ -40,8 +44,12 @@ Status Response::on_axes(const Model& model, std::span<const double> parameters,
 Status Response::on_tensors(const Model& model, std::span<const double> parameters, std::span<const double> time,
                             std::size_t n, Wants wants) {
   const std::size_t history = model.describe().history_size, count = parameters.size();
-  tensor_.assign(6, 0), tensor_stress_.resize(6), tensor_tangent_.resize(36), tensor_stress_dp_.resize(6 * count);
-  old_state_.resize(history), new_state_.resize(history);
+  tensor_.assign(6, 0);
+  tensor_stress_.resize(6);
+  tensor_tangent_.resize(36);
+  tensor_stress_dp_.resize(6 * count);
+  old_state_.resize(history);
+  new_state_.resize(history);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t a = 0; a < 3; ++a) tensor_[a] = c[a * n + i];
     double step = 0;

@@ -15,7 +15,8 @@ Status stress_differences(const Material& material, double ct, double cz, double
   std::array<double, Material::firsts> W{};
   const std::array<double, 4> C{ct, cz, cr, 0};
   const Status status = material.evaluate(1, C, W, {}, {});
-  tangential = 2 * (ct * W[0] - cr * W[2]), axial = 2 * (cz * W[1] - cr * W[2]);
+  tangential = 2 * (ct * W[0] - cr * W[2]);
+  axial = 2 * (cz * W[1] - cr * W[2]);
   return status;
 }
 
@@ -34,7 +35,8 @@ Status long_tube(const Tube& tube, const Material& material, double stretch, dou
     const Status status = stress_differences(material, r2 / (R * R), stretch * stretch, t, z);
     if (!status.ok()) return status;
     const double weight = (k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2) * h / 3 * R / stretch;
-    found.pressure += weight * t / r2, found.force += std::numbers::pi * weight * (2 * z - t);
+    found.pressure += weight * t / r2;
+    found.force += std::numbers::pi * weight * (2 * z - t);
   }
   return {};
 }
@@ -45,7 +47,9 @@ Status check_agreement(const Tube& tube, const Material& material, std::span<con
                        std::vector<Agreement>& found) {
   const Load top = *std::ranges::max_element(loads, {}, &Load::pressure);
   Tube sliding = tube;
-  sliding.ends = Ends::sliding, sliding.axial = 2, sliding.grading = 1;  // nothing varies along it
+  sliding.ends = Ends::sliding;
+  sliding.axial = 2;
+  sliding.grading = 1;  // nothing varies along it
   const std::array<Load, 3> at{Load{top.stretch, 0}, Load{top.stretch, top.pressure / 2}, top};
   std::vector<Sample> samples;
   std::size_t failed_at = 0;
@@ -70,7 +74,10 @@ Status check_agreement(const Tube& tube, const Material& material, std::span<con
       {"the semi-analytic long tube, ends sliding: axial force", force_error, "mN", 0.5 * expected * largest_force});
 
   Tube patch = sliding;
-  patch.radial = patch.axial = 1, patch.inner = 1e4, patch.outer = 1e4 + 1, patch.length = 2;
+  patch.radial = patch.axial = 1;
+  patch.inner = 1e4;
+  patch.outer = 1e4 + 1;
+  patch.length = 2;
   const std::array<Load, 1> pulled{Load{top.stretch, 0}};
   if (Status status = Simulation(patch).run(material, pulled, {}, samples, failed_at); !status.ok()) return status;
   // A strip pulled along the axis: σt = σr at the ring's stretch, λt = r/R in the middle of the wall.

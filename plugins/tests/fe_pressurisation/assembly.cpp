@@ -102,12 +102,14 @@ class AssemblyOf final : public Assembly {
         double r = 0, z = 0;
         for (std::size_t k = 0; k < E::side; ++k) {
           const std::size_t dof = 2 * mesh_.node(0, row * Order + k);
-          r += element_.shape_1d[g][k] * state.x[dof], z += element_.slope_1d[g][k] * state.x[dof + 1];
+          r += element_.shape_1d[g][k] * state.x[dof];
+          z += element_.slope_1d[g][k] * state.x[dof + 1];
         }
         lumen += element_.weight_1d[g] * r * r * z / 2;
       }
     }
-    lumen *= 2 * std::numbers::pi, stored *= 2 * std::numbers::pi;
+    lumen *= 2 * std::numbers::pi;
+    stored *= 2 * std::numbers::pi;
     return {};
   }
 
@@ -141,8 +143,11 @@ class AssemblyOf final : public Assembly {
   }
 
   void prepare(System& system, std::size_t size, bool tangent) const {
-    system.force.assign(size, 0), system.right.assign(size, 0), system.volume.assign(size, 0);
-    system.coupling.resize(pressure_count() * dofs), system.dilation.resize(pressure_count());
+    system.force.assign(size, 0);
+    system.right.assign(size, 0);
+    system.volume.assign(size, 0);
+    system.coupling.resize(pressure_count() * dofs);
+    system.dilation.resize(pressure_count());
     if (!tangent) return;
     const std::size_t width = 2 * (Order * mesh_.across() + Order) + 1;
     if (system.matrix.size() != size || system.matrix.width() != width)
@@ -156,7 +161,8 @@ class AssemblyOf final : public Assembly {
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) {
         const std::size_t dof = 2 * row_.node(a, e, row);
-        system.force[dof] += row_.force[2 * a * n_ + e], system.force[dof + 1] += row_.force[(2 * a + 1) * n_ + e];
+        system.force[dof] += row_.force[2 * a * n_ + e];
+        system.force[dof + 1] += row_.force[(2 * a + 1) * n_ + e];
       }
     double largest = 0;
     for (std::size_t m = 0; m < np; ++m)
@@ -169,7 +175,8 @@ class AssemblyOf final : public Assembly {
         for (std::size_t i = 0; i < (tangent ? dofs : 0); ++i) coupling[i] = row_.coupling[(m * dofs + i) * n_ + e];
         for (std::size_t a = 0; a < nn; ++a) {
           const std::size_t dof = 2 * row_.node(a, e, row);
-          system.right[dof] -= factor * c * coupling[2 * a], system.right[dof + 1] -= factor * c * coupling[2 * a + 1];
+          system.right[dof] -= factor * c * coupling[2 * a];
+          system.right[dof + 1] -= factor * c * coupling[2 * a + 1];
         }
       }
     if (!tangent) return largest;
@@ -206,11 +213,14 @@ class AssemblyOf final : public Assembly {
         std::size_t dof[E::side];
         for (std::size_t k = 0; k < E::side; ++k) {
           dof[k] = 2 * mesh_.node(0, row * Order + k);
-          r += N[k] * state.x[dof[k]], z += D[k] * state.x[dof[k] + 1];
+          r += N[k] * state.x[dof[k]];
+          z += D[k] * state.x[dof[k] + 1];
         }
         const double w = element_.weight_1d[g];
-        for (std::size_t k = 0; k < E::side; ++k)
-          system.volume[dof[k]] += w * r * z * N[k], system.volume[dof[k] + 1] += w * r * r / 2 * D[k];
+        for (std::size_t k = 0; k < E::side; ++k) {
+          system.volume[dof[k]] += w * r * z * N[k];
+          system.volume[dof[k] + 1] += w * r * r / 2 * D[k];
+        }
         if (!tangent || pressure == 0) continue;
         for (std::size_t k = 0; k < E::side; ++k)
           for (std::size_t l = 0; l < E::side; ++l) {

@@ -97,8 +97,10 @@ void Banded::solve(std::span<double> x) const {
     double s0[2] = {}, s1[2] = {}, s2[2] = {}, s3[2] = {};
     for (std::size_t i = block; i < width_ + block; i += 2)
       for (std::size_t k = 0; k < 2; ++k) {  // beyond the band both L and y are zero, or belong to nobody
-        s0[k] += l0[i + k] * y[i + k], s1[k] += l1[i + k - 1] * y[i + k];
-        s2[k] += l2[i + k - 2] * y[i + k], s3[k] += l3[i + k - 3] * y[i + k];
+        s0[k] += l0[i + k] * y[i + k];
+        s1[k] += l1[i + k - 1] * y[i + k];
+        s2[k] += l2[i + k - 2] * y[i + k];
+        s3[k] += l3[i + k - 3] * y[i + k];
       }
     y[3] -= s3[0] + s3[1];
     y[2] -= s2[0] + s2[1] + l2[1] * y[3];

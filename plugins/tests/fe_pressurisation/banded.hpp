@@ -15,7 +15,9 @@ namespace tunica::fe {
 class Banded {
  public:
   void resize(std::size_t size, std::size_t width) {
-    size_ = size, width_ = width, stride_ = (width + 1 + block + 1) / 2 * 2;
+    size_ = size;
+    width_ = width;
+    stride_ = (width + 1 + block + 1) / 2 * 2;
     a_.assign((size + block + width) * stride_, 0.0);
   }
   void clear() { std::fill(a_.begin(), a_.end(), 0.0); }

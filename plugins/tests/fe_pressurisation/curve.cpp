@@ -12,7 +12,8 @@ Chebyshev::Chebyshev(double low, double high, std::size_t count) {
     const double x = -std::cos(static_cast<double>(k) * std::numbers::pi / static_cast<double>(count - 1));
     points_.push_back(0.5 * (low + high) + 0.5 * (high - low) * x);
   }
-  points_.front() = low, points_.back() = high;
+  points_.front() = low;
+  points_.back() = high;
 }
 
 void Chebyshev::weights(double x, std::span<double> weights) const {

@@ -32,28 +32,37 @@ struct Element {
 
   Element() {
     if constexpr (Order == 1) {
-      abscissa = {-1 / std::sqrt(3.), 1 / std::sqrt(3.)}, weight_1d = {1, 1};
+      abscissa = {-1 / std::sqrt(3.), 1 / std::sqrt(3.)};
+      weight_1d = {1, 1};
     } else {
-      abscissa = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weight_1d = {5. / 9, 8. / 9, 5. / 9};
+      abscissa = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
+      weight_1d = {5. / 9, 8. / 9, 5. / 9};
     }
     for (std::size_t g = 0; g < points_1d; ++g) {
       const double x = abscissa[g];
       if constexpr (Order == 1) {
-        shape_1d[g] = {(1 - x) / 2, (1 + x) / 2}, slope_1d[g] = {-0.5, 0.5};
+        shape_1d[g] = {(1 - x) / 2, (1 + x) / 2};
+        slope_1d[g] = {-0.5, 0.5};
       } else {
-        shape_1d[g] = {x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2}, slope_1d[g] = {x - 0.5, -2 * x, x + 0.5};
+        shape_1d[g] = {x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2};
+        slope_1d[g] = {x - 0.5, -2 * x, x + 0.5};
       }
     }
     for (std::size_t g = 0; g < points; ++g) {
       const std::size_t i = g % points_1d, k = g / points_1d;
-      xi[g] = abscissa[i], eta[g] = abscissa[k], weight[g] = weight_1d[i] * weight_1d[k];
+      xi[g] = abscissa[i];
+      eta[g] = abscissa[k];
+      weight[g] = weight_1d[i] * weight_1d[k];
       for (std::size_t a = 0; a < nodes; ++a) {
         shape[g][a] = shape_1d[i][a % side] * shape_1d[k][a / side];
         by_xi[g][a] = slope_1d[i][a % side] * shape_1d[k][a / side];
         by_eta[g][a] = shape_1d[i][a % side] * slope_1d[k][a / side];
       }
       mode[g][0] = 1;
-      if constexpr (modes == 3) mode[g][1] = xi[g], mode[g][2] = eta[g];
+      if constexpr (modes == 3) {
+        mode[g][1] = xi[g];
+        mode[g][2] = eta[g];
+      }
     }
   }
 };

@@ -19,7 +19,10 @@ enum Own : std::size_t { axial_stretch_error, thickness_error, own_count };
 void set_elements(const std::string& text, Tube& tube) {
   const nlohmann::json given = nlohmann::json::parse(text, nullptr, false);
   if (given.is_null()) {
-    if (tube.order == 2) tube.radial = 12, tube.axial = 25;
+    if (tube.order == 2) {
+      tube.radial = 12;
+      tube.axial = 25;
+    }
     return;
   }
   const bool pair = given.is_array() && given.size() == 2 && given[0].is_number_unsigned() &&
@@ -29,7 +32,8 @@ void set_elements(const std::string& text, Tube& tube) {
     throw InputError("fe_pressurisation: \"elements\" is " + text +
                      "; give two numbers, [radial, axial over half the length], for example [25, 100]; at most "
                      "[200, 2000]");
-  tube.radial = given[0], tube.axial = given[1];
+  tube.radial = given[0];
+  tube.axial = given[1];
 }
 
 /// A tube of finite length under inner pressure: see assembly.hpp for the discrete potential, solver.hpp for Newton's
@@ -40,19 +44,23 @@ class FePressurisation final : public Test {
     const Options& given = setup.options;
     plan_.order = given.text("element") == "quadrilateral_4" ? 1 : 2;
     set_elements(given.text("elements"), plan_);
-    plan_.inner = tube_.inner_radius, plan_.outer = tube_.outer_radius;
-    plan_.length = given.number("length"), plan_.grading = given.number("grading");
+    plan_.inner = tube_.inner_radius;
+    plan_.outer = tube_.outer_radius;
+    plan_.length = given.number("length");
+    plan_.grading = given.number("grading");
     if (!(plan_.length > 0))
       throw InputError(
           "fe_pressurisation: \"length\" is 0; give the unloaded length between the ends, for example \"14 mm\"");
     const std::string& ends = given.text("ends");
     plan_.ends = ends == "clamped" ? Ends::clamped : ends == "sliding" ? Ends::sliding : Ends::clamped_after_stretch;
-    plan_.tolerance = given.number("tolerance"), plan_.time_limit = given.number("time_limit");
+    plan_.tolerance = given.number("tolerance");
+    plan_.time_limit = given.number("time_limit");
     plan_.steps = static_cast<std::size_t>(given.integer("max_steps"));
     if (!tube_.time.empty()) tube_.time.clear();  // elastic: time does not matter
     description_.parameters = {axial_stretch_error_parameter(), thickness_error_parameter()};
     description_.nulls = {0, 0};
-    description_.diagnostics = {"inner_radius_stretch"}, description_.diagnostic_units = {"1"};
+    description_.diagnostics = {"inner_radius_stretch"};
+    description_.diagnostic_units = {"1"};
     description_.costly = true;
     rows_.count = tube_.count();
     for (std::size_t k = 0; k < tube_.columns.size(); ++k)
@@ -182,54 +190,27 @@ class FePressurisation final : public Test {
 std::vector<Option> options() {
   std::vector<Option> all = tube_options();
   const std::vector<Option> own = {
-      {.name = "length",
-       .kind = Option::Kind::quantity,
-       .fallback = {},
-       .doc = "Unloaded length between the ends.",
-       .unit = "mm",
-       .min = 0.0},
-      {.name = "ends",
-       .kind = Option::Kind::choice,
-       .fallback = std::string("clamped"),
-       .doc =
-           "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
-           "not at all (sliding: then the tube is a long one, until it bulges or buckles).",
-       .choices = {"clamped", "clamped_after_stretch", "sliding"}},
-      {.name = "element",
-       .kind = Option::Kind::choice,
-       .fallback = std::string("quadrilateral_4"),
-       .doc = "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure.",
-       .choices = {"quadrilateral_4", "quadrilateral_9"}},
+      Option::quantity("length", "mm", 0.0, "Unloaded length between the ends."),
+      Option::choice(
+          "ends", {"clamped", "clamped_after_stretch", "sliding"}, "clamped",
+          "How the ends are held: radially fixed from the start (clamped), from the end of the axial stretch on, or "
+          "not at all (sliding: then the tube is a long one, until it bulges or buckles)."),
+      Option::choice("element", {"quadrilateral_4", "quadrilateral_9"}, "quadrilateral_4",
+                     "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure."),
       {.name = "elements",
        .kind = Option::Kind::json,
        .fallback = std::string("null"),
        .doc = "Numbers of elements, [radial, axial over half the length]; null means [25, 100], or [12, 25] of nine "
               "nodes."},
-      {.name = "grading",
-       .kind = Option::Kind::number,
-       .fallback = 1.5,
-       .doc = "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "
-              "length.",
-       .min = 1.0,
-       .max = 4.0},
-      {.name = "tolerance",
-       .kind = Option::Kind::number,
-       .fallback = 1e-6,
-       .doc = "Of the curve between the pressures that are solved, over the outer radius and the largest force.",
-       .min = 1e-10,
-       .max = 1e-2},
-      {.name = "max_steps",
-       .kind = Option::Kind::integer,
-       .fallback = std::int64_t{1000},
-       .doc = "Load steps at most, in one simulation.",
-       .min = 1,
-       .max = 1e6},
-      {.name = "time_limit",
-       .kind = Option::Kind::quantity,
-       .fallback = 60.0,
-       .doc = "A simulation that takes longer fails.",
-       .unit = "s",
-       .min = 0.001}};
+      Option::number(
+          "grading", 1.5, {1.0, 4.0},
+          "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "
+          "length."),
+      Option::number(
+          "tolerance", 1e-6, {1e-10, 1e-2},
+          "Of the curve between the pressures that are solved, over the outer radius and the largest force."),
+      Option::integer("max_steps", 1000, {1, 1e6}, "Load steps at most, in one simulation."),
+      Option::quantity("time_limit", "s", 0.001, "A simulation that takes longer fails.", 60.0)};
   all.insert(all.end(), own.begin(), own.end());
   return all;
 }

@@ -90,7 +90,8 @@ Snapshot snapshot_of(const Mesh& mesh, const State& state, const std::vector<Poi
   for (std::size_t q = 0; q < families; ++q) snapshot.section.push_back({quantities[q].name, quantities[q].unit, {}});
   for (const Point* point : section) {
     const Values at = values_of(*point, angle);
-    snapshot.section[0].values.push_back(point->R), snapshot.section[1].values.push_back(point->R * point->f[4]);
+    snapshot.section[0].values.push_back(point->R);
+    snapshot.section[1].values.push_back(point->R * point->f[4]);
     for (std::size_t q = 0; q < families; ++q) snapshot.section[2 + q].values.push_back(at[q]);
   }
   return snapshot;

@@ -57,7 +57,8 @@ Status Material::on_tensors(std::size_t n, std::span<const double> C, std::span<
   thread_local Scratch scratch;
   const std::size_t parameters = first_dp.empty() ? 0 : parameters_.size();
   scratch.tensors.assign(6 * n, 0);
-  scratch.stress.resize(first.empty() ? 0 : 6 * n), scratch.tangent.resize(second.empty() ? 0 : 36 * n);
+  scratch.stress.resize(first.empty() ? 0 : 6 * n);
+  scratch.tangent.resize(second.empty() ? 0 : 36 * n);
   scratch.stress_dp.resize(6 * parameters * n);
   std::copy_n(C.begin(), 3 * n, scratch.tensors.begin());
   std::copy_n(C.begin() + static_cast<std::ptrdiff_t>(3 * n), n,

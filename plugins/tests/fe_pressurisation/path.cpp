@@ -34,7 +34,9 @@ Path::Path(Solver& solver, const Limits& limits) : solver_(solver), limits_(limi
 Status Path::begin() { return solver_.solve(load_, state_, false); }
 
 Status Path::return_to(const Mark& mark) {
-  load_ = mark.load, state_ = mark.state, has_previous_ = false;
+  load_ = mark.load;
+  state_ = mark.state;
+  has_previous_ = false;
   return solver_.solve(load_, state_, false);
 }
 
@@ -93,14 +95,19 @@ Status Path::fill(const Load& to, bool exact) {
   if (Status status = solver_.solve(load, state, true); !status.ok()) return status;
   double volume = solver_.volume(state);
   const auto fail = [&](const std::string& why) {
-    load_ = load, state_ = state, has_previous_ = false;
+    load_ = load;
+    state_ = state;
+    has_previous_ = false;
     return stuck(why, load, state);
   };
   for (double part = first_filling, last = 0; true;) {
     if (++steps_ > limits_.steps) return fail(fmt::format("{} load steps were not enough", limits_.steps));
     Load at = load;
     next = state;
-    if (last > 0) scale(1 + part / last, next), add(-part / last, before, next);
+    if (last > 0) {
+      scale(1 + part / last, next);
+      add(-part / last, before, next);
+    }
     Status status = solver_.solve_volume(volume * std::exp(sign * part), at, next);
     const auto& moved = solver_.effort().steps;
     if (status.ok() && std::accumulate(moved.begin(), moved.end(), 0.) > far_filling)
@@ -120,13 +127,19 @@ Status Path::fill(const Load& to, bool exact) {
       add(1 - reached, state, guess_);
       status = accept(to, exact);
       if (status.ok()) {
-        state_ = guess_, load_ = to, has_previous_ = false;
+        state_ = guess_;
+        load_ = to;
+        has_previous_ = false;
         return {};
       }
       if ((part /= 2) > least_filling && !solver_.late()) continue;
       return fail(status.reason());
     }
-    before = state, state = next, load = at, last = part, volume *= std::exp(sign * part);
+    before = state;
+    state = next;
+    load = at;
+    last = part;
+    volume *= std::exp(sign * part);
     if (moved.size() <= 4) part = std::min(1.5 * part, most_filling);
   }
 }
@@ -142,8 +155,12 @@ Status Path::go(const Load& to, bool exact) {
     const Status status = step(next, exact && part == 1);
     if (status.ok()) {
       const bool pressure_alone = next.stretch == load_.stretch && next.pressure != load_.pressure;
-      previous_ = state_, previous_slope_ = slope_, before_ = load_, has_previous_ = pressure_alone;
-      state_ = guess_, load_ = next;
+      previous_ = state_;
+      previous_slope_ = slope_;
+      before_ = load_;
+      has_previous_ = pressure_alone;
+      state_ = guess_;
+      load_ = next;
       if (part == 1) return {};
       part = std::min(1., 2 * part);
       continue;

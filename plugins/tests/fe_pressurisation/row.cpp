@@ -15,10 +15,19 @@ Row<Order>::Row(const Mesh& mesh)
   for (std::size_t g = 0; g < ng; ++g)
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) over_radius_.push_back(element_.shape[g][a] / radius_[g * n_ + e]);
-  x_.resize(dofs * n_), q_.resize(np * n_);
-  f.resize(5 * ng * n_), C.resize(4 * ng * n_), first.resize(4 * ng * n_), second.resize(10 * ng * n_);
-  p_.resize(5 * n_), a_.resize(15 * n_), scratch.resize(10 * n_);
-  k.resize(dofs * (dofs + 1) / 2 * n_), force.resize(dofs * n_), coupling.resize(np * dofs * n_), c.resize(np * n_);
+  x_.resize(dofs * n_);
+  q_.resize(np * n_);
+  f.resize(5 * ng * n_);
+  C.resize(4 * ng * n_);
+  first.resize(4 * ng * n_);
+  second.resize(10 * ng * n_);
+  p_.resize(5 * n_);
+  a_.resize(15 * n_);
+  scratch.resize(10 * n_);
+  k.resize(dofs * (dofs + 1) / 2 * n_);
+  force.resize(dofs * n_);
+  coupling.resize(np * dofs * n_);
+  c.resize(np * n_);
 }
 
 /// r_R, r_Z, z_R, z_Z and r/R of a field r, z of the nodes, at Gauss point g of every lane.
@@ -34,15 +43,26 @@ void Row<Order>::interpolate(std::size_t g, std::span<const double> nodes, std::
   const double* __restrict__ const x = nodes.data();
   const double* __restrict__ const over_R = over_radius_.data() + g * nn * n_;
   double by_r[nn], by_z[nn];
-  for (std::size_t a = 0; a < nn; ++a) by_r[a] = element_.by_xi[g][a] * to_r, by_z[a] = element_.by_eta[g][a] * to_z;
+  for (std::size_t a = 0; a < nn; ++a) {
+    by_r[a] = element_.by_xi[g][a] * to_r;
+    by_z[a] = element_.by_eta[g][a] * to_z;
+  }
   const std::size_t n = n_;
   for (std::size_t e = 0; e < n; ++e) {
     double r_R = 0, r_Z = 0, z_R = 0, z_Z = 0, t = 0;
     for (std::size_t a = 0; a < nn; ++a) {
       const double r = x[2 * a * n + e], z = x[(2 * a + 1) * n + e];
-      r_R += by_r[a] * r, r_Z += by_z[a] * r, z_R += by_r[a] * z, z_Z += by_z[a] * z, t += over_R[a * n + e] * r;
+      r_R += by_r[a] * r;
+      r_Z += by_z[a] * r;
+      z_R += by_r[a] * z;
+      z_Z += by_z[a] * z;
+      t += over_R[a * n + e] * r;
     }
-    f0[e] = r_R, f1[e] = r_Z, f2[e] = z_R, f3[e] = z_Z, f4[e] = t;
+    f0[e] = r_R;
+    f1[e] = r_Z;
+    f2[e] = z_R;
+    f3[e] = z_Z;
+    f4[e] = t;
   }
 }
 
@@ -52,7 +72,8 @@ void Row<Order>::take(const State& state, std::size_t row) {
   for (std::size_t a = 0; a < nn; ++a)
     for (std::size_t e = 0; e < n_; ++e) {
       const std::size_t dof = 2 * node(a, e, row);
-      x_[2 * a * n_ + e] = state.x[dof], x_[(2 * a + 1) * n_ + e] = state.x[dof + 1];
+      x_[2 * a * n_ + e] = state.x[dof];
+      x_[(2 * a + 1) * n_ + e] = state.x[dof + 1];
     }
   for (std::size_t e = 0; e < n_; ++e)
     for (std::size_t m = 0; m < np; ++m) q_[m * n_ + e] = state.q[(row * n_ + e) * np + m];
@@ -66,8 +87,10 @@ void Row<Order>::take(const State& state, std::size_t row) {
     const double* __restrict__ const f4 = f3 + all;
     double* __restrict__ const to = C.data() + g * n_;
     for (std::size_t e = 0; e < n_; ++e) {
-      to[e] = f4[e] * f4[e], to[all + e] = f1[e] * f1[e] + f3[e] * f3[e];
-      to[2 * all + e] = f0[e] * f0[e] + f2[e] * f2[e], to[3 * all + e] = f0[e] * f1[e] + f2[e] * f3[e];
+      to[e] = f4[e] * f4[e];
+      to[all + e] = f1[e] * f1[e] + f3[e] * f3[e];
+      to[2 * all + e] = f0[e] * f0[e] + f2[e] * f2[e];
+      to[3 * all + e] = f0[e] * f1[e] + f2[e] * f3[e];
     }
   }
 }
@@ -139,7 +162,8 @@ void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
     a[upper(3, 4) * n_ + e] = dV * (tz * f3 * f4 - q * f0);
     a[upper(4, 4) * n_ + e] = dV * (tt * f4 * f4 + wt);
     const double modulus = tt * f4 * f4 + zz * f3 * f3 + rr * f0 * f0 + std::abs(wt);
-    largest = std::max(largest, modulus), sum += modulus;
+    largest = std::max(largest, modulus);
+    sum += modulus;
   }
   stiffness = std::isfinite(sum) ? std::max(stiffness, largest) : sum;
   if (sees_shear) add_shear(g);
@@ -160,7 +184,8 @@ void Row<Order>::add_shear(std::size_t g) {
       for (std::size_t i = 0; i <= j; ++i)
         a_[upper(i, j) * n_ + e] += dV * (h(6) * s[i] * s[j] + h(7) * (t[i] * s[j] + s[i] * t[j]) +
                                           h(8) * (z[i] * s[j] + s[i] * z[j]) + h(9) * (r[i] * s[j] + s[i] * r[j]));
-    a_[upper(0, 1) * n_ + e] += dV * ws, a_[upper(2, 3) * n_ + e] += dV * ws;
+    a_[upper(0, 1) * n_ + e] += dV * ws;
+    a_[upper(2, 3) * n_ + e] += dV * ws;
   }
 }
 
@@ -232,8 +257,12 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
   for (std::size_t e = 0; e < n_; ++e) {
     const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
     const double dV = weight * R[e], plane = f0 * f3 - f1 * f2;
-    j[e] = dV * f4 * f3, j[n_ + e] = -dV * f4 * f2, j[2 * n_ + e] = -dV * f4 * f1, j[3 * n_ + e] = dV * f4 * f0;
-    j[4 * n_ + e] = dV * plane, j[5 * n_ + e] = dV * (f4 * plane - 1);
+    j[e] = dV * f4 * f3;
+    j[n_ + e] = -dV * f4 * f2;
+    j[2 * n_ + e] = -dV * f4 * f1;
+    j[3 * n_ + e] = dV * f4 * f0;
+    j[4 * n_ + e] = dV * plane;
+    j[5 * n_ + e] = dV * (f4 * plane - 1);
   }
   for (std::size_t m = 0; m < np; ++m) {
     const double mode = element_.mode[g][m];
@@ -254,8 +283,12 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
 
 template <std::size_t Order>
 void Row<Order>::integrate(bool sees_shear, bool tangent, double& stiffness) {
-  std::fill(force.begin(), force.end(), 0.0), std::fill(c.begin(), c.end(), 0.0);
-  if (tangent) std::fill(k.begin(), k.end(), 0.0), std::fill(coupling.begin(), coupling.end(), 0.0);
+  std::fill(force.begin(), force.end(), 0.0);
+  std::fill(c.begin(), c.end(), 0.0);
+  if (tangent) {
+    std::fill(k.begin(), k.end(), 0.0);
+    std::fill(coupling.begin(), coupling.end(), 0.0);
+  }
   for (std::size_t g = 0; g < ng; ++g) {
     stress(g, sees_shear);
     add_force(g);
@@ -275,14 +308,16 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
                           std::span<double> by) {
   const std::size_t count = material.parameter_count(), all = ng * n_, wanted = directions.size();
   const std::size_t components = material.sees_shear() ? 4 : 3;
-  z_.resize(dofs * n_), phi_.resize(5 * all);
+  z_.resize(dofs * n_);
+  phi_.resize(5 * all);
   std::fill(by.begin(), by.end(), 0.0);
   double unused = 0;
   for (std::size_t d = 0; d < wanted; ++d) {
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) {
         const std::size_t dof = 2 * node(a, e, row_);
-        z_[2 * a * n_ + e] = directions[d][dof], z_[(2 * a + 1) * n_ + e] = directions[d][dof + 1];
+        z_[2 * a * n_ + e] = directions[d][dof];
+        z_[(2 * a + 1) * n_ + e] = directions[d][dof + 1];
       }
     for (std::size_t g = 0; g < ng; ++g) {
       interpolate(g, z_, phi_);
@@ -298,7 +333,8 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
         const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
         const double h0 = phi[e], h1 = phi[all + e], h2 = phi[2 * all + e], h3 = phi[3 * all + e],
                      h4 = phi[4 * all + e], dV = weight * R[e];
-        strain[e] = 2 * dV * f4 * h4, strain[n_ + e] = 2 * dV * (f1 * h1 + f3 * h3);
+        strain[e] = 2 * dV * f4 * h4;
+        strain[n_ + e] = 2 * dV * (f1 * h1 + f3 * h3);
         strain[2 * n_ + e] = 2 * dV * (f0 * h0 + f2 * h2);
         strain[3 * n_ + e] = dV * (f0 * h1 + f1 * h0 + f2 * h3 + f3 * h2);
         thickness[e] += (p[e] * h0 + p[n_ + e] * h1) + (p[2 * n_ + e] * h2 + p[3 * n_ + e] * h3) + p[4 * n_ + e] * h4;

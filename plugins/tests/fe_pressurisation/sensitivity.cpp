@@ -3,7 +3,8 @@
 
 namespace tunica::fe {
 void Sensitivity::begin(const Material& material, const Wanted& wanted) {
-  material_ = &material, wanted_ = wanted;
+  material_ = &material;
+  wanted_ = wanted;
   end_.clear();
 }
 

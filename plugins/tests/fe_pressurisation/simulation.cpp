@@ -31,8 +31,10 @@ Status Simulation::take(Path& path, const Load& load, Sample& sample) {
 Status Simulation::run(const Material& material, std::span<const Load> loads, const Wanted& derivatives,
                        std::vector<Sample>& samples, std::size_t& failed_at) {
   samples.resize(loads.size());
-  wanted_ = derivatives, derivatives_ = std::ranges::count(derivatives, true) > 0;
-  solutions_ = 0, failed_at = 0;
+  wanted_ = derivatives;
+  derivatives_ = std::ranges::count(derivatives, true) > 0;
+  solutions_ = 0;
+  failed_at = 0;
   // Lines by axial stretch, those beyond 1 in ascending, those below in descending order.
   std::map<double, std::vector<std::size_t>> lines;
   for (std::size_t i = 0; i < loads.size(); ++i) lines[loads[i].stretch].push_back(i);
@@ -64,7 +66,8 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     if (hold_later) {
       if (derivatives_)
         if (Status status = sensitivity_.hold(path); !status.ok()) return status;
-      solver_.hold_at(path.state()), solver_.hold_ends(true);
+      solver_.hold_at(path.state());
+      solver_.hold_ends(true);
       if (Status status = path.return_to(trunk); !status.ok()) return status;
     }
     if (Status status = line(path, trunk, loads, lines[stretch], samples, failed_at); !status.ok()) return status;
@@ -124,7 +127,10 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
     };
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::size_t i : rows)
-      if (beyond(i) && std::abs(loads[i].pressure) < nearest) nearest = std::abs(loads[i].pressure), failed_at = i;
+      if (beyond(i) && std::abs(loads[i].pressure) < nearest) {
+        nearest = std::abs(loads[i].pressure);
+        failed_at = i;
+      }
     return status;
   };
   const std::size_t zero =
@@ -140,8 +146,10 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
   accurate = true;
   for (std::size_t c = 0; c < 3; ++c) {
     double largest = 0;
-    for (std::size_t k = 0; k < points; ++k)
-      values[k] = nodes[k].value[c], largest = std::max(largest, std::abs(values[k]));
+    for (std::size_t k = 0; k < points; ++k) {
+      values[k] = nodes[k].value[c];
+      largest = std::max(largest, std::abs(values[k]));
+    }
     // Where fibres switch along the line the coefficients fall slowly: what is left out is some times the last ones.
     accurate &= 3 * curve.tail(values) <= tube_.tolerance * (c < 2 ? tube_.outer : 10 * largest);
   }

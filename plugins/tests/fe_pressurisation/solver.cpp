@@ -20,7 +20,10 @@ constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see
 /// Not finite where an entry is not.
 double largest(std::span<const double> x) {
   double value = 0, sum = 0;
-  for (const double entry : x) value = std::max(value, std::abs(entry)), sum += entry;
+  for (const double entry : x) {
+    value = std::max(value, std::abs(entry));
+    sum += entry;
+  }
   return std::isfinite(sum) ? value : sum;
 }
 
@@ -29,13 +32,17 @@ double largest(std::span<const double> x) {
 Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) {
   rest_.x.resize(2 * mesh_.nodes());
   for (std::size_t k = 0; k < mesh_.planes(); ++k)
-    for (std::size_t i = 0; i < mesh_.across(); ++i)
-      rest_.x[2 * mesh_.node(i, k)] = mesh_.radius(i), rest_.x[2 * mesh_.node(i, k) + 1] = mesh_.layer[k];
+    for (std::size_t i = 0; i < mesh_.across(); ++i) {
+      rest_.x[2 * mesh_.node(i, k)] = mesh_.radius(i);
+      rest_.x[2 * mesh_.node(i, k) + 1] = mesh_.layer[k];
+    }
   rest_.q.assign(assembly_->pressure_count(), 0);
   end_moved_.assign(rest_.x.size(), 0);
   for (std::size_t i = 0; i < mesh_.across(); ++i)
     end_moved_[2 * mesh_.node(i, mesh_.planes() - 1) + 1] = mesh_.half_length();
-  dx_.resize(rest_.x.size()), dq_.resize(rest_.q.size()), product_.resize(rest_.x.size());
+  dx_.resize(rest_.x.size());
+  dq_.resize(rest_.q.size());
+  product_.resize(rest_.x.size());
 }
 
 Status Solver::begin(const Material& material) {
@@ -104,7 +111,10 @@ void Solver::factorise() {
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
   const double gamma = system_.gamma;
   Status status = iterate(load, state, full_steps);
-  if (!status.ok()) system_.gamma = gamma, has_factor_ = false;  // what a wild state left behind
+  if (!status.ok()) {  // what a wild state left behind
+    system_.gamma = gamma;
+    has_factor_ = false;
+  }
   return status;
 }
 
@@ -159,15 +169,18 @@ void Solver::move(State& state, bool mixed) {
   if (mixed && mixes_)
     for (std::size_t i = 0; i < dx_.size(); ++i) {
       const double change = dx_[i] - step_.x[i];
-      along += dx_[i] * change, squared += change * change;
+      along += dx_[i] * change;
+      squared += change * change;
     }
   const double beta = squared > 0 ? along / squared : 0;
   const auto apply = [&](std::vector<double>& x, const std::vector<double>& step, std::vector<double>& last,
                          std::vector<double>& moved) {
-    last.resize(step.size()), moved.resize(step.size());
+    last.resize(step.size());
+    moved.resize(step.size());
     for (std::size_t i = 0; i < step.size(); ++i) {
       moved[i] = beta == 0 ? step[i] : step[i] - beta * (moved[i] + step[i] - last[i]);
-      last[i] = step[i], x[i] += moved[i];
+      last[i] = step[i];
+      x[i] += moved[i];
     }
   };
   apply(state.x, dx_, step_.x, moved_.x);
@@ -183,7 +196,10 @@ double Solver::volume(const State& state) const {
 Status Solver::solve_volume(double volume, Load& load, State& state) {
   const double gamma = system_.gamma;
   const Status status = iterate_volume(volume, load, state);
-  if (!status.ok()) system_.gamma = gamma, has_factor_ = false;
+  if (!status.ok()) {
+    system_.gamma = gamma;
+    has_factor_ = false;
+  }
   return status;
 }
 
@@ -200,7 +216,8 @@ Status Solver::iterate_volume(double volume, Load& load, State& state) {
       return status;
     factorise();
     ++effort_.iterations;
-    dx_ = system_.right, b = system_.volume;
+    dx_ = system_.right;
+    b = system_.volume;
     for (std::vector<double>* x : {&dx_, &b}) prescribe(*x), factor_.solve(*x), prescribe(*x);
     const double by_a = std::inner_product(dx_.begin(), dx_.end(), system_.volume.begin(), 0.0);
     const double by_b = std::inner_product(b.begin(), b.end(), system_.volume.begin(), 0.0);
@@ -221,7 +238,8 @@ Status Solver::iterate_volume(double volume, Load& load, State& state) {
 }
 
 void Solver::derive(std::span<const double> right, std::span<const double> moved, State& derivative) {
-  derivative.x.resize(dx_.size()), derivative.q.resize(dq_.size());
+  derivative.x.resize(dx_.size());
+  derivative.q.resize(dq_.size());
   if (moved.empty()) {
     std::copy(right.begin(), right.end(), derivative.x.begin());
   } else {
@@ -244,11 +262,17 @@ void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std
   const std::size_t size = dx_.size(), end = 2 * mesh_.node(0, mesh_.planes() - 1);
   const double own = 2 * std::numbers::pi;  // b, over the plane of symmetry
   weights.resize(positions.size() + (axial_force ? 1 : 0));
-  const auto solve_free = [&](std::vector<double>& x) { prescribe(x), factor_.solve(x), prescribe(x); };
+  const auto solve_free = [&](std::vector<double>& x) {
+    prescribe(x);
+    factor_.solve(x);
+    prescribe(x);
+  };
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const bool is_force = k == positions.size();
-    std::vector<double>&z = weights[k].right, &a = weights[k].moved;
-    a.assign(size, 0), weights[k].dilation.resize(dq_.size());
+    std::vector<double>& z = weights[k].right;
+    &a = weights[k].moved;
+    a.assign(size, 0);
+    weights[k].dilation.resize(dq_.size());
     if (!is_force) a[positions[k]] = 1;
     for (std::size_t i = 0; i < (is_force ? middle_.size() : 0); ++i) a[i] = -own * middle_[i];
     const auto add_own = [&](double sign) {

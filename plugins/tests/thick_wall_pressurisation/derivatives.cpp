@@ -29,7 +29,10 @@ struct RowJet {
   RowJet(const Sections& sections, std::size_t i, const Wall& wall, const Row& row) {
     const WallForcesJet forces = sections.forces_jet(i);
     const Shape<Jet> form = shape_jet(wall, row.y, row.axial_stretch);
-    p = forces.p, F = forces.F, ri = sqrt(form.ri2), ro = sqrt(form.ro2);
+    p = forces.p;
+    F = forces.F;
+    ri = sqrt(form.ri2);
+    ro = sqrt(form.ro2);
   }
 };
 
@@ -91,7 +94,8 @@ class RowDerivative {
 std::vector<Direction> directions(const Wall& wall, const SectorDerivative& sector, std::size_t model_parameters) {
   std::vector<Direction> all(model_parameters + (wall.layered ? layer_ratio : own_count));
   for (std::size_t j = 0; j < model_parameters; ++j) {
-    all[j].model = true, all[j].parameter = j;
+    all[j].model = true;
+    all[j].parameter = j;
     all[j].by[ln_sector] = sector.by_parameter[j];
   }
   Direction* const own = all.data() + model_parameters;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -50,15 +50,15 @@ std::size_t finer(std::span<const Rule> all, std::size_t k, double error) {
 
 /// One row alone, inside a bracket around its start.
 bool rescue(Row& row, Sections& sections, const Wall& wall) {
-  return free_strip::safeguarded_newton(
+  return detail::safeguarded_newton(
       [&](double y) {
         const Section section{row.axial_stretch, y};
         if (!sections.evaluate({&section, 1}, false).ok())
-          return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+          return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
         Row trial = row;
         trial.y = y;
         take(trial, sections.forces(0), wall);
-        return free_strip::Residual{-trial.step * trial.forces.p_y, trial.forces.p_y};
+        return detail::Residual{-trial.step * trial.forces.p_y, trial.forces.p_y};
       },
       row.y);
 }
@@ -76,7 +76,10 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
   const auto done = [](const Row& row) { return row.forces.p_y > 0 && small(row.step, row.pressure, row.forces.p_y); };
   for (int iteration = 0; iteration < newton_iterations; ++iteration) {
     if (Status status = evaluate(rows, false, sections, wall); !status.ok()) return status;
-    if (std::all_of(rows.begin(), rows.end(), done)) return note_error(rows, sections, error), Status();
+    if (std::all_of(rows.begin(), rows.end(), done)) {
+      note_error(rows, sections, error);
+      return Status();
+    }
     for (Row& row : rows)
       if (std::abs(row.step) < 1) row.y += std::clamp(row.step, -0.05, 0.05);
   }
@@ -102,7 +105,9 @@ Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
                   Sections& sections, const Wall& wall, Solution& solution) {
   const bool supported = wall.tether != 0;
-  solution.rows.clear(), solution.free_rows.clear(), solution.error = 0;
+  solution.rows.clear();
+  solution.free_rows.clear();
+  solution.error = 0;
   Path path(sections, wall);
   Equilibrium free, at;  // the unpressurised state, and the one of the row
   Status status = path.begin(free);

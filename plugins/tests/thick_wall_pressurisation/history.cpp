@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -19,15 +19,15 @@ bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall)
   };
   const auto residual = [&](double y) {
     if (!evaluate(y, {memory.time_step, memory.old_state, {}}))
-      return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+      return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
     double p = row.forces.p, p_y = row.forces.p_y;
     if (row.support_free > 0) {
       p += support(wall, y, row.axial_stretch, row.support_free);
       p_y += support_slope(wall, y, row.axial_stretch);
     }
-    return free_strip::Residual{p - row.pressure, p_y};
+    return detail::Residual{p - row.pressure, p_y};
   };
-  return free_strip::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
+  return detail::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
 }
 
 }  // namespace
@@ -50,7 +50,8 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
   for (std::size_t i = 0; i < n; ++i) {
     Row& row = rows[i];
     const double before = i == 0 ? 1 : axial_stretch[i - 1];
-    row.axial_stretch = axial_stretch[i], row.pressure = pressure[i];
+    row.axial_stretch = axial_stretch[i];
+    row.pressure = pressure[i];
     row.y = y - 0.5 * std::log(row.axial_stretch / before);  // the bulk of the wall goes with 1/√λz
     if (wall.tether != 0) {
       free.y -= 0.5 * std::log(row.axial_stretch / before);

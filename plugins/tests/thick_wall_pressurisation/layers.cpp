@@ -57,7 +57,9 @@ Status Layers::evaluate_layer(std::size_t layer, std::size_t n, std::span<const 
   std::size_t points = 0;
   for (const Run& run : runs)
     if (run.layer == layer) points += run.count;
-  here_c.resize(3 * points), here_gradient.resize(3 * points), here_hessian.resize(hessian.empty() ? 0 : 6 * points);
+  here_c.resize(3 * points);
+  here_gradient.resize(3 * points);
+  here_hessian.resize(hessian.empty() ? 0 : 6 * points);
   here_dp.resize(3 * parameters * points);
   const auto copy = [&](std::size_t components, const double* from, std::size_t from_points, double* to,
                         std::size_t to_points, bool gather) {

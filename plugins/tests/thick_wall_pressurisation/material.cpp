@@ -40,7 +40,10 @@ Status Material::on_tensors(std::size_t n, std::span<const double> c, std::span<
                             std::span<double> hessian, std::span<double> gradient_dp, const Memory& memory) const {
   thread_local std::vector<double> tensors, stress, tangent, stress_dp;
   const std::size_t parameters = gradient_dp.empty() ? 0 : parameters_.size();
-  tensors.assign(6 * n, 0), stress.resize(6 * n), tangent.resize(36 * n), stress_dp.resize(6 * parameters * n);
+  tensors.assign(6 * n, 0);
+  stress.resize(6 * n);
+  tangent.resize(36 * n);
+  stress_dp.resize(6 * parameters * n);
   std::copy_n(c.begin(), 3 * n, tensors.begin());
   Status status = model_->evaluate({n, tensors, parameters_, memory.time_step, memory.old_state},
                                    {{}, stress, tangent, stress_dp, memory.new_state});

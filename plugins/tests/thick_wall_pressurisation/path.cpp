@@ -22,7 +22,9 @@ Status Path::begin(Equilibrium& at) {
   const Section rest{at.axial_stretch, at.y};
   if (Status status = sections_.evaluate({&rest, 1}, false); !status.ok()) return status;
   const WallForces forces = sections_.forces(0);
-  at.p = forces.p, at.p_y = forces.p_y, at.p_axial = forces.p_axial;
+  at.p = forces.p;
+  at.p_y = forces.p_y;
+  at.p_axial = forces.p_axial;
   if (std::isfinite(at.p) && std::isfinite(at.p_axial) && at.p_y > 0) return {};
   return Status::failed(at.p_y <= 0 ? "the unloaded tube is not stable" : "the energy overflows in the unloaded tube");
 }
@@ -33,7 +35,8 @@ Path::Trouble Path::evaluate(Equilibrium& trial, double support_free, double& co
   if (!sections_.evaluate({&section, 1}, false).ok()) return Trouble::overflow;
   const WallForces forces = sections_.forces(0);
   double p = forces.p;
-  trial.p_y = forces.p_y, trial.p_axial = forces.p_axial;
+  trial.p_y = forces.p_y;
+  trial.p_axial = forces.p_axial;
   if (trial.supported) {
     p += support(wall_, trial.y, trial.axial_stretch, support_free);
     trial.p_y += support_slope(wall_, trial.y, trial.axial_stretch);
@@ -80,7 +83,8 @@ Status Path::follow(Equilibrium& at, double axial_stretch, double p, double supp
   if (!same_axial) at.has_before = false;
   if (support_free > 0 && wall_.tether != 0 && !at.supported) {  // nothing yet: this is where it begins to act
     at.p_y += support_slope(wall_, at.y, at.axial_stretch);
-    at.supported = true, at.has_before = false;
+    at.supported = true;
+    at.has_before = false;
   }
   double done = 0, share = 1, cap = largest_step;
   if (!same_axial) share = std::min(1., largest_axial_step / std::abs(std::log(axial_stretch / from_axial)));
@@ -118,12 +122,17 @@ Status Path::follow(Equilibrium& at, double axial_stretch, double p, double supp
         settle(at, support_free);
         continue;
       }
-      share = 0.5 * (end - done), cap = largest_step;
+      share = 0.5 * (end - done);
+      cap = largest_step;
       if (std::abs(step) < smallest_step || share < 1e-12) break;
       continue;
     }
-    next.settled = false, next.has_before = same_axial, next.before_p = at.p, next.before_u = 1 / at.p_y;
-    at = next, done = end;
+    next.settled = false;
+    next.has_before = same_axial;
+    next.before_p = at.p;
+    next.before_u = 1 / at.p_y;
+    at = next;
+    done = end;
     share = std::min(2 * share, largest_share);
     cap = std::min(1.5 * cap, largest_after_success);
   }

@@ -21,9 +21,11 @@ struct Rule {
   explicit Rule(int points) {
     for (const double x : boost::math::legendre_p_zeros<double>(points)) {  // not negative, the smallest first
       const double slope = boost::math::legendre_p_prime(points, x), w = 1 / ((1 - x * x) * slope * slope);
-      node.push_back(0.5 * (1 + x)), weight.push_back(w);
+      node.push_back(0.5 * (1 + x));
+      weight.push_back(w);
       if (x == 0) continue;
-      node.insert(node.begin(), 0.5 * (1 - x)), weight.insert(weight.begin(), w);
+      node.insert(node.begin(), 0.5 * (1 - x));
+      weight.insert(weight.begin(), w);
     }
     for (std::size_t k = 0; k < node.size(); ++k) {
       const double x = 2 * node[k] - 1;
@@ -37,7 +39,8 @@ struct Rule {
     double mean = 0, a = 0, b = 0;
     for (std::size_t k = 0; k < node.size(); ++k) {
       mean += weight[k] * std::abs(f[k]);
-      a += last[k] * f[k], b += last_but_one[k] * f[k];
+      a += last[k] * f[k];
+      b += last_but_one[k] * f[k];
     }
     const double largest = std::max(std::abs(a), std::abs(b));
     return largest == 0 ? 0 : largest * std::min(1., largest / mean);

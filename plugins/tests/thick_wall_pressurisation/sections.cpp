@@ -31,7 +31,9 @@ std::span<const Rule> rules() {
 }
 
 void Sections::begin(const Layers& layers, const Wall& wall, const Rule& rule) {
-  layers_ = &layers, wall_ = &wall, rule_ = &rule;
+  layers_ = &layers;
+  wall_ = &wall;
+  rule_ = &rule;
   wall.edges(edges_);
   cuts_.resize(layers.size());
   can_be_cut_ = false;
@@ -39,17 +41,24 @@ void Sections::begin(const Layers& layers, const Wall& wall, const Rule& rule) {
     cuts_[m].clear();
     can_be_cut_ |= !layers.of(m).switches().empty();
   }
-  w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
+  w_.clear();
+  s_.clear();
+  inverse_.clear();
+  pieces_.clear();
   for (std::size_t layer = 0; layer < wall.layer_count(); ++layer)
     add_piece(edges_[layer].a, edges_[layer + 1].a, layer, true, true);
-  base_weight_ = w_, base_s_ = s_, base_inverse_ = inverse_;
+  base_weight_ = w_;
+  base_s_ = s_;
+  base_inverse_ = inverse_;
 }
 
 void Sections::add_piece(double from, double to, std::size_t layer, bool begins, bool ends) {
   pieces_.push_back({w_.size(), to - from, layer, begins, ends});
   for (std::size_t k = 0; k < rule_->node.size(); ++k) {
     const double s = std::exp(2 * (from + rule_->node[k] * (to - from)));
-    w_.push_back(rule_->weight[k] * (to - from) * wall_->factor(layer)), s_.push_back(s), inverse_.push_back(1 / s);
+    w_.push_back(rule_->weight[k] * (to - from) * wall_->factor(layer));
+    s_.push_back(s);
+    inverse_.push_back(1 / s);
   }
 }
 
@@ -60,7 +69,8 @@ bool Sections::find_cuts(const Shape<double>& at) {
     if (switches.empty()) continue;
     // R of a kink from c = b + a/R²
     std::vector<double>& cuts = cuts_[m];
-    kinks_.clear(), cuts.clear();
+    kinks_.clear();
+    cuts.clear();
     if (at.a != 0)
       for (const Switch& change : switches) roots(change, at.cz, kinks_);
     for (const double c : kinks_) {
@@ -93,7 +103,8 @@ void Sections::lay_points(const Section& section) {
     for (const double x : cuts_[layers_->size() == 1 ? 0 : layer]) {
       if (!(x > from + smallest_piece && x < edges_[layer + 1].a - smallest_piece)) continue;
       add_piece(from, x, layer, begins, false);
-      from = x, begins = false;
+      from = x;
+      begins = false;
     }
     add_piece(from, edges_[layer + 1].a, layer, begins, true);
   }
@@ -102,15 +113,22 @@ void Sections::lay_points(const Section& section) {
 Status Sections::evaluate(std::span<const Section> sections, bool parameters, const Memory& memory,
                           const RestStress* rest) {
   sections_.assign(sections.begin(), sections.end());
-  w_.clear(), s_.clear(), inverse_.clear(), pieces_.clear();
-  first_piece_.assign(1, 0), first_point_.assign(1, 0);
+  w_.clear();
+  s_.clear();
+  inverse_.clear();
+  pieces_.clear();
+  first_piece_.assign(1, 0);
+  first_point_.assign(1, 0);
   for (const Section& section : sections) {
     lay_points(section);
-    first_piece_.push_back(pieces_.size()), first_point_.push_back(w_.size());
+    first_piece_.push_back(pieces_.size());
+    first_point_.push_back(w_.size());
   }
   n_ = w_.size();
   if (h_.size() < n_) {
-    c_.resize(3 * n_), gradient_.resize(3 * n_), hessian_.resize(6 * n_);
+    c_.resize(3 * n_);
+    gradient_.resize(3 * n_);
+    hessian_.resize(6 * n_);
     for (auto* v : {&h_, &h_c_, &h_z_, &q_, &q_c_, &q_z_}) v->resize(n_);
   }
   for (std::size_t i = 0; i < sections.size(); ++i) {
@@ -237,21 +255,27 @@ WallForcesJet Sections::forces_jet(std::size_t i) const {
       // A node moves with the edges of its piece: ∂c/∂x = −2 (c − b), ∂R²/∂x = 2 R².
       const double slope = -2 * (c_[k] - form.b.a);
       const double h_x = w_[k] * slope * h_c_[k], q_x = w_[k] * s_[k] * (slope * q_c_[k] + 2 * q_[k]);
-      S_left += (1 - rule_->node[m]) * h_x, S_right += rule_->node[m] * h_x;
-      R_left += (1 - rule_->node[m]) * q_x, R_right += rule_->node[m] * q_x;
+      S_left += (1 - rule_->node[m]) * h_x;
+      S_right += rule_->node[m] * h_x;
+      R_left += (1 - rule_->node[m]) * q_x;
+      R_right += rule_->node[m] * q_x;
     }
     Jet piece_I = S_a * form.a + S_b * form.b + S_z * form.cz, piece_J = R_a * form.a + R_b * form.b + R_z * form.cz;
     // The integrand is continuous at a cut: moving one changes nothing.
     if (piece.begins) {
       const Jet& edge = edges_[piece.layer];
-      piece_I += (S_left - S / piece.length) * edge, piece_J += (R_left - R / piece.length) * edge;
+      piece_I += (S_left - S / piece.length) * edge;
+      piece_J += (R_left - R / piece.length) * edge;
     }
     if (piece.ends) {
       const Jet& edge = edges_[piece.layer + 1];
-      piece_I += (S_right + S / piece.length) * edge, piece_J += (R_right + R / piece.length) * edge;
+      piece_I += (S_right + S / piece.length) * edge;
+      piece_J += (R_right + R / piece.length) * edge;
     }
-    piece_I.a = S, piece_J.a = R;
-    I += piece_I, J += piece_J;
+    piece_I.a = S;
+    piece_J.a = R;
+    I += piece_I;
+    J += piece_J;
   }
   const Jet K(wall_->K, closing);
   return {form.b * I, std::numbers::pi * form.b / (K * K) * J};
@@ -262,7 +286,8 @@ std::pair<std::size_t, std::size_t> Sections::points_of(std::size_t i, std::size
   std::size_t first = n_, last = 0;
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
     if (pieces_[p].layer != material) continue;
-    first = std::min(first, pieces_[p].first), last = pieces_[p].first + rule_->node.size();
+    first = std::min(first, pieces_[p].first);
+    last = pieces_[p].first + rule_->node.size();
   }
   return {first, last};
 }

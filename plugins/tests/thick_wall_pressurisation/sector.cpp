@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
@@ -37,12 +37,12 @@ Status solve(const Layers& layers, const Rule& rule, Sections& sections, Wall& w
   };
   // A larger sector is compressed by closing it: −p rises with ι.
   const auto residual = [&](double iota) {
-    if (!evaluate(iota, false).ok()) return free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+    if (!evaluate(iota, false).ok()) return detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
     const Jet p = sections.forces_jet(0).p;
-    return free_strip::Residual{-p.a, -p.v[ln_sector]};
+    return detail::Residual{-p.a, -p.v[ln_sector]};
   };
   double iota = wall.iota;
-  if (!free_strip::safeguarded_newton(residual, iota))
+  if (!detail::safeguarded_newton(residual, iota))
     return Status::failed(
         "thick_wall_pressurisation: no stress-free sector with this opening angle closes to the unloaded tube; first "
         "needed at row 1");

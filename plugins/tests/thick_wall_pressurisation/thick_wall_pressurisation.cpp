@@ -67,26 +67,17 @@ class ThickWallPressurisation final : public Test {
 std::vector<Option> options() {
   std::vector<Option> all = tube_options();
   const std::vector<Option> own = {
-      {.name = "sector",
-       .kind = Option::Kind::choice,
-       .fallback = std::string("equilibrium"),
-       .doc = "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
-              "equilibrium at its measured outer radius, or that the sector is as thick as the wall.",
-       .choices = {"equilibrium", "same_thickness"}},
-      {.name = "layer_interface",
-       .kind = Option::Kind::number,
-       .fallback = default_interface,
-       .doc = "Where layer_ratio parts the wall of one model: fraction of the thickness from inside.",
-       .min = 0.05,
-       .max = 0.95},
-      {.name = "gauss_points",
-       .kind = Option::Kind::integer,
-       .fallback = std::int64_t{0},
-       .doc = "Gauss points in each layer (of one model: of the two of layer_ratio), and in each piece into which "
-              "fibre switches cut them; 0 takes "
-              "as many as the estimated error asks for (12 for a model with history).",
-       .min = 0,
-       .max = 150}};
+      Option::choice(
+          "sector", {"equilibrium", "same_thickness"}, "equilibrium",
+          "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
+          "equilibrium at its measured outer radius, or that the sector is as thick as the wall."),
+      Option::number("layer_interface", default_interface, {0.05, 0.95},
+                     "Where layer_ratio parts the wall of one model: fraction of the thickness from inside."),
+      Option::integer(
+          "gauss_points", 0, {0, 150},
+          "Gauss points in each layer (of one model: of the two of layer_ratio), and in each piece into which "
+          "fibre switches cut them; 0 takes "
+          "as many as the estimated error asks for (12 for a model with history).")};
   all.insert(all.end(), own.begin(), own.end());
   return all;
 }

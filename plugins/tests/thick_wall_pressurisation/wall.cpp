@@ -22,8 +22,12 @@ Wall::Wall(const Tube& tube, std::span<const double> own)
   if (layered) return;
   // Inner layer ρ s, outer layer s, with the mean over the thickness f ρ s + (1 − f) s = 1.
   const double ratio = own[layer_ratio], f = interfaces[0], mean = f * ratio + (1 - f);
-  if (ratio != 1) inner = ratio / mean, outer = 1 / mean;
-  inner_by_ratio = (1 - f) / (mean * mean), outer_by_ratio = -f / (mean * mean);
+  if (ratio != 1) {
+    inner = ratio / mean;
+    outer = 1 / mean;
+  }
+  inner_by_ratio = (1 - f) / (mean * mean);
+  outer_by_ratio = -f / (mean * mean);
 }
 
 /// A fraction f of the sector's thickness is at R = (1 − f) R_i + f R_o. The radius R_f = (1 − f) Ri + f Ro of the

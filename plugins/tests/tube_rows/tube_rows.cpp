@@ -67,9 +67,7 @@ void check_rows(const TubeRows& tube) {
           fmt::format("{}: time runs backwards at row {}; rows must stand in loading order", tube.test, i + 1));
 }
 
-Option radius(const char* name, const char* doc) {
-  return {.name = name, .kind = Option::Kind::quantity, .fallback = 0.0, .doc = doc, .unit = "mm", .min = 0.0};
-}
+Option radius(const char* name, const char* doc) { return Option::quantity(name, "mm", 0.0, doc, 0.0); }
 
 }  // namespace
 
@@ -77,8 +75,14 @@ TubeRows::TubeRows(const TestSetup& setup, std::string name) : test(std::move(na
   set_radii(setup.options, setup.layers, *this);
   bool pressure = false;
   for (const TestRows::Column& column : setup.rows.abscissae) {
-    if (column.observable == "pressure") pressure = true, pressure_column = columns.size();
-    if (column.observable == "axial_stretch") stretch_varies = true, stretch_column = columns.size();
+    if (column.observable == "pressure") {
+      pressure = true;
+      pressure_column = columns.size();
+    }
+    if (column.observable == "axial_stretch") {
+      stretch_varies = true;
+      stretch_column = columns.size();
+    }
     names.push_back(column.observable);
     columns.emplace_back(column.values.begin(), column.values.end());
   }
@@ -119,12 +123,8 @@ std::vector<Option> tube_options() {
   return {radius("inner_radius", "Inner radius of the unloaded tube; two of the three lengths are given."),
           radius("outer_radius", "Outer radius of the unloaded tube."),
           radius("thickness", "Wall thickness of the unloaded tube."),
-          {.name = "axial_stretch",
-           .kind = Option::Kind::number,
-           .fallback = 0.0,
-           .doc = "Axial stretch that is held; left out where a column is mapped to axial_stretch.",
-           .min = 0.0,
-           .max = 10.0}};
+          Option::number("axial_stretch", 0.0, {0.0, 10.0},
+                         "Axial stretch that is held; left out where a column is mapped to axial_stretch.")};
 }
 
 std::vector<Observable> tube_observables() {

@@ -13,13 +13,19 @@ bool all_finite(std::span<const double> values) {
   return bad == 0;
 }
 
+/// Predictions run concurrently and thousands of times a second: one scratch a thread spares every one its allocations.
+free_strip::Scratch& thread_scratch() {
+  thread_local free_strip::Scratch instance;
+  return instance;
+}
+
 }  // namespace
 
 Status AxesPath::predict(const Strip& strip, const TestInput& input, const TestOutput& output) const {
   const std::span<const double> stretch =
       input.abscissae.empty() ? std::span<const double>(strip.stretch) : input.abscissae[0];
   const std::size_t n = stretch.size(), channels = strip.channels.size();
-  free_strip::Scratch& s = free_strip::scratch();
+  free_strip::Scratch& s = thread_scratch();
   s.reserve(n, input.model_parameters.size());
   const std::span<double> u(s.u.data(), n);
   const free_strip::Pull pull{input.model, input.model_parameters, strip.loaded};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tunica/free_strip.hpp"
+#include "tunica/detail/free_strip.hpp"
 #include "uniaxial.hpp"
 
 namespace tunica::uniaxial {
 
 /// The free strip pulled along a material axis, for models with a principal-axes path: all rows at once, see
-/// tunica/free_strip.hpp. The last Newton step is not evaluated again but applied to first order, which leaves an
-/// error of its square.
+/// tunica/detail/free_strip.hpp. The last Newton step is not evaluated again but applied to first order, which leaves
+/// an error of its square.
 class AxesPath {
  public:
   explicit AxesPath(const Strip& strip) : start_(strip.stretch) {}

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tunica/safeguarded_newton.hpp"
+#include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::uniaxial {
 namespace {
@@ -24,22 +24,26 @@ double contract(const Tensor& a, const Tensor& b) {
 /// One row: the model at (λ1, y = ln u) with a fixed old state.
 class Row {
  public:
-  Row(const Strip& strip, const TestInput& input, double misalignment)
-      : input_(input), history_(input.model.describe().history_size), stress_dp_() {
+  Row(const Strip& strip, const TestInput& input, double misalignment) : input_(input) {
     const double c = std::cos(misalignment), s = std::sin(misalignment);
     const std::array<double, 2> along = strip.loaded == 0 ? std::array{c, s} : std::array{s, c};
     const std::array<double, 2> across = strip.loaded == 0 ? std::array{-s, c} : std::array{c, -s};
-    e11_ = dyad(along, along), e22_ = dyad(across, across), e12_ = dyad(along, across);
+    e11_ = dyad(along, along);
+    e22_ = dyad(across, across);
+    e12_ = dyad(along, across);
     if (input.model.describe().parameter_derivatives) stress_dp_.resize(6 * input.model_parameters.size());
   }
 
   void set(double stretch, std::span<const double> time_step, std::span<const double> state) {
-    c1_ = stretch * stretch, time_step_ = time_step, state_ = state;
+    c1_ = stretch * stretch;
+    time_step_ = time_step;
+    state_ = state;
   }
 
   /// Evaluates at y; the members below then hold for this point. `new_state` may be empty.
   bool evaluate(double y, bool parameters, std::span<double> new_state) {
-    u_ = std::exp(y), c3_ = 1 / (c1_ * u_);
+    u_ = std::exp(y);
+    c3_ = 1 / (c1_ * u_);
     Tensor C = combine(c1_, u_, c3_);
     const Status status = input_.model.evaluate(
         {1, C, input_.model_parameters, time_step_, state_},
@@ -74,15 +78,14 @@ class Row {
     total(c1_ * contract(e11_, dS) - c3_ * dS[2], u_ * contract(e22_, dS) - c3_ * dS[2], stress, y);
   }
   void by_misalignment(double& stress, double& y) const {  // e1' = e2, e2' = −e1
-    const double sign = 1;
     Tensor dC;
-    for (std::size_t c = 0; c < 6; ++c) dC[c] = sign * 2 * (c1_ - u_) * e12_[c];
+    for (std::size_t c = 0; c < 6; ++c) dC[c] = 2 * (c1_ - u_) * e12_[c];
     const Tensor dS = stress_change(dC);
     const double turn = 2 * contract(e12_, stress_);
     total(c1_ * (contract(e11_, dS) + turn) - c3_ * dS[2], u_ * (contract(e22_, dS) - turn) - c3_ * dS[2], stress, y);
   }
 
-  [[nodiscard]] free_strip::Residual residual() const { return {residual_, slope_}; }
+  [[nodiscard]] detail::Residual residual() const { return {residual_, slope_}; }
   [[nodiscard]] double stress() const { return stress11_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
@@ -104,7 +107,6 @@ class Row {
   }
 
   const TestInput& input_;
-  std::size_t history_;
   Tensor e11_, e22_, e12_;
   double c1_ = 1, u_ = 1, c3_ = 1, residual_ = 0, slope_ = 0, stress11_ = 0, stress_by_y_ = 0;
   std::span<const double> time_step_, state_;
@@ -141,29 +143,31 @@ Status predict_on_tensors(const Strip& strip, const TestInput& input, double mis
     // Start: the last row's λ1 u carried over. Where that fails, in small stretch steps from it.
     const auto at = [&](double trial) {
       return row.evaluate(trial, false, {}) ? row.residual()
-                                            : free_strip::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
+                                            : detail::Residual{std::numeric_limits<double>::quiet_NaN(), 0};
     };
     double guess = y + std::log(previous / stretch[i]);
-    bool found = free_strip::safeguarded_newton(at, guess);
+    bool found = detail::safeguarded_newton(at, guess);
     for (int parts = 4; !found && history == 0 && parts <= 256; parts *= 4) {
-      guess = y, found = true;
+      guess = y;
+      found = true;
       for (int k = 1; k <= parts && found; ++k) {
         row.set(previous * std::pow(stretch[i] / previous, double(k) / parts), {}, {});
         guess += std::log(previous / stretch[i]) / parts;
-        found = free_strip::safeguarded_newton(at, guess);
+        found = detail::safeguarded_newton(at, guess);
       }
     }
     // Last, from λ2² = 1/λ1, where I1 is least: an energy with a limit of I1 is defined there if anywhere.
     if (!found) {
       set_row();
       guess = -std::log(stretch[i]);
-      found = free_strip::safeguarded_newton(at, guess);
+      found = detail::safeguarded_newton(at, guess);
     }
     if (!found)
       return Status::failed("uniaxial: no lateral equilibrium at " + row_name(strip, stretch, i) +
                             (row.failure().empty() ? ": the energy overflows or has no stationary point on the path"
                                                    : ": " + row.failure()));
-    y = guess, previous = stretch[i];
+    y = guess;
+    previous = stretch[i];
     if (!row.evaluate(y, !output.jacobian.empty(), new_state))
       return Status::failed("uniaxial: " + row_name(strip, stretch, i) + ": " + row.failure());
     std::swap(old_state, new_state);

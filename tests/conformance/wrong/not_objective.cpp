@@ -29,7 +29,10 @@ class Wrong final : public Model {
         if (!out.stress.empty()) out.stress[a * n + i] = 2 * c1 + 2 * c2 * others;
         for (std::size_t b = 0; b < 3 && !out.tangent.empty(); ++b)
           if (a != b) out.tangent[(6 * a + b) * n + i] = 4 * c2;
-        if (!out.stress_dp.empty()) out.stress_dp[a * n + i] = 2, out.stress_dp[(6 + a) * n + i] = 2 * others;
+        if (!out.stress_dp.empty()) {
+          out.stress_dp[a * n + i] = 2;
+          out.stress_dp[(6 + a) * n + i] = 2 * others;
+        }
       }
     }
     return {};

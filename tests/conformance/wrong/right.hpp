@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/hyperelastic.hpp"
-#include "tunica/isotropic.hpp"
+#include "tunica/models/hyperelastic.hpp"
+#include "tunica/models/isotropic.hpp"
+#include "tunica/models/rubber_laws.hpp"
 #include "tunica/plugin.hpp"
-#include "tunica/rubber_laws.hpp"
 
 namespace tunica::wrong {
 

@@ -27,7 +27,10 @@ class Strip final : public Test {
         input.abscissae.empty() ? std::span<const double>(stretch_) : input.abscissae[0];
     const std::size_t n = rows_.count, m = input.model_parameters.size();
     std::vector<double> C(6 * n), S(6 * n), D(36 * n), dp(out.jacobian.empty() ? 0 : 6 * n * m);
-    for (std::size_t i = 0; i < n; ++i) C[i] = stretch[i] * stretch[i], C[n + i] = C[2 * n + i] = 1 / stretch[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      C[i] = stretch[i] * stretch[i];
+      C[n + i] = C[2 * n + i] = 1 / stretch[i];
+    }
     const Status status = input.model.evaluate({n, C, input.model_parameters, {}, {}}, {{}, S, D, dp, {}});
     if (!status.ok()) return Status::failed("wrong_strip: " + status.reason());
     for (std::size_t i = 0; i < n; ++i) {

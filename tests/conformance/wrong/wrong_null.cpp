@@ -25,7 +25,7 @@ class Misread final : public Test {
     std::vector<double> values(size);
     out.values = values;
     if (!output.jacobian.empty()) out.jacobian = output.jacobian.first(output.jacobian.size() - size);
-    if (Status status = base_->predict(bare, out); !status.ok()) return status;
+    if (Status status = base_->evaluator().predict(bare, out); !status.ok()) return status;
     constexpr double mmHg = 0.133322387415;
     const auto scaled = [&](double value) { return value / mmHg * (1 + gain) * mmHg; };
     for (std::size_t i = 0; i < output.values.size(); ++i) output.values[i] = scaled(values[i]);
@@ -50,8 +50,10 @@ TUNICA_PLUGIN("wrong_null", "0.1.0") {
   mechanism.stage = Stage::test;
   mechanism.applies_to = {"uniaxial"};
   mechanism.parameters = {{"gain", "1", 0, -0.5, 0.5, Scale::linear, "Measured over true stress, less one.", ""}};
-  mechanism.null = 0, mechanism.side = MechanismFactory::Side::both;
-  mechanism.plausible_min = -0.2, mechanism.plausible_max = 0.2;
+  mechanism.null = 0;
+  mechanism.side = MechanismFactory::Side::both;
+  mechanism.plausible_min = -0.2;
+  mechanism.plausible_max = 0.2;
   mechanism.isolated_by = "a known weight";
   mechanism.wrap_test = [own = mechanism.parameters.front()](std::unique_ptr<Test> base, const Options&) {
     return std::make_unique<Misread>(std::move(base), own);

@@ -34,7 +34,11 @@ class Walk final : public Optimizer {
       if (best.empty()) return {true, "nothing is free"};
       const bool better = !any || value < least;
       size = std::clamp(size * (better ? 1.5 : 0.9), 1e-9, 0.3);
-      if (better) any = true, least = value, best = next;
+      if (better) {
+        any = true;
+        least = value;
+        best = next;
+      }
     }
     return {false, "stopped"};
   }

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ceres/jet.h>
+
+#include "tunica/plugin.hpp"
+
+namespace tunica {
+
+/// A test of one material point whose deformation follows from the abscissa of its row: no equation has to be solved.
+///
+/// A Geometry is a type with the two formulas, written for any scalar type T:
+///
+///     static constexpr const char *type, *doc, *reference;               // as in TestFactory
+///     static std::vector<Option> options();
+///     static std::vector<Observable> observables();                      // one abscissa; channels in the order of k
+///     explicit Geometry(const TestSetup& setup);                         // throws InputError
+///     template <class T> std::array<T, 6> deformation(const T& x) const; // C at abscissa x, as MaterialPoints::C
+///     template <class T> T channel(std::size_t k, const T& x, const std::array<T, 6>& S) const;
+///     bool admits(double x) const;                                       // whether the test can reach x
+///     static constexpr const char* admitted;                             // "a height above 0"
+///
+/// and, if the test has diagnostics,
+///
+///     static constexpr std::array diagnostics{Quantity{"pole_stretch", "1"}};
+///     double diagnostic(std::size_t d, double x) const;
+///
+/// Mathematics: channel k is y = channel(k, x, S), linear in S; a free surface makes it so, because it fixes the
+/// pressure that S leaves open. Hence ∂y/∂p_j = channel(k, x, ∂S/∂p_j). The derivative by the abscissa follows by
+/// automatic differentiation, with dS/dx = ½ (2 ∂S/∂C) : dC/dx.
+///
+/// Models with history are refused. Threads and failure: as Test.
+template <class Geometry>
+class PointTest final : public Test {
+ public:
+  /// Copies the rows. Throws InputError if no column is mapped to the abscissa, or if a row is not admitted.
+  explicit PointTest(const TestSetup& setup) : geometry_(setup) {
+    std::vector<std::string> names;
+    for (const Observable& observable : Geometry::observables()) {
+      if (observable.role == Observable::Role::abscissa) abscissa_ = observable;
+      if (observable.role == Observable::Role::channel) names.push_back(observable.name);
+    }
+    if (setup.rows.abscissae.empty())
+      throw InputError(begin() + "no column is mapped to '" + abscissa_.name + "'; map one in \"columns\"");
+    const auto given = setup.rows.abscissae.front().values;
+    x_.assign(given.begin(), given.end());
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (!geometry_.admits(x_[i])) throw InputError(begin() + place(i, x_[i]) + "; expected " + Geometry::admitted);
+    for (const std::string& channel : setup.rows.channels)
+      for (std::size_t k = 0; k < names.size(); ++k)
+        if (names[k] == channel) channels_.push_back(k);
+    rows_.count = x_.size();
+    rows_.abscissae = {{abscissa_.name, x_}};
+    rows_.channels = setup.rows.channels;
+    if constexpr (requires { Geometry::diagnostics; }) {
+      for (const auto& [name, unit] : Geometry::diagnostics) {
+        description_.diagnostics.push_back(name);
+        description_.diagnostic_units.push_back(unit);
+      }
+    }
+  }
+
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    const ModelDescription& model = input.model.describe();
+    if (model.history_size > 0)
+      return Status::failed(
+          begin() +
+          "the model remembers its history, and this test simulates rows apart; choose a model without history");
+    if (!output.jacobian.empty() && !model.parameter_derivatives)
+      return Status::failed(begin() + "the model has no parameter derivatives; difference the whole prediction");
+    const std::span<const double> x = input.abscissae.empty() ? std::span<const double>(x_) : input.abscissae.front();
+    const std::size_t n = rows_.count, parameters = input.model_parameters.size(), size = channels_.size() * n;
+    std::vector<double> C(6 * n), S(6 * n), A(output.abscissa_derivative.empty() ? 0 : 36 * n),
+        S_dp(output.jacobian.empty() ? 0 : 6 * parameters * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::array<double, 6> at = geometry_.template deformation<double>(x[i]);
+      for (std::size_t c = 0; c < 6; ++c) C[c * n + i] = at[c];
+    }
+    set_diagnostics(x, output.diagnostics);
+    if (Status status = input.model.evaluate({n, C, input.model_parameters, {}, {}}, {{}, S, A, S_dp, {}});
+        !status.ok())
+      return status;
+
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < channels_.size(); ++k) {
+        const std::size_t at = k * n + i;
+        const double y = geometry_.template channel<double>(channels_[k], x[i], tensor(S, i));
+        if (!std::isfinite(y))
+          return Status::failed(begin() + place(i, x[i]) +
+                                ", where the energy overflows; narrow the bounds of the model's parameters");
+        if (!output.values.empty()) output.values[at] = y;
+        for (std::size_t j = 0; !output.jacobian.empty() && j < parameters; ++j) {
+          const std::span<const double> by_p = std::span<const double>(S_dp).subspan(6 * j * n, 6 * n);
+          output.jacobian[j * size + at] = geometry_.template channel<double>(channels_[k], x[i], tensor(by_p, i));
+        }
+        if (!A.empty()) output.abscissa_derivative[at] = by_abscissa(channels_[k], x[i], tensor(S, i), A, i);
+      }
+    }
+    return {};
+  }
+
+ private:
+  using Jet = ceres::Jet<double, 1>;
+
+  static std::string begin() { return std::string(Geometry::type) + ": "; }
+  std::string place(std::size_t row, double x) const {
+    return "row " + std::to_string(row + 1) + " has " + abscissa_.name + " " + std::to_string(x) + " " + abscissa_.unit;
+  }
+  std::array<double, 6> tensor(std::span<const double> batch, std::size_t i) const {
+    std::array<double, 6> t;
+    for (std::size_t c = 0; c < 6; ++c) t[c] = batch[c * rows_.count + i];
+    return t;
+  }
+  void set_diagnostics(std::span<const double> x, std::span<double> diagnostics) const {
+    if constexpr (requires { Geometry::diagnostics; })
+      for (std::size_t at = 0; at < diagnostics.size(); ++at)
+        diagnostics[at] = geometry_.diagnostic(at / rows_.count, x[at % rows_.count]);
+  }
+
+  /// dy/dx with dS_a/dx = ½ Σ_b A_ab dC_b/dx; off-diagonal entries of C count twice.
+  double by_abscissa(std::size_t channel, double x, const std::array<double, 6>& S, std::span<const double> A,
+                     std::size_t i) const {
+    const Jet moving(x, 0);
+    const std::array<Jet, 6> C = geometry_.template deformation<Jet>(moving);
+    std::array<Jet, 6> stress;
+    for (std::size_t a = 0; a < 6; ++a) {
+      stress[a] = Jet(S[a]);
+      for (std::size_t b = 0; b < 6; ++b)
+        stress[a].v[0] += (b < 3 ? 0.5 : 1.0) * A[(6 * a + b) * rows_.count + i] * C[b].v[0];
+    }
+    return geometry_.template channel<Jet>(channel, moving, stress).v[0];
+  }
+
+  Geometry geometry_;
+  Observable abscissa_;
+  std::vector<double> x_;
+  std::vector<std::size_t> channels_;  ///< of the geometry, in the order of the predictions
+  TestRows rows_;
+  TestDescription description_;
+};
+
+/// Name and unit of a diagnostic.
+struct Quantity {
+  const char *name,  ///< for example "pole_stretch"
+      *unit;         ///< base unit
+};
+
+/// What a plugin registers: registry.add(tunica::point_test_factory<Bulge>());
+template <class Geometry>
+TestFactory point_test_factory() {
+  return {Geometry::type,          Geometry::doc,
+          Geometry::reference,     Geometry::options(),
+          Geometry::observables(), [](const TestSetup& setup) { return std::make_unique<PointTest<Geometry>>(setup); }};
+}
+
+}  // namespace tunica

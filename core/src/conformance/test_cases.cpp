@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/test_cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "plugins/guarded.hpp"
+
+namespace tunica::conformance {
+namespace {
+
+using Role = Observable::Role;
+using Kind = Option::Kind;
+
+/// Moderate values of something prescribed: growing, so that rows are in loading order.
+std::vector<double> rising(const Observable& observable, std::size_t rows, double size) {
+  const double largest = observable.unit == "kPa"   ? 10
+                         : observable.unit == "mN"  ? 20
+                         : observable.unit == "deg" ? 20
+                         : observable.unit == "s"   ? 10
+                                                    : 0.2;
+  const double from = observable.kind == Observable::Kind::stretch ? 1 : 0;
+  std::vector<double> values(rows);
+  for (std::size_t i = 0; i < rows; ++i)
+    values[i] = from + size * largest * static_cast<double>(i + 1) / static_cast<double>(rows);
+  return values;
+}
+
+/// The setups of a search, the most likely first.
+class SetupSampler {
+ public:
+  SetupSampler(const TestFactory& factory, std::uint64_t seed) : factory_(factory), engine_(seed) {}
+
+  OwnedSetup next() {
+    const std::size_t attempt = attempt_++;
+    OwnedSetup guess;
+    guess.options = plausible_options(factory_.options);
+    const bool plain = attempt < 16;  // first with options as they are
+    for (const Option& option : factory_.options) {
+      if (plain) break;
+      const bool number = option.kind == Kind::number || option.kind == Kind::quantity;
+      // A default at the least value often stands for "not given".
+      if (number && (!option.fallback || std::get<double>(*option.fallback) == option.min.value_or(0)) && coin())
+        guess.options.set(option.name, std::clamp(1.1, option.min.value_or(0), option.max.value_or(2)));
+      if (option.kind == Kind::choice && !option.choices.empty() && coin())
+        guess.options.set(option.name, option.choices[engine_() % option.choices.size()]);
+    }
+    std::vector<const Observable*> channels;
+    std::size_t optional = 0;
+    // Smaller and smaller where larger ones do not suit: limits of materials are not known here.
+    const double size = attempt % 3 == 0 ? 1 : attempt % 3 == 1 ? 0.3 : 0.1;
+    constexpr std::size_t rows = 6;
+    for (const Observable& observable : factory_.observables) {
+      if (observable.role == Role::channel) {
+        channels.push_back(&observable);
+        continue;
+      }
+      const bool map = observable.required || (plain ? ((attempt >> optional) & 1) != 0 : coin());
+      if (!observable.required) ++optional;
+      if (!map) continue;
+      if (observable.role == Role::abscissa)
+        guess.abscissae.emplace_back(observable.name, rising(observable, rows, size));
+      else if (observable.required)
+        guess.time = rising(observable, rows, 1);
+    }
+    const bool all = attempt % 2 == 0;
+    for (std::size_t k = 0; k < channels.size(); ++k)
+      if (all || channels[k]->required || k == attempt / 2 % channels.size())
+        guess.channels.push_back(channels[k]->name);
+    return guess;
+  }
+
+ private:
+  bool coin() { return (engine_() & 1) != 0; }
+  const TestFactory& factory_;
+  std::mt19937_64 engine_;
+  std::size_t attempt_ = 0;
+};
+
+/// Why the test cannot be made or cannot predict; empty = it does.
+std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
+                    const Material& material, std::shared_ptr<Test>& made) {
+  try {
+    made = plugins::create(entry, guess.setup());
+    const std::vector<double> own = own_values(made->describe());
+    std::vector<double> values(made->rows().count * made->rows().channels.size());
+    const Status status = made->predict({*material.model, material.parameters, own}, {values, {}, {}, {}});
+    if (!status.ok()) return status.reason();
+    if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+      return "it predicts numbers that are not finite, under the status ok";
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TestSetup OwnedSetup::setup() const {
+  TestSetup made;
+  made.options = options;
+  made.stress_measure = stress_measure;
+  made.rows.count = count();
+  for (const auto& [name, values] : abscissae) made.rows.abscissae.push_back({name, values});
+  made.rows.channels = channels;
+  made.rows.time = time;
+  return made;
+}
+
+std::string OwnedSetup::words() const {
+  std::vector<std::string> prescribed;
+  for (const auto& [name, values] : abscissae)
+    prescribed.push_back(fmt::format("{} from {:.3g} to {:.3g}", name, values.front(), values.back()));
+  return fmt::format("{}, channels {}", fmt::join(prescribed, ", "), fmt::join(channels, ", "));
+}
+
+std::vector<double> own_values(const TestDescription& description) {
+  std::vector<double> own = initial_values(description.parameters);
+  for (std::size_t k = 0; k < std::min(own.size(), description.nulls.size()); ++k)
+    if (!std::isnan(description.nulls[k])) own[k] = description.nulls[k];
+  return own;
+}
+
+TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
+  constexpr int patience = 4000;
+  const Material material = materials().front();
+  SetupSampler guesses(entry.factory, seed);
+  std::string last = "it declares no channel";
+  for (int attempt = 0; attempt < patience; ++attempt) {
+    OwnedSetup guess = guesses.next();
+    if (guess.channels.empty()) continue;
+    std::shared_ptr<Test> test;
+    if (std::string reason = refused(entry, guess, material, test); !reason.empty()) {
+      last = std::move(reason);
+      continue;
+    }
+    // As many channels as go together.
+    for (const Observable& observable : entry.factory.observables) {
+      const auto& have = guess.channels;
+      if (observable.role != Role::channel || std::find(have.begin(), have.end(), observable.name) != have.end())
+        continue;
+      OwnedSetup more = guess;
+      more.channels.push_back(observable.name);
+      std::shared_ptr<Test> larger;
+      if (refused(entry, more, material, larger).empty()) {
+        guess = more;
+        test = larger;
+      }
+    }
+    std::vector<double> own = own_values(test->describe());
+    return {"", std::move(test), std::move(guess), std::move(own), material};
+  }
+  throw std::runtime_error(
+      fmt::format("no rows could be made up that suit it ({}); give --experiment with a test of it", last));
+}
+
+}  // namespace tunica::conformance

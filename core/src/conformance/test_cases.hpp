@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "conformance/partners.hpp"
+#include "conformance/test_properties.hpp"
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::conformance {
+
+/// What a test was made from, owned: rows made up from what the type declares, or those of an experiment.
+struct OwnedSetup {
+  Options options;
+  std::string stress_measure = "cauchy";
+  std::vector<std::pair<std::string, std::vector<double>>> abscissae;
+  std::vector<double> time;
+  std::vector<std::string> channels;
+
+  [[nodiscard]] std::size_t count() const { return abscissae.empty() ? 1 : abscissae.front().second.size(); }
+  /// A view; valid while this object lives and is not changed.
+  [[nodiscard]] TestSetup setup() const;
+  /// "stretch from 1.01 to 1.2, channels stress": what was made up, in words.
+  [[nodiscard]] std::string words() const;
+};
+
+/// A test on the test_case, at parameters of its own at which it is simulated.
+struct TestCase {
+  std::string name;  ///< of the test in the experiment; empty = made up
+  std::shared_ptr<Test> test;
+  std::optional<OwnedSetup> from;
+  std::vector<double> own;  ///< its parameters: nulls of imperfections, initial values of the others
+  Material material;
+  std::vector<std::shared_ptr<const Model>> layers = {};  ///< of a wall with several; their parameters in `material`
+};
+
+/// The test's own parameters where imperfections are absent.
+std::vector<double> own_values(const TestDescription& description);
+
+/// A test of the type with rows made up from its observables, such that the test is made and predicts. Seeded search
+/// among what a person might map and give: which observables, options at their defaults and near 1. Throws
+/// std::runtime_error with what the type answered last where none of that suits it.
+TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed);
+
+/// The tests of these types as they stand in an experiment, each with the model of the first run that has it.
+std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,
+                                     const plugins::Catalogue& catalogue);
+/// The models of an experiment, at the initial values of their parameters.
+std::vector<Material> models_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::conformance
