@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "calibration/assembly.hpp"
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+
+#include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"
+#include "plugins.hpp"
 #include "plugins/guarded.hpp"
-#include "plugins/loader.hpp"
 #include "tunica/random.hpp"
 
 /// The problem the benchmarks run on: examples/lamb_aorta, two strips of 40 points, sum_of_norms.
 namespace tunica::bench {
-
-inline const plugins::Catalogue& catalogue() {
-  static const plugins::Catalogue loaded = [] {
-    plugins::Catalogue catalogue;
-    static_cast<void>(plugins::load_all({{TUNICA_PLUGIN_DIR}, true}, catalogue));
-    return catalogue;
-  }();
-  return loaded;
-}
 
 inline const experiment::Experiment& lamb_aorta() {
   static const experiment::Experiment read =

@@ -9,18 +9,18 @@
 #include <cstdlib>
 
 #include "conformance/functions.hpp"
-#include "optimizers/g_suite.hpp"
-#include "optimizers/plugin_under_test.hpp"
+#include "conformance/g_suite.hpp"
+#include "plugins.hpp"
 
 namespace {
 
-using namespace tunica::testing;
+using namespace tunica::bench;
 using namespace tunica::conformance;
 
 struct Method {
   const char* name;
   std::string type;
-  Given given;
+  OptionValues given;
 };
 
 void without_constraints(int seeds, std::uint64_t budget) {

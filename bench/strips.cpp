@@ -12,8 +12,8 @@
 #include <chrono>
 #include <map>
 
-#include "calibration/calibration_problem.hpp"
 #include "lamb_aorta.hpp"
+#include "search/calibration_problem.hpp"
 
 namespace tunica::bench {
 namespace {
@@ -32,11 +32,12 @@ void ratios(benchmark::State& state, double floor_seconds) {
 /// spends its time.
 class Walk {
  public:
-  explicit Walk(const calibration::Assembly& assembly) : assembly_(assembly), x_(assembly.parameters().size()), p_(x_) {
+  explicit Walk(const assembly::Assembly& assembly)
+      : assembly_(assembly), x_(assembly.layout().parameters.size()), p_(x_) {
     const std::map<std::string, double> optimum = {{"mu", 22.386}, {"kappa", 0.20334}, {"A", 0.2},      {"B", 0.397},
                                                    {"k1", 15.097}, {"k2", 0.036},      {"theta", 57.17}};
-    for (std::size_t j = 0; j < p_.size(); ++j) p_[j] = optimum.at(assembly.parameters()[j].name);
-    assembly.to_unit(p_, x_);
+    for (std::size_t j = 0; j < p_.size(); ++j) p_[j] = optimum.at(assembly.layout().parameters[j].name);
+    assembly.box().to_unit(p_, x_);
     centre_ = x_;
   }
   std::span<const double> next() {
@@ -45,27 +46,27 @@ class Walk {
       x_[j] = std::clamp(centre_[j] + offset, 0.0, 1.0);
     }
     ++k_;
-    assembly_.from_unit(x_, p_);
+    assembly_.box().from_unit(x_, p_);
     return p_;
   }
 
  private:
-  const calibration::Assembly& assembly_;
+  const assembly::Assembly& assembly_;
   std::vector<double> x_, p_, centre_;
   std::uint64_t k_ = 0;
 };
 
 void objective(benchmark::State& state, const char* model, bool jacobian) {
-  const calibration::Assembly assembly(lamb_aorta(), run_of(model, "es"), catalogue());
-  const auto workspace = assembly.make_workspace();
-  const std::size_t n = assembly.parameters().size();
-  std::vector<double> residuals(jacobian ? assembly.residual_count() : 0),
-      J(jacobian ? n * assembly.residual_count() : 0), per_test(2);
+  const assembly::Assembly assembly(lamb_aorta(), run_of(model, "es"), catalogue());
+  const auto workspace = assembly.evaluator().make_workspace();
+  const std::size_t n = assembly.layout().parameters.size();
+  std::vector<double> residuals(jacobian ? assembly.layout().residual_count : 0),
+      J(jacobian ? n * assembly.layout().residual_count : 0), per_test(2);
   Walk walk(assembly);
   double value = 0;
   std::uint64_t failed = 0;
   for (auto _ : state) {
-    failed += !assembly.evaluate(walk.next(), value, per_test, residuals, J, *workspace).ok();
+    failed += !assembly.evaluator().evaluate(walk.next(), value, per_test, residuals, J, *workspace).ok();
     benchmark::DoNotOptimize(value);
   }
   state.counters["failed"] = static_cast<double>(failed);
@@ -78,33 +79,33 @@ BENCHMARK_CAPTURE(objective, holzapfel_2015, "holzapfel_2015", false)->Unit(benc
 BENCHMARK_CAPTURE(objective, holzapfel_2015_with_jacobian, "holzapfel_2015", true)->Unit(benchmark::kMicrosecond);
 
 /// A whole calibration by `es` of `evaluations`, wall time in seconds.
-double calibrate(const calibration::Assembly& assembly, std::uint64_t seed, std::uint64_t evaluations) {
-  calibration::CalibrationProblem::Settings settings;
+double calibrate(const assembly::Assembly& assembly, std::uint64_t seed, std::uint64_t evaluations) {
+  search::CalibrationProblem::Settings settings;
   settings.stop.max_evaluations = evaluations;
   settings.seed = seed;
-  calibration::CalibrationProblem problem(assembly, std::move(settings));
+  search::CalibrationProblem problem(assembly, std::move(settings));
   const auto begin = std::chrono::steady_clock::now();
   static_cast<void>(make_optimizer("es")->minimise(problem));
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 /// The objective alone at the very points that `es` evaluates, one after the other.
-double replay(const calibration::Assembly& assembly, std::uint64_t seed, std::uint64_t evaluations) {
+double replay(const assembly::Assembly& assembly, std::uint64_t seed, std::uint64_t evaluations) {
   std::vector<double> points, per_test(2);
-  calibration::CalibrationProblem::Settings settings;
+  search::CalibrationProblem::Settings settings;
   settings.stop.max_evaluations = evaluations;
   settings.seed = seed;
-  settings.record = [&](const calibration::Record& record) {
+  settings.record = [&](const search::Record& record) {
     points.insert(points.end(), record.parameters.begin(), record.parameters.end());
   };
-  calibration::CalibrationProblem problem(assembly, std::move(settings));
+  search::CalibrationProblem problem(assembly, std::move(settings));
   static_cast<void>(make_optimizer("es")->minimise(problem));
-  const std::size_t n = assembly.parameters().size();
-  const auto workspace = assembly.make_workspace();
+  const std::size_t n = assembly.layout().parameters.size();
+  const auto workspace = assembly.evaluator().make_workspace();
   double value = 0;
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k + n <= points.size(); k += n) {
-    static_cast<void>(assembly.evaluate({points.data() + k, n}, value, per_test, {}, {}, *workspace));
+    static_cast<void>(assembly.evaluator().evaluate({points.data() + k, n}, value, per_test, {}, {}, *workspace));
     benchmark::DoNotOptimize(value);
   }
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -113,7 +114,7 @@ double replay(const calibration::Assembly& assembly, std::uint64_t seed, std::ui
 /// Throughput of `es` on one core; what strategy and host add to the objective; the gain of a second core.
 void evolution_strategy(benchmark::State& state) {
   constexpr std::uint64_t evaluations = 30000;
-  const calibration::Assembly assembly(lamb_aorta(), run_of("gho", "es"), catalogue());
+  const assembly::Assembly assembly(lamb_aorta(), run_of("gho", "es"), catalogue());
   std::vector<double> one, two, alone;
   std::uint64_t seed = 0;
   for (auto _ : state) {

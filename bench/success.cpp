@@ -8,8 +8,8 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cstdlib>
 
-#include "calibration/calibration_problem.hpp"
 #include "lamb_aorta.hpp"
+#include "search/calibration_problem.hpp"
 
 int main(int count, char** arguments) {
   using namespace tunica;
@@ -18,20 +18,20 @@ int main(int count, char** arguments) {
   fmt::print("{:<16}{:<6}{:>9}{:>12}{:>12}{:>12}{:>14}\n", "model", "by", "budget", "success", "median", "largest",
              "worst best");
   for (const experiment::RunEntry& run : bench::lamb_aorta().runs) {
-    const calibration::Assembly assembly(bench::lamb_aorta(), run, bench::catalogue());
+    const assembly::Assembly assembly(bench::lamb_aorta(), run, bench::catalogue());
     std::vector<std::uint64_t> needed;
     double worst = 0;
     for (int seed = 1; seed <= seeds; ++seed) {
       experiment::Stop stop = run.stop;
       stop.target = target;
-      calibration::CalibrationProblem::Settings settings;
+      search::CalibrationProblem::Settings settings;
       settings.stop = stop;
       // A random start a seed: the first start of `lm` would be the same one for all otherwise.
       boost::random::mt19937_64 generator(static_cast<std::uint64_t>(seed));
       boost::random::uniform_real_distribution<double> unit(0, 1);
-      for (std::size_t j = 0; j < assembly.parameters().size(); ++j) settings.start.push_back(unit(generator));
+      for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) settings.start.push_back(unit(generator));
       settings.seed = derive_seed(static_cast<std::uint64_t>(seed), "success");
-      calibration::CalibrationProblem problem(assembly, std::move(settings));
+      search::CalibrationProblem problem(assembly, std::move(settings));
       static_cast<void>(bench::make_optimizer(run.optimizer)->minimise(problem));
       if (problem.best().objective <= target) needed.push_back(problem.evaluations());
       worst = std::max(worst, problem.best().objective);

@@ -7,6 +7,7 @@ if(TUNICA_BUILD_TESTS)
   add_test(NAME Style.EverySourceHasItsLicenceLine COMMAND ${style} licence)
   add_test(NAME Style.FilesOver400LinesHaveAReason COMMAND ${style} lines)
   add_test(NAME Style.PublicHeadersExplainThemselves COMMAND ${style} comments)
+  add_test(NAME Style.NoCodeDecidesBySearchingASentence COMMAND ${style} prose)
 endif()
 
 # Versions of clang-format disagree about the same style, so only the one of Debian 12 decides.

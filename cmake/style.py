@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks of the sources that need no compiler: style.py ROOT lines|licence|comments|format CLANG_FORMAT."""
+"""Checks of the sources that need no compiler: style.py ROOT lines|licence|comments|prose|format CLANG_FORMAT."""
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -80,9 +81,57 @@ def check_format(root, clang_format):
     return [f"{pathlib.Path(path).relative_to(root)}: not formatted; run: {clang_format} -i {path}" for path in wrong]
 
 
+# A call that searches a text, or a comparison, and the literals of its arguments.
+SEARCH = re.compile(r"(?:(?:\.|->)(?:find|rfind|contains|starts_with|ends_with|compare|includes|indexOf|startsWith|"
+                    r"endsWith|match|search|test)\s*\(|\b(?:strstr|strn?cmp|regex_search|regex_match|RegExp)\s*\(|"
+                    r"\bregex\s+\w+\s*[({])")
+COMPARED = re.compile(r'[=!]=\s*"((?:\\.|[^"\\\n])*)"|"((?:\\.|[^"\\\n])*)"\s*[=!]=')
+PIECE = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<raw>R"(?P<end>\w*)\(.*?\)(?P=end)")|"(?P<text>(?:\\.|[^"\\\n])*)"|'
+                   r"'(?P<single>(?:\\.|[^'\\\n])*)'", re.S)
+PLANTED = ['std::regex bound("AT ITS BOUND");', 'if (warning.find("AT ITS BOUND") != npos)', 'warning.starts_with(run + ": not an optimum")',
+           'if (reason == "nothing succeeded")', "text.includes('two words')", 'group.find(" on ")']
+HARMLESS = ['node.find("stop")', 'namespace tunica::search { "two words" }', 'text.find(\' \')', 'throw Error("two words")', '// line.find("two words")',
+            'known.find(name) == known.end() ? "two words" : ""', 'name.find(" [")', 'std::find(a, b, "x")']
+
+
+def is_prose(literal):
+    """A word and a space: a code has no spaces, punctuation no words."""
+    return " " in literal and re.search(r"[^\W\d_]{2,}", literal) is not None
+
+
+def searched_sentences(code):
+    """(line, literal) where code decides by words that a person reads."""
+    blank = lambda found: re.sub(r"[^\n]", " ", found[0])
+    code = PIECE.sub(lambda found: blank(found) if found["comment"] else found[0], code)
+    scripts = PIECE.sub(lambda found: blank(found) if found["raw"] else found[0], code)
+    found = [(one.start(), one[1] or one[2] or "") for one in COMPARED.finditer(scripts)]
+    for call in SEARCH.finditer(code):
+        depth, at = 1, call.end()
+        while depth > 0 and at < len(code):
+            piece = PIECE.match(code, at)
+            if piece:
+                found.append((at, piece["text"] or piece["single"] or piece["raw"] or ""))
+                at = piece.end()
+                continue
+            depth += (code[at] in "({[") - (code[at] in ")}]")
+            at += 1
+    return [(code[:at].count("\n") + 1, literal) for at, literal in found if is_prose(literal)]
+
+
+def check_prose(root):
+    problems = [f"cmake/style.py: does not find the planted search {one}" for one in PLANTED if not searched_sentences(one)]
+    problems += [f"cmake/style.py: takes {one} for a search" for one in HARMLESS if searched_sentences(one)]
+    for path in sources(root):
+        place = path.relative_to(root)
+        if path.suffix in CODE | {".js"} and place.parts[0] in ("core", "apps", "plugins"):
+            problems += [f'{place}:{line}: searches a text for "{literal}"; sentences may change, so decide by an '
+                         "enumeration or a code" for line, literal in searched_sentences(path.read_text())]
+    return problems
+
+
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    checks = {"lines": check_lines, "licence": check_licence, "comments": check_comments}
+    checks = {"lines": check_lines, "licence": check_licence, "comments": check_comments, "prose": check_prose}
     check = sys.argv[2]
     problems = check_format(root, sys.argv[3]) if check == "format" else checks[check](root)
     for problem in problems:

@@ -6,8 +6,9 @@ import re
 
 GAP = "⟨…⟩"
 NAMES = "⟨the nearest name, then all there are⟩"
-SINKS = {"InputError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument", "runtime_error",
-         "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse"}
+SINKS = {"InputError", "Refused", "PluginRefused", "LoadError", "PluginFailure", "HostFault", "invalid_argument",
+         "runtime_error", "failed", "infeasible", "push_back", "say_error", "say_warning", "fail", "refuse", "warn",
+         "Warning"}
 TOKEN = re.compile(r'R"\((?P<raw>.*?)\)"|"(?P<text>(?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])+\'|//[^\n]*|/\*.*?\*/|'
                    r"\d[\w']*|\w+|::|->|\S", re.S)
 ESCAPES = {"n": " ", "t": " ", '"': '"', "\\": "\\", "'": "'"}
@@ -152,7 +153,9 @@ def messages(source, returns=False):
             continue
         if returns and word == "return" and any(map(is_text, words[at:words.index(";", at)])):
             yield from said(words[at + 1:words.index(";", at)], known)
-        if word not in SINKS or words[at + 1] != "(" or is_text(words[at + 1]):
+        if word not in SINKS or words[at + 1] != ("{" if word == "Warning" else "(") or is_text(words[at + 1]):
+            continue
+        if word == "warn" and words[at - 1] in (".", "->"):  # of a log
             continue
         if word == "push_back" and words[at - 2] != "warnings" or any(at in one[3] for one in wrapped.values()):
             continue
@@ -166,7 +169,13 @@ def messages(source, returns=False):
 
 
 def said_by(sink, arguments, known):
-    """fail() takes perhaps a place, then what is wrong, then perhaps the help; the others take one text."""
+    """fail() takes perhaps a place, then what is wrong, then perhaps the help; a Warning its kind before the text; the
+    others take one text."""
+    if sink == "push_back" and arguments and arguments[0][:1] == ["{"]:
+        arguments = split(inside(arguments[0], 0)[0], ",")
+        return said(arguments[1], known) if len(arguments) > 1 else []
+    if sink in ("warn", "Warning"):
+        return said(arguments[1], known) if len(arguments) > 1 else []
     if sink != "fail":
         return said(arguments[0], known) if arguments else []
     while len(arguments) > 1 and said(arguments[0], known) == [GAP]:

@@ -6,6 +6,7 @@ which is then compared with COMMITTED.
 Most messages say what is wrong and what to do. Cures of the others stand in error_cures.txt, by the beginning of the
 message. Ends with 1 where a message has no cure, or a cure no message."""
 import difflib
+import json
 import pathlib
 import re
 import sys
@@ -27,14 +28,14 @@ SUBJECTS = [
     ("Units", "", ["core/src/data/units"]),
     ("Data files", "Each message names the file, and the line and column where there is one.", ["core/src/data/"]),
     ("Setting up a calibration", "Found when models, tests and data are put together, before anything is evaluated.",
-     ["core/src/calibration/assembly", "core/src/calibration/binding", "core/src/calibration/composition",
-      "core/src/calibration/constraints", "core/src/calibration/noise", "core/src/calibration/objective",
-      "core/src/calibration/calibration_problem", "core/src/execution/plan", "core/src/comparison/uncertainty",
-      "core/src/comparison/stability_map"]),
+     ["core/src/assembly/assembly", "core/src/assembly/binding", "core/src/assembly/builder",
+      "core/src/assembly/composition", "core/src/assembly/constraint", "core/src/assembly/noise",
+      "core/src/assembly/objective", "core/src/search/calibration_problem", "core/src/execution/plan",
+      "core/src/comparison/uncertainty", "core/src/comparison/stability_map"]),
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
-     ["core/src/calibration/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),
+     ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
     ("Diagnosis", "", ["core/src/diagnosis/"]),
@@ -51,7 +52,7 @@ SUBJECTS = [
 ]
 NOT_MESSAGES = ["core/src/conformance/function", "core/src/conformance/constrained", "core/src/conformance/test_calls"]
 # Where functions return messages that others print.
-RETURNS = ("core/src/plugins/", "core/src/execution/files", "core/src/comparison/hold_out", "apps/tunica/session")
+RETURNS = ("core/src/plugins/", "core/src/execution/files", "apps/tunica/session")
 
 # A clause that begins so tells what to do or what is expected.
 DO = ("Add Allow Check Choose Close Correct Define Enlarge Expected Finish Fit Fix Free Give Hold Impose "
@@ -91,6 +92,33 @@ before the message.
 What the parser of the command line says of options and values comes from CLI11 and is not listed. This page is
 written by `docs/errors.py` from the sources; do not edit it by hand.
 """
+
+
+# Definitions of schemas/tunica-result.schema.json that list codes, and what stands where in result.json.
+CODES = [
+    ("stop_reason", "`runs[].stop_reason`", "What ended a search; null where the optimiser came back by itself."),
+    ("warning_kind", "`warning_details[].kind`", "What a warning is about."),
+    ("certificate_verdict", "`runs[].best.certificate.verdict_code`", "What speaks for or against an optimum."),
+    ("hold_out_verdict", "`runs[].best.hold_out[].verdict`", "How held-out rows are predicted."),
+    ("diagnosis_verdict", "`diagnosis.verdict`", "What a diagnosis says."),
+    ("diagnosis_reason", "`diagnosis.reason_codes[]`", "Why the verdict is what it is."),
+    ("diagnosis_warning_kind", "`warning_details[].kind` of a diagnosis", "What a warning is about."),
+    ("block_verdict", "`diagnosis.gain.held_out[].verdict`", "How the extension predicts rows that it has not seen."),
+    ("remainder", "`diagnosis.remainder`", "What the causes leave."),
+]
+
+
+def codes():
+    """The codes of result.json, from its schema."""
+    definitions = json.loads((ROOT / "schemas/tunica-result.schema.json").read_text(encoding="utf-8"))["definitions"]
+    lines = ["\n## Codes in result.json", "Sentences may change; these codes do not. Scripts should decide by them."]
+    for name, place, meaning in CODES:
+        if name not in definitions:
+            continue
+        lines += [f"\n### {place}", meaning, "", "| code | meaning |", "|---|---|"]
+        lines += [f"| `{one['const']}` | {cell(one['description'])} |"
+                  for one in definitions[name]["oneOf"] if one["const"] is not None]
+    return lines
 
 
 def subject_of(path):
@@ -162,7 +190,7 @@ def page(rows):
             lines += ["| message | what to do | from |", "|---|---|---|"]
             lines += [f"| {cell(wrong)} | {cure_cell(told)} | `{name}` |"
                       for (wrong, name), told in messages_here.items()]
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines + codes()) + "\n"
 
 
 rows, missing = collect()

@@ -21,16 +21,25 @@ namespace tunica::app {
 
 namespace {
 
-int certify(const GlobalOptions& global, const std::filesystem::path& folder, unsigned threads) {
-  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
-  for (const char* file : {"input.json", "result.json"})
-    if (!std::filesystem::exists(folder / file))
-      throw InputError(fmt::format("{}: there is no {}; name the folder of a finished run", folder.string(), file));
+struct CertifyOptions {
+  std::string folder, best_points;
+  unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
+};
+
+int certify(const GlobalOptions& global, const CertifyOptions& options) {
+  const std::filesystem::path folder = options.folder;
+  const std::filesystem::path points =
+      options.best_points.empty() ? folder / "result.json" : std::filesystem::path(options.best_points);
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  for (const auto& file : {folder / "input.json", points})
+    if (!std::filesystem::exists(file))
+      throw InputError(fmt::format("{}: there is no {}; name the folder of a finished run", folder.string(),
+                                   file.filename().string()));
   const Session session(global);
   const auto experiment = session.read(folder / "input.json");
   const auto plan = execution::make_plan(experiment, session.catalogue());
   std::vector<std::string> contradictions;
-  fmt::print("{}", comparison::certify(plan, execution::read_text(folder / "result.json"), &contradictions));
+  fmt::print("{}", comparison::certify(plan, execution::read_text(points), &contradictions));
   for (const auto& contradiction : contradictions) say_error(contradiction);
   return contradictions.empty() ? done : not_converged;
 }
@@ -38,13 +47,15 @@ int certify(const GlobalOptions& global, const std::filesystem::path& folder, un
 }  // namespace
 
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
-  auto folder = std::make_shared<std::string>();
-  auto threads = std::make_shared<unsigned>(static_cast<unsigned>(tbb::info::default_concurrency()));
+  auto options = std::make_shared<CertifyOptions>();
   auto* verb = app.add_subcommand("certify", "Evaluate the best points of a finished run and their neighbours again");
-  verb->add_option("folder", *folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
-  verb->add_option("-j,--threads", *threads, "Threads for the neighbours; all of the machine without it")
+  verb->add_option("folder", options->folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
+  verb->add_option("-j,--threads", options->threads, "Threads for the neighbours; all of the machine without it")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+  verb->add_option("--best-points", options->best_points, "Before there is a result.json: the points to evaluate")
+      ->type_name("FILE")
+      ->group("");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
@@ -53,9 +64,7 @@ void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
       "Examples:\n"
       "  tunica certify results/a\n"
       "  tunica certify results/a | jq '.runs[].difference'");
-  verb->callback([&global, &action, folder, threads] {
-    action = [&global, folder, threads] { return certify(global, *folder, *threads); };
-  });
+  verb->callback([&global, &action, options] { action = [&global, options] { return certify(global, *options); }; });
 }
 
 }  // namespace tunica::app

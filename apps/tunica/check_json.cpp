@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "check.hpp"
+#include "comparison/result_json.hpp"
 
 namespace tunica::app {
 
@@ -22,7 +24,7 @@ json status_json(const Status& status) {
   return "failed: " + status.reason();
 }
 
-json channel_json(const calibration::ChannelView& channel) {
+json channel_json(const assembly::MeasuredChannel& channel) {
   json one = {{"test", channel.test},
               {"observable", channel.observable},
               {"unit", channel.unit},
@@ -40,9 +42,9 @@ json channel_json(const calibration::ChannelView& channel) {
   return one;
 }
 
-json parameters_json(const calibration::Assembly& assembly) {
+json parameters_json(const assembly::Assembly& assembly) {
   json all = json::object();
-  for (const auto& parameter : assembly.parameters()) {
+  for (const auto& parameter : assembly.layout().parameters) {
     auto& one = all[parameter.name] = {{"unit", parameter.unit},
                                        {"initial", parameter.initial},
                                        {"min", parameter.min},
@@ -50,12 +52,12 @@ json parameters_json(const calibration::Assembly& assembly) {
                                        {"scale", parameter.scale == Scale::log ? "log" : "linear"}};
     if (parameter.prior) one["prior"] = {{"mean", parameter.prior->mean}, {"sd", parameter.prior->sd}};
   }
-  for (const auto& parameter : assembly.fixed_parameters())
+  for (const auto& parameter : assembly.layout().fixed_parameters)
     all[parameter.name] = {{"unit", parameter.unit}, {"fixed", parameter.value}};
   return all;
 }
 
-json initial_json(const CheckedProblem& problem) {
+json initial_json(const calibration::PosedProblem& problem) {
   const auto& initial = problem.initial;
   json one = {{"status", status_json(initial.status)}};
   if (initial.status.kind() == Status::Kind::failed) return one;
@@ -80,9 +82,15 @@ json initial_json(const CheckedProblem& problem) {
 
 }  // namespace
 
-json check_json(const Checked& checked) {
-  json document = {{"name", checked.experiment.name}, {"in_order", checked.good()}, {"seed", checked.experiment.seed},
-                   {"warnings", checked.warnings},    {"runs", json::array()},      {"problems", json::array()}};
+json check_json(const calibration::Examination& checked) {
+  json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
+                   {"seed", checked.experiment.seed},  {"warnings", json::array()},
+                   {"warning_details", json::array()}, {"runs", json::array()},
+                   {"problems", json::array()}};
+  for (const auto& warning : checked.warnings) {
+    document["warnings"].push_back(warning.text());
+    document["warning_details"].push_back(comparison::warning_json(warning));
+  }
   for (const auto& run : checked.plan.runs)
     document["runs"].push_back({{"label", run.label},
                                 {"realisations", run.entry->realisations},
@@ -92,10 +100,10 @@ json check_json(const Checked& checked) {
     json one = {{"title", problem.title},
                 {"model", checked.experiment.model_name(*problem.run->entry)},
                 {"tests", problem.run->entry->tests},
-                {"constraints", assembly.constraint_count()},
-                {"exact_derivatives", assembly.jacobian_is_exact()},
+                {"constraints", assembly.constraints().count()},
+                {"exact_derivatives", assembly.layout().jacobian_is_exact},
                 {"channels", json::array()}};
-    for (const auto& channel : assembly.channels()) one["channels"].push_back(channel_json(channel));
+    for (const auto& channel : assembly.layout().channels) one["channels"].push_back(channel_json(channel));
     one["parameters"] = parameters_json(assembly);
     one["initial"] = initial_json(problem);
     document["problems"].push_back(std::move(one));

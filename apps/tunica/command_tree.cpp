@@ -42,7 +42,8 @@ Argument argument_of(const CLI::Option& option) {
 
 Verb command_tree(const CLI::App& app) {
   Verb verb{app.get_name(), app.get_description(), app.get_footer(), {}, {}};
-  for (const auto* option : app.get_options()) verb.arguments.push_back(argument_of(*option));
+  for (const auto* option : app.get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))
+    verb.arguments.push_back(argument_of(*option));
   for (const auto* child : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
     verb.verbs.push_back(command_tree(*child));
   return verb;

@@ -7,19 +7,19 @@
 #include <type_traits>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "exit_codes.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
 namespace {
 
-using comparison::hanging;
+using text::hanging;
 
 std::string text_of(const Option::Value& value) {
   return std::visit(

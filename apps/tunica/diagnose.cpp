@@ -13,18 +13,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <typeinfo>
 #include <vector>
 
-#include "comparison/text.hpp"
+#include "text/wrapping.hpp"
 #include "data/nearest.hpp"
-#include "diagnosis/outputs.hpp"
+#include "diagnosis/evidence/base_fit.hpp"
+#include "diagnosis/output/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
@@ -46,21 +45,22 @@ struct DiagnoseOptions {
   bool quick = false, batch = false;
 };
 
-diagnosis::Settings settings_of(const experiment::Experiment& experiment, const Session& session,
-                                const DiagnoseOptions& options) {
-  diagnosis::Settings settings = diagnosis::settings_of(experiment);
-  if (options.seed) settings.seed = *options.seed;
-  if (options.alpha) settings.alpha = *options.alpha;
-  settings.quick = options.quick;
+/// The file's request, with what the command line says instead.
+diagnosis::Request request_of(const experiment::Experiment& experiment, const Session& session,
+                              const DiagnoseOptions& options) {
+  diagnosis::Request request = diagnosis::request_of(experiment);
+  if (options.seed) request.seed = *options.seed;
+  if (options.alpha) request.alpha = *options.alpha;
+  request.quick = options.quick;
   std::vector<std::string> known;
   for (const auto& [id, entry] : session.catalogue().mechanisms()) known.push_back(id);
   for (const std::string& id : options.mechanisms) {
     if (!session.catalogue().mechanisms().contains(id))
       throw InputError(fmt::format("--mechanisms: no loaded plugin provides the mechanism '{}'. {}", id,
                                    data::suggestion(id, known)));
-    settings.mechanisms = options.mechanisms;
+    request.mechanisms = options.mechanisms;
   }
-  return settings;
+  return request;
 }
 
 /// Everything that a diagnosis leaves behind, the verdict last.
@@ -73,20 +73,20 @@ void write_outputs(const std::filesystem::path& directory, const diagnosis::Diag
   execution::write_atomically(directory / "result.json", diagnosis::result_document(found, experiment, catalogue));
 }
 
-/// What Ctrl-C is answered with.
-std::string farewell() {
+/// The answer to Ctrl-C.
+std::string interruption_message() {
   return fmt::format(
-      "{}interrupted; a diagnosis that is not finished leaves nothing behind. Begin it again with the "
-      "same command, or with --quick for a first answer\n",
-      execution::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
+      "{}interrupted; an unfinished diagnosis leaves nothing behind. Start it again with the same command, or with "
+      "--quick for a first answer\n",
+      text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
 }
 
 int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
   const auto experiment = session.read(options.file);
-  auto settings = settings_of(experiment, session, options);
-  // What is made here for the results goes again when there are none: after an error, or Ctrl-C.
+  const auto request = request_of(experiment, session, options);
+  // Folders that are made here are removed when there are no results: after an error, or Ctrl-C.
   const std::filesystem::path requested = options.directory;
   const bool was_there = !requested.empty() && std::filesystem::exists(requested);
   const bool results_were_there = std::filesystem::exists("results");
@@ -97,38 +97,37 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
   diagnosis::Diagnosis found;
   try {
-    UnfinishedFolder folder(made, farewell());
+    UnfinishedFolder folder(made, interruption_message());
     Stages stages(global.quiet);
-    settings.progress = [&stages](const std::string& what, double share) { stages.tell(what, share); };
-    found = diagnosis::diagnose(experiment, settings, session.catalogue());
+    found = diagnosis::diagnose(experiment, request, session.catalogue(),
+                                [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
-  } catch (const std::runtime_error& problem) {
-    // The base model cannot be fitted; kinds of their own are for others to tell.
-    if (typeid(problem) != typeid(std::runtime_error)) throw;
-    say_error(fmt::format("{}. `tunica check {}` evaluates the initial point and shows what fails", problem.what(),
-                          options.file));
+  } catch (const diagnosis::BaseFitFailure& problem) {
+    say_error(fmt::format("{}. Run `tunica check {}`, which evaluates the initial point and shows what fails",
+                          problem.what(), options.file));
     return not_converged;
   }
-  found.settings.progress = {};
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_outputs(directory.path(), found, experiment, session.catalogue());
-  for (const std::string& warning : found.warnings) fmt::print("{}\n", comparison::hanging("warning: ", warning));
-  if (!found.warnings.empty()) fmt::print("\n");
+  const std::vector<diagnosis::Warning> warnings = found.warnings();
+  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
+  if (!warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", highlighted(diagnosis::summary(found)), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
              (directory.path() / "result.json").string());
-  if (found.extension) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
+  if (found.explanation.claim.best)
+    fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
 }
 
-/// Every folder with an experiment.json and without a result.json below it gets a diagnosis, several at a time; one
-/// that cannot be made is told of and leaves the others alone.
+/// Every folder with an experiment.json and without a result.json below it gets a diagnosis, several at a time. One
+/// that fails is reported and leaves the others alone.
 int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
   const std::filesystem::path root = options.file;
   if (!std::filesystem::is_directory(root))
-    throw InputError(fmt::format("--batch {}: no such folder; name one that holds folders with an experiment.json each",
+    throw InputError(fmt::format("--batch {}: no such folder. Name one that holds folders with an experiment.json each",
                                  root.string()));
   const std::filesystem::path into = options.directory.empty() ? root : std::filesystem::path(options.directory);
   std::vector<std::filesystem::path> cases;
@@ -144,7 +143,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
       try {
         const auto experiment = session.read(cases[k] / "experiment.json");
         const auto found =
-            diagnosis::diagnose(experiment, settings_of(experiment, session, options), session.catalogue());
+            diagnosis::diagnose(experiment, request_of(experiment, session, options), session.catalogue());
         const std::filesystem::path directory = into / cases[k].filename();
         std::filesystem::create_directories(directory);
         write_outputs(directory, found, experiment, session.catalogue());

@@ -7,11 +7,11 @@
 #include <tuple>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -48,7 +48,7 @@ void print_shelf(const std::string& title, const Shelf& shelf, const ListOptions
     if (options.names)
       fmt::print("{}\n", name);
     else
-      fmt::print("{}\n", comparison::hanging(fmt::format("  {:<{}}  ", name, width),
+      fmt::print("{}\n", text::hanging(fmt::format("  {:<{}}  ", name, width),
                                              fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
 }
 

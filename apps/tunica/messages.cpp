@@ -10,18 +10,18 @@
 #include <sstream>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "data/nearest.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
 namespace {
 
-constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *bold = "\033[1m", *plain = "\033[0m";
+constexpr const char *red = "\033[1;31m", *yellow = "\033[33m", *plain = "\033[0m";
 
 void say(const char* word, const char* colour, const std::string& text) {
-  const bool colours = execution::Terminal::of(STDERR_FILENO).colours;
+  const bool colours = text::Terminal::of(STDERR_FILENO).colours;
   const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
   // What stands in files is quoted, and must not reach the terminal as commands to it.
   std::string quoted = text;
@@ -43,7 +43,7 @@ const CLI::App* innermost(const CLI::App& program, std::string& words) {
 
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const auto* option : app.get_options())
+  for (const auto* option : app.get_options([](const CLI::Option* one) { return !one->get_group().empty(); }))
     for (const auto& name : option->get_lnames()) names.push_back("--" + name);
   return names;
 }
@@ -52,14 +52,14 @@ std::vector<std::string> option_names(const CLI::App& app) {
 class Wrapped final : public CLI::Formatter {
  public:
   std::string make_description(const CLI::App* app) const override {
-    return comparison::hanging("", app->get_description()) + '\n';
+    return text::hanging("", app->get_description()) + '\n';
   }
   std::string make_option_desc(const CLI::Option* option) const override { return wrapped(option->get_description()); }
   /// Examples are indented and stay as they are; of the other lines those that belong together are filled.
   std::string make_footer(const CLI::App* app) const override {
     std::string result, paragraph;
     const auto end_paragraph = [&] {
-      if (!paragraph.empty()) result += comparison::hanging("", paragraph) + '\n';
+      if (!paragraph.empty()) result += text::hanging("", paragraph) + '\n';
       paragraph.clear();
     };
     std::istringstream stream(app->get_footer());
@@ -82,7 +82,7 @@ class Wrapped final : public CLI::Formatter {
 
  private:
   [[nodiscard]] std::string wrapped(const std::string& text) const {
-    return comparison::hanging("", text, 80 - column_width_);
+    return text::hanging("", text, 80 - column_width_);
   }
 };
 
@@ -102,24 +102,7 @@ void say_warning(const std::string& text) { say("warning", yellow, text); }
 
 void say_wrapped_warning(const std::string& text) {
   const std::string lead(std::string_view("warning: ").size(), ' ');
-  say_warning(comparison::hanging(lead, text).substr(lead.size()));
-}
-
-std::string highlighted(const std::string& text) {
-  if (!execution::Terminal::of(STDOUT_FILENO).colours) return text;
-  std::string result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t bound = line.find("<- AT ITS ");
-    if (line == "WARNINGS" || line.starts_with("Verdict: "))
-      line = bold + line + plain;
-    else if (line.starts_with("  ! "))
-      line = fmt::format("  {}!{} {}", yellow, plain, line.substr(4));
-    else if (bound != std::string::npos)
-      line = line.substr(0, bound) + yellow + line.substr(bound) + plain;
-    result += line + '\n';
-  }
-  return result;
+  say_warning(text::hanging(lead, text).substr(lead.size()));
 }
 
 std::shared_ptr<CLI::FormatterBase> help_format() { return std::make_shared<Wrapped>(); }
@@ -149,7 +132,7 @@ std::string command_line_error(const CLI::App& program, const CLI::Error& proble
     text += '.';
   }
   const std::string lead(std::string_view("error: ").size(), ' ');
-  return comparison::hanging(lead, fmt::format("{} `{} --help` shows what it takes, with examples.", text, words))
+  return text::hanging(lead, fmt::format("{} `{} --help` shows what it takes, with examples.", text, words))
       .substr(lead.size());
 }
 

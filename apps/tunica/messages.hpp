@@ -18,9 +18,6 @@ void say_warning(const std::string& text);
 /// The same, in lines of 80 columns.
 void say_wrapped_warning(const std::string& text);
 
-/// A text for stdout: where that is a terminal, its headings and marks stand out.
-std::string highlighted(const std::string& text);
-
 /// What the parser found amiss, with the option that was probably meant and where to read on.
 std::string command_line_error(const CLI::App& program, const CLI::Error& problem);
 

@@ -9,12 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "comparison/text.hpp"
 #include "conformance/plugin_check.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "plugin.hpp"
 #include "plugins/loader.hpp"
+#include "text/lists.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -22,7 +23,7 @@ namespace tunica::app {
 namespace {
 
 namespace fs = std::filesystem;
-using comparison::hanging;
+using text::hanging;
 using conformance::Finding;
 using json = nlohmann::ordered_json;
 
@@ -94,7 +95,7 @@ class Table {
     if (verdict.skipped.empty() && (verdict.worst > 0 || verdict.tolerance > 0))
       figures = fmt::format("{:.1e} of {:.0e}", verdict.worst, verdict.tolerance);
     std::string line = fmt::format("  {:<11} {}", outcome(finding), finding.property);
-    if (!figures.empty()) line = comparison::pad(line, 64) + " " + figures;
+    if (!figures.empty()) line = text::pad(line, 64) + " " + figures;
     fmt::print("{}\n", line);
     constexpr const char* indent = "              ";
     if (!verdict.skipped.empty()) fmt::print("{}\n", hanging(indent, verdict.skipped));
@@ -161,7 +162,7 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     fmt::print("\n{}\n", hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
                                                  "follow from it, and check again with --only NAME; what each "
                                                  "property means is in docs/plugin-check.md.",
-                                                 comparison::counted(failed, "property failed", "properties failed") +
+                                                 text::counted(failed, "property failed", "properties failed") +
                                                      ", " + checked)));
   return failed == 0 ? done : not_converged;
 }

@@ -1,36 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "comparison/certify.hpp"
-#include "comparison/fit_table.hpp"
-#include "comparison/provenance.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include "calibration/calibrate.hpp"
+#include "calibration/overrides.hpp"
 #include "comparison/ranking_table.hpp"
-#include "comparison/result_json.hpp"
-#include "comparison/stability_report.hpp"
-#include "comparison/study_tables.hpp"
-#include "comparison/summary.hpp"
-#include "comparison/text.hpp"
-#include "comparison/uncertainty.hpp"
-#include "comparison/wall_tables.hpp"
 #include "data/nearest.hpp"
-#include "execution/files.hpp"
-#include "execution/interrupt.hpp"
-#include "execution/run_directory.hpp"
-#include "execution/runner.hpp"
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
-#include "report/report.hpp"
+#include "text/lists.hpp"
+#include "text/wrapping.hpp"
+#include "tunica/error.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -40,19 +29,9 @@ namespace {
 struct RunOptions {
   std::string file, directory;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
-  std::optional<std::uint64_t> seed;
   bool resume = false, certificate = true;
-  std::vector<std::string> profiles;
-  std::optional<std::uint64_t> bootstrap;
+  calibration::Overrides overrides;
 };
-
-/// The seed of the command line, in the experiment and in the input.json it is documented by.
-void override_seed(experiment::Experiment& experiment, std::uint64_t seed) {
-  experiment.seed = seed;
-  auto input = nlohmann::ordered_json::parse(experiment.input_json);
-  input["seed"] = seed;
-  experiment.input_json = input.dump(2) + '\n';
-}
 
 /// An empty list of names takes the next word of the command line for one: "--profiles , --quiet".
 void check_names(const std::vector<std::string>& names) {
@@ -62,24 +41,6 @@ void check_names(const std::vector<std::string>& names) {
           fmt::format("--profiles: '{}' is not the name of a parameter; expected names separated by commas, "
                       "or all, for example --profiles mu,k1",
                       name));
-}
-
-/// The same for the analysis.
-void override_analysis(experiment::Experiment& experiment, const RunOptions& options) {
-  auto input = nlohmann::ordered_json::parse(experiment.input_json);
-  auto& analysis = experiment.analysis;
-  check_names(options.profiles);
-  if (!options.profiles.empty()) {
-    analysis.all_profiles = options.profiles == std::vector<std::string>{"all"};
-    analysis.profiles = analysis.all_profiles ? std::vector<std::string>{} : options.profiles;
-    input["analysis"]["profiles"] =
-        analysis.all_profiles ? nlohmann::ordered_json("all") : nlohmann::ordered_json(analysis.profiles);
-  }
-  if (options.bootstrap) {
-    analysis.bootstrap_draws = *options.bootstrap;
-    input["analysis"]["bootstrap"]["draws"] = *options.bootstrap;
-  }
-  experiment.input_json = input.dump(2) + '\n';
 }
 
 /// For a POSIX shell: quoted where it has to be.
@@ -95,10 +56,10 @@ std::string quoted(const std::string& word) {
 std::string resume_command(const GlobalOptions& global, const RunOptions& options,
                            const std::filesystem::path& directory) {
   std::string command = fmt::format("tunica run {} -o {} --resume", quoted(options.file), quoted(directory.string()));
-  if (options.seed) command += fmt::format(" --seed {}", *options.seed);
-  if (!options.profiles.empty())
-    command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.profiles, ",")));
-  if (options.bootstrap) command += fmt::format(" --bootstrap {}", *options.bootstrap);
+  if (options.overrides.seed) command += fmt::format(" --seed {}", *options.overrides.seed);
+  if (!options.overrides.profiles.empty())
+    command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.overrides.profiles, ",")));
+  if (options.overrides.bootstrap_draws) command += fmt::format(" --bootstrap {}", *options.overrides.bootstrap_draws);
   if (!options.certificate) command += " --no-certificate";
   for (const auto& path : global.plugin_paths)
     command += " --plugin-path " + quoted(std::filesystem::path(path).string());
@@ -107,22 +68,15 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
 }
 
 /// Asks a process that has seen nothing of the search; the numbers it needs are in the folder.
-void certify(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
-             comparison::Summary& summary) {
-  if (!options.certificate) return comparison::add_certificates("", "--no-certificate was given", summary);
-  std::vector<std::string> arguments{"certify", directory.string(), "--quiet", "-j", std::to_string(options.threads)};
+calibration::Certified certify(const GlobalOptions& global, unsigned threads, const std::filesystem::path& directory,
+                               const std::filesystem::path& points) {
+  std::vector<std::string> arguments{"certify",       directory.string(), "--quiet", "-j", std::to_string(threads),
+                                     "--best-points", points.string()};
   for (const auto& path : global.plugin_paths) arguments.insert(arguments.end(), {"--plugin-path", path});
   if (global.allow_world_writable_plugins) arguments.emplace_back("--allow-world-writable-plugins");
-  const Answer answer = ask_fresh_process(arguments);
-  comparison::add_certificates(answer.problem.empty() ? answer.out : "", answer.problem, summary);
-}
-
-/// 1 when a run has nothing to show, broke its constraints or was given up by the failure policy.
-ExitCode judge(const comparison::Summary& summary) {
-  for (const auto& run : summary.runs)
-    if (!run.has_result || run.status.kind() == Status::Kind::infeasible || run.given_up + run.faults > 0)
-      return not_converged;
-  return done;
+  Answer answer = ask_fresh_process(arguments);
+  if (!answer.problem.empty()) return {"", std::move(answer.problem)};
+  return {std::move(answer.out), ""};
 }
 
 std::string next_step(const comparison::Summary& summary, const std::string& file,
@@ -136,76 +90,57 @@ std::string next_step(const comparison::Summary& summary, const std::string& fil
       file, summary.runs[first->run].model, result.string());
 }
 
+calibration::Options options_of(const GlobalOptions& global, const RunOptions& options, const Session& session) {
+  calibration::Options result;
+  if (!options.directory.empty()) result.directory = options.directory;
+  result.resume = options.resume;
+  result.threads = options.threads;
+  result.progress = global.quiet ? execution::Progress::Style::none : execution::Progress::style_of_stderr();
+  result.refusals = session.refusals();
+  if (options.certificate)
+    result.certify = [&global, &options](const std::filesystem::path& directory, const std::filesystem::path& points) {
+      return certify(global, options.threads, directory, points);
+    };
+  if (!global.quiet)
+    result.started = [&options](const calibration::Start& start) {
+      fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", start.directory.string(),
+                 text::counted(start.plan.runs.size(), "run", "runs"),
+                 text::counted(start.plan.tasks.size(), "search", "searches"),
+                 text::counted(options.threads, "thread", "threads"));
+    };
+  return result;
+}
+
+void print(const calibration::Outcome& outcome, const experiment::Experiment& experiment, const std::string& file) {
+  const auto& runs = outcome.summary.runs;
+  fmt::print("{}, seed {}, tunica {}\n\n{}", data::excerpt(outcome.summary.name), experiment.seed,
+             outcome.provenance.version, comparison::ranking_table(outcome.summary).shown_on(STDOUT_FILENO));
+  if (std::none_of(runs.begin(), runs.end(), [](const auto& entry) { return entry.has_result; }))
+    say_error(fmt::format("no evaluation succeeded; the first reason: {}", runs.front().status.reason()));
+  fmt::print("\nReport:  {}\nResults: {}\n{}\n", outcome.report.string(), outcome.result.string(),
+             text::hanging("Next:    ", next_step(outcome.summary, file, outcome.result)));
+}
+
 int run(const GlobalOptions& global, const RunOptions& options) {
   const Session session(global);
   auto experiment = session.read(options.file);
-  if (options.seed) override_seed(experiment, *options.seed);
-  if (!options.profiles.empty() || options.bootstrap) override_analysis(experiment, options);
-  const auto plan = execution::make_plan(experiment, session.catalogue());
-  comparison::check_analysis(plan, session.catalogue());
-  const std::optional<std::filesystem::path> requested =
-      options.directory.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.directory);
-  const auto directory = options.resume ? execution::RunDirectory::reopen(requested, experiment.name)
-                                        : execution::RunDirectory::create(requested, experiment.name);
-  if (!global.quiet)
-    fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", directory.path().string(),
-               comparison::counted(plan.runs.size(), "run", "runs"),
-               comparison::counted(plan.tasks.size(), "search", "searches"),
-               comparison::counted(options.threads, "thread", "threads"));
-
-  execution::RunSettings settings;
-  settings.directory = directory.path();
-  settings.threads = options.threads;
-  settings.resume = options.resume;
-  settings.progress = global.quiet ? execution::Progress::Style::none : execution::Progress::style_of_stderr();
-  execution::Execution outcome;
-  {
-    const execution::InterruptWatch watch;
-    outcome = execution::execute(plan, settings);
+  check_names(options.overrides.profiles);
+  calibration::apply(options.overrides, experiment);
+  const auto outcome = calibration::calibrate(experiment, session.catalogue(), options_of(global, options, session));
+  switch (outcome.ending) {
+    case calibration::Outcome::Ending::write_failure:
+      say_error(fmt::format("{}. Then go on with\n  {}", outcome.write_failure,
+                            resume_command(global, options, outcome.directory)));
+      return interrupted;
+    case calibration::Outcome::Ending::interrupted:
+      fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
+                 resume_command(global, options, outcome.directory));
+      return interrupted;
+    case calibration::Outcome::Ending::finished:
+      break;
   }
-  if (!outcome.write_failure.empty()) {
-    say_error(fmt::format("{}. Then go on with\n  {}", outcome.write_failure,
-                          resume_command(global, options, directory.path())));
-    return interrupted;
-  }
-  if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
-               resume_command(global, options, directory.path()));
-    return interrupted;
-  }
-
-  const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
-  auto summary = comparison::summarise(plan, outcome.runs, session.refusals());
-  const auto provenance = comparison::provenance_of(plan);
-  comparison::write_fit_tables(directory.path(), plan, summary);
-  comparison::write_wall_tables(directory.path(), plan, summary);
-  comparison::write_stability_tables(directory.path(), plan, summary);
-  comparison::write_study_tables(directory.path(), plan, outcome.runs, summary);
-  execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
-  certify(global, options, directory.path(), summary);
-  {
-    const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
-    tbb::task_arena arena(static_cast<int>(options.threads));
-    arena.execute([&] {
-      comparison::analyse(plan, session.catalogue(), directory.path(), execution::InterruptWatch::interrupted, summary);
-    });
-  }
-  if (execution::InterruptWatch::interrupted()) {
-    fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
-               resume_command(global, options, directory.path()));
-    return interrupted;
-  }
-  execution::write_atomically(directory.path() / "result.json", comparison::result_json(summary, provenance));
-  const auto page = report::write_report(directory.path());
-  fmt::print("{}, seed {}, tunica {}\n\n{}", data::excerpt(summary.name), experiment.seed, provenance.version,
-             highlighted(comparison::ranking_table(summary)));
-  const auto code = judge(summary);
-  if (std::none_of(summary.runs.begin(), summary.runs.end(), [](const auto& entry) { return entry.has_result; }))
-    say_error(fmt::format("no evaluation succeeded; the first reason: {}", summary.runs.front().status.reason()));
-  const auto result = directory.path() / "result.json";
-  fmt::print("\nReport:  {}\nResults: {}\n{}\n", page.string(), result.string(),
-             comparison::hanging("Next:    ", next_step(summary, options.file, result)));
-  return code;
+  print(outcome, experiment, options.file);
+  return outcome.sound() ? done : not_converged;
 }
 
 }  // namespace
@@ -220,16 +155,16 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
                    "Threads, for realisations and population members together; all of the machine without it")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
+  verb->add_option("--seed", options->overrides.seed, "Root seed instead of the one in the file")
       ->check(seed_number())
       ->type_name("S");
   verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
-  verb->add_option("--profiles", options->profiles,
+  verb->add_option("--profiles", options->overrides.profiles,
                    "Profile likelihood of these parameters, names separated by commas, or all")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
-  verb->add_option("--bootstrap", options->bootstrap, "Residual bootstrap with so many draws, from 40")
+  verb->add_option("--bootstrap", options->overrides.bootstrap_draws, "Residual bootstrap with so many draws, from 40")
       ->check(CLI::Range(40, 1000000))
       ->type_name("N");
   verb->add_flag("!--no-certificate", options->certificate,

@@ -14,7 +14,7 @@ namespace {
 constexpr auto interval = std::chrono::milliseconds(200);
 }
 
-Stages::Stages(bool quiet) : terminal_(execution::Terminal::of(STDERR_FILENO)), line_(terminal_), quiet_(quiet) {
+Stages::Stages(bool quiet) : terminal_(text::Terminal::of(STDERR_FILENO)), line_(terminal_), quiet_(quiet) {
   if (quiet_ || !terminal_.redraws) return;
   clock_ = std::thread([this] {
     std::unique_lock lock(mutex_);
@@ -36,10 +36,10 @@ Stages::~Stages() {
 void Stages::draw() const {
   if (what_.empty()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  std::string text = fmt::format("{:3.0f} %  {}  {}", 100 * share_, what_, execution::clock_text(seconds));
+  std::string text = fmt::format("{:3.0f} %  {}  {}", 100 * share_, what_, text::clock_text(seconds));
   // The shares are those of typical diagnoses; early ones would promise too much.
   constexpr double telling = 0.2;
-  if (share_ >= telling) text += fmt::format(", about {} left", execution::clock_text(seconds * (1 - share_) / share_));
+  if (share_ >= telling) text += fmt::format(", about {} left", text::clock_text(seconds * (1 - share_) / share_));
   line_.draw(text, share_);
 }
 

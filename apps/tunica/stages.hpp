@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
 
 namespace tunica::app {
 
@@ -24,8 +24,8 @@ class Stages {
  private:
   void draw() const;  // with the mutex held
   using Clock = std::chrono::steady_clock;
-  const execution::Terminal terminal_;
-  const execution::StatusLine line_;
+  const text::Terminal terminal_;
+  const text::StatusLine line_;
   const bool quiet_;
   const Clock::time_point begin_ = Clock::now();
   mutable std::mutex mutex_;

@@ -31,7 +31,7 @@ assert len(constrained) == 11
 experiment = pathlib.Path(__file__).parent / "experiment.json"
 tunica = os.environ["TUNICA"].split(";")
 for model, stable in (("set_s", True), ("set_u", False), ("x1", True), ("x2", False)):
-    words = subprocess.run([*tunica, "stability", experiment, "--model", model], check=True, text=True,
-                           capture_output=True).stdout
-    assert ("UNSTABLE" not in words) is stable, f"{model}: {words}"
+    said = subprocess.run([*tunica, "stability", experiment, "--model", model, "--json"], check=True, text=True,
+                          capture_output=True).stdout
+    assert json.loads(said)["stable"] is stable, f"{model}: {said}"
 print(f"S stable, U unstable from 1.166; {len(constrained)} optimisers feasible at h = 0.7")

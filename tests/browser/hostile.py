@@ -40,6 +40,7 @@ def with_hostile_names(source, target, run):
     result = replaced(json.loads((target / "result.json").read_text()), run)
     result["name"] = NAME
     result["warnings"] = [NAME] + result["warnings"]
+    result["warning_details"] = [{"kind": NAME, "run": None, "sentence": NAME}] + result["warning_details"]
     (target / "result.json").write_text(json.dumps(result))
 
     def change(_, rows):

@@ -25,19 +25,20 @@ class HotPath : public testing::TestWithParam<bool> {
 };
 
 TEST_P(HotPath, AllocatesNothingInTheAssembly) {
-  const calibration::Assembly assembly = bench_.assemble();
-  const std::size_t n = assembly.parameters().size();
-  std::vector<double> free, predictions(assembly.prediction_count()), by_prediction(predictions.size() * n);
-  for (const auto& parameter : assembly.parameters()) free.push_back(parameter.initial);
-  std::vector<double> per_test(2), residuals(assembly.residual_count()), by_residual(residuals.size() * n);
-  const auto workspace = assembly.make_workspace();
+  const assembly::Assembly assembly = bench_.assemble();
+  const std::size_t n = assembly.layout().parameters.size();
+  std::vector<double> free, predictions(assembly.layout().prediction_count), by_prediction(predictions.size() * n);
+  for (const auto& parameter : assembly.layout().parameters) free.push_back(parameter.initial);
+  std::vector<double> per_test(2), residuals(assembly.layout().residual_count), by_residual(residuals.size() * n);
+  const auto workspace = assembly.evaluator().make_workspace();
   double objective = 0;
   EXPECT_GT(allocations_in([&] { free.reserve(1000); }), 0) << "the counter counts";
   EXPECT_EQ(allocations_in([&] {
               for (int k = 0; k < 10; ++k) {
-                static_cast<void>(assembly.predict(free, predictions, by_prediction, *workspace));
-                static_cast<void>(assembly.evaluate(free, objective, per_test, {}, {}, *workspace));
-                static_cast<void>(assembly.evaluate(free, objective, per_test, residuals, by_residual, *workspace));
+                static_cast<void>(assembly.evaluator().predict(free, predictions, by_prediction, *workspace));
+                static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
+                static_cast<void>(
+                    assembly.evaluator().evaluate(free, objective, per_test, residuals, by_residual, *workspace));
               }
             }),
             0);
@@ -45,8 +46,8 @@ TEST_P(HotPath, AllocatesNothingInTheAssembly) {
 
 TEST_P(HotPath, AllocatesNothingInTheProblemAfterTheFirstCalls) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);  // the scheduler's own do not count
-  const calibration::Assembly assembly = bench_.assemble();
-  calibration::CalibrationProblem problem(assembly, {});
+  const assembly::Assembly assembly = bench_.assemble();
+  search::CalibrationProblem problem(assembly, {});
   const std::size_t n = problem.dimension();
   std::vector<double> xs(30 * n, 0.5), objectives(30), residuals(problem.residual_count()),
       jacobian(residuals.size() * n);

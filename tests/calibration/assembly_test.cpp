@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,20 +9,20 @@
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
+using assembly::Assembly;
 using fakes::Bench;
 using testing::HasSubstr;
 
 std::vector<std::string> names(const Assembly& assembly) {
   std::vector<std::string> found;
-  for (const auto& parameter : assembly.parameters()) found.push_back(parameter.name);
+  for (const auto& parameter : assembly.layout().parameters) found.push_back(parameter.name);
   return found;
 }
 
 std::vector<double> predict(const Assembly& assembly, const std::vector<double>& free) {
-  std::vector<double> predictions(assembly.prediction_count());
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(free, predictions, {}, *workspace);
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(free, predictions, {}, *workspace);
   EXPECT_TRUE(status.ok()) << status.reason();
   return predictions;
 }
@@ -32,15 +32,15 @@ TEST(Assembly, TakesDeclarationsWhereTheFileIsSilent) {
   bench.add_test("t", {0, 1, 2}, {1, 2, 3});
   const Assembly assembly = bench.assemble();
   EXPECT_THAT(names(assembly), testing::ElementsAre("a", "b", "c"));
-  EXPECT_EQ(assembly.parameters()[1].scale, Scale::log);
-  EXPECT_EQ(assembly.parameters()[1].min, 0.1);
-  EXPECT_EQ(assembly.parameters()[1].max, 10);
-  EXPECT_EQ(assembly.parameters()[1].unit, "kPa");
+  EXPECT_EQ(assembly.layout().parameters[1].scale, Scale::log);
+  EXPECT_EQ(assembly.layout().parameters[1].min, 0.1);
+  EXPECT_EQ(assembly.layout().parameters[1].max, 10);
+  EXPECT_EQ(assembly.layout().parameters[1].unit, "kPa");
   // The native imperfection is held at its null, the gain where the file says.
-  ASSERT_EQ(assembly.fixed_parameters().size(), 2u);
-  EXPECT_EQ(assembly.fixed_parameters()[0].name, "t.gain");
-  EXPECT_EQ(assembly.fixed_parameters()[1].name, "t.tilt");
-  EXPECT_EQ(assembly.fixed_parameters()[1].value, 0);
+  ASSERT_EQ(assembly.layout().fixed_parameters.size(), 2u);
+  EXPECT_EQ(assembly.layout().fixed_parameters[0].name, "t.gain");
+  EXPECT_EQ(assembly.layout().fixed_parameters[1].name, "t.tilt");
+  EXPECT_EQ(assembly.layout().fixed_parameters[1].value, 0);
   EXPECT_THAT(predict(assembly, {1, 2, 3}), testing::ElementsAre(1, 6, 17));
 }
 
@@ -54,8 +54,8 @@ TEST(Assembly, NamesParametersOfMechanismsAndTestsByTheirOwners) {
   const Assembly assembly = bench.assemble();
   EXPECT_THAT(names(assembly), testing::ElementsAre("a", "b", "c", "cubic.beta", "memory.g", "t.gain", "t.tilt",
                                                     "t.offset.value", "t.scale_error.value"));
-  EXPECT_EQ(assembly.parameters()[6].initial, 0.5);
-  EXPECT_FALSE(assembly.jacobian_is_exact());
+  EXPECT_EQ(assembly.layout().parameters[6].initial, 0.5);
+  EXPECT_FALSE(assembly.layout().jacobian_is_exact);
 }
 
 TEST(Assembly, WrapsInCanonicalOrderWhateverTheFileSays) {
@@ -77,7 +77,7 @@ TEST(Assembly, LetsTheFileNarrowBoundsAndClampsTheDefaultStart) {
   bench.parameter("c").scale = Scale::linear;
   const Assembly assembly = bench.assemble();
   EXPECT_THAT(names(assembly), testing::ElementsAre("a", "c"));
-  EXPECT_EQ(assembly.parameters()[0].initial, 2);
+  EXPECT_EQ(assembly.layout().parameters[0].initial, 2);
   EXPECT_THAT(predict(assembly, {1, 0}), testing::ElementsAre(1, 4, 7));
 }
 
@@ -93,9 +93,9 @@ TEST(Assembly, TiesSharedParametersWithinOneModelAndAcrossTests) {
   bench.parameter("c").share = "level";
   const Assembly assembly = bench.assemble();
   EXPECT_THAT(names(assembly), testing::ElementsAre("level", "b", "zero"));
-  EXPECT_EQ(assembly.parameters()[0].min, 0);  // of a
-  EXPECT_EQ(assembly.parameters()[0].max, 5);  // of c
-  EXPECT_EQ(assembly.parameters()[2].max, 0.5);
+  EXPECT_EQ(assembly.layout().parameters[0].min, 0);  // of a
+  EXPECT_EQ(assembly.layout().parameters[0].max, 5);  // of c
+  EXPECT_EQ(assembly.layout().parameters[2].max, 0.5);
   EXPECT_THAT(predict(assembly, {1, 2, 0.25}), testing::ElementsAre(4.25, 9.25, 4.25, 9.25));
 }
 
@@ -104,16 +104,16 @@ TEST(Assembly, HasALogarithmicUnitBoxWithExactEnds) {
   bench.add_test("t", {0, 1, 2}, {1, 2, 3});
   const Assembly assembly = bench.assemble();
   std::vector<double> free(3), x(3);
-  assembly.from_unit(std::vector<double>{0, 0, 0}, free);
+  assembly.box().from_unit(std::vector<double>{0, 0, 0}, free);
   EXPECT_THAT(free, testing::ElementsAre(0, 0.1, -5));
-  assembly.from_unit(std::vector<double>{1, 1, 1}, free);
+  assembly.box().from_unit(std::vector<double>{1, 1, 1}, free);
   EXPECT_THAT(free, testing::ElementsAre(10, 10, 5));
-  assembly.from_unit(std::vector<double>{0.25, 0.5, 0.75}, free);
+  assembly.box().from_unit(std::vector<double>{0.25, 0.5, 0.75}, free);
   EXPECT_NEAR(free[1], 1, 1e-15);
-  assembly.to_unit(free, x);
+  assembly.box().to_unit(free, x);
   EXPECT_NEAR(x[0], 0.25, 1e-15);
   EXPECT_NEAR(x[1], 0.5, 1e-15);
-  EXPECT_NEAR(assembly.initial_unit()[1], 0.5, 1e-15);
+  EXPECT_NEAR(assembly.box().initial()[1], 0.5, 1e-15);
 }
 
 TEST(Assembly, ReportsDiagnosticsAndHashes) {
@@ -121,12 +121,12 @@ TEST(Assembly, ReportsDiagnosticsAndHashes) {
   bench.add_test("t", {1, 2, 4}, {1, 2, 3});
   const Assembly assembly = bench.assemble();
   std::vector<std::pair<std::string, std::vector<double>>> rows;
-  ASSERT_TRUE(assembly.diagnostics(0, std::vector<double>{1, 1, 1}, rows).ok());
+  ASSERT_TRUE(assembly.evaluator().diagnostics(0, std::vector<double>{1, 1, 1}, rows).ok());
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].first, "twice_x");
   EXPECT_THAT(rows[0].second, testing::ElementsAre(2, 4, 8));
-  ASSERT_EQ(assembly.data_hashes().size(), 1u);
-  EXPECT_THAT(assembly.data_hashes()[0], testing::StartsWith("t.csv sha256:"));
+  ASSERT_EQ(assembly.layout().data_hashes.size(), 1u);
+  EXPECT_THAT(assembly.layout().data_hashes[0], testing::StartsWith("t.csv sha256:"));
 }
 
 TEST(Assembly, TranslatesCombinationsToFreeParameters) {
@@ -135,9 +135,9 @@ TEST(Assembly, TranslatesCombinationsToFreeParameters) {
   EXPECT_EQ(bench.assemble().combinations()[0].value(std::vector<double>{3, 4, 5}), 10);
   bench.parameter("p").fixed = 7;
   const Assembly assembly = bench.assemble();
-  ASSERT_EQ(assembly.combinations().size(), 1u);
-  EXPECT_THAT(assembly.combinations()[0].arguments, testing::ElementsAre(0u));
-  EXPECT_EQ(assembly.combinations()[0].value(std::vector<double>{4, 5}), 18);
+  ASSERT_EQ(assembly.layout().combinations.size(), 1u);
+  EXPECT_THAT(assembly.layout().combinations[0].arguments, testing::ElementsAre(0u));
+  EXPECT_EQ(assembly.layout().combinations[0].value(std::vector<double>{4, 5}), 18);
   bench.parameter("q").fixed = 1;
   EXPECT_TRUE(bench.assemble().combinations().empty());
 }
@@ -188,24 +188,34 @@ const std::vector<Refusal> refusals = {
      },
      {"'doubling.factor'", "shares 's' with 'a'", "is in 1 where that is in kPa"}},
     {"SharedBoundsDisjoint",
-     [](Bench& b) { b.parameter("a").share = "s", b.parameter("a").min = 6, b.parameter("c").share = "s"; },
+     [](Bench& b) {
+       b.parameter("a").share = "s";
+       b.parameter("a").min = 6;
+       b.parameter("c").share = "s";
+     },
      {"/models/m/parameters/c", "nothing in common with 6 … 10 of 'a'"}},
     {"SharedStartsDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").initial = 1;
-       b.parameter("c").share = "s", b.parameter("c").initial = 2;
+       b.parameter("a").share = "s";
+       b.parameter("a").initial = 1;
+       b.parameter("c").share = "s";
+       b.parameter("c").initial = 2;
      },
      {"another initial value than 'a'"}},
     {"SharedScalesDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").scale = Scale::linear;
-       b.parameter("b").share = "s", b.parameter("b").scale = Scale::log;
+       b.parameter("a").share = "s";
+       b.parameter("a").scale = Scale::linear;
+       b.parameter("b").share = "s";
+       b.parameter("b").scale = Scale::log;
      },
      {"another scale than 'a'"}},
     {"SharedPriorsDiffer",
      [](Bench& b) {
-       b.parameter("a").share = "s", b.parameter("a").prior = {1, 1};
-       b.parameter("b").share = "s", b.parameter("b").prior = {1, 2};
+       b.parameter("a").share = "s";
+       b.parameter("a").prior = {1, 1};
+       b.parameter("b").share = "s";
+       b.parameter("b").prior = {1, 2};
      },
      {"a second, different prior", "'s'"}},
     {"ShareTakesAName",
@@ -215,7 +225,7 @@ const std::vector<Refusal> refusals = {
      [](Bench& b) {
        b.model().mechanisms = {{"cubic", {}, {}}, {"cubic", {}, {}}};
      },
-     {"model 'm'", "'cubic' stands there twice"}},
+     {"model 'm'", "'cubic' is listed twice"}},
     {"TestMechanismOnModel",
      [](Bench& b) {
        b.model().mechanisms = {{"offset", {}, {}}};
@@ -241,13 +251,15 @@ const std::vector<Refusal> refusals = {
     {"StabilityWithoutAStrip",
      [](Bench& b) {
        auto& constraint = b.run.constraints.emplace_back();
-       constraint.type = "transverse_stability", constraint.pointer = "/constraints/0";
+       constraint.type = "transverse_stability";
+       constraint.pointer = "/constraints/0";
      },
      {"/constraints/0", "no free strip", "\"range\": [1, 1.5]"}},
     {"NothingToBeAdmissible",
      [](Bench& b) {
        auto& constraint = b.run.constraints.emplace_back();
-       constraint.type = "admissible_parameters", constraint.pointer = "/constraints/0";
+       constraint.type = "admissible_parameters";
+       constraint.pointer = "/constraints/0";
      },
      {"/constraints/0", "'parabola' declares no inequality"}},
     {"HoldOutBeyondTheRows",

@@ -93,7 +93,7 @@ class WrappedModel : public Model {
     const std::size_t last = points.parameters.size() - 1, n = points.count;
     inner.parameters = points.parameters.first(last);
     if (kind_ == Kind::memory && !response.stress_dp.empty()) return Status::failed("no parameter derivatives");
-    if (Status status = base_->evaluate(inner, response); !status.ok()) return status;
+    if (Status status = base_->evaluator().evaluate(inner, response); !status.ok()) return status;
     const double v = points.parameters[last];
     double before = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -229,7 +229,7 @@ class WrappedTest : public Test {
     const std::size_t last = input.test_parameters.size() - 1, size = output.values.size();
     TestInput inner = input;
     inner.test_parameters = input.test_parameters.first(last);
-    if (Status status = base_->predict(inner, output); !status.ok()) return status;
+    if (Status status = base_->evaluator().predict(inner, output); !status.ok()) return status;
     const double v = input.test_parameters[last];
     const std::size_t slots = input.model_parameters.size() + last;
     for (std::size_t i = 0; i < size; ++i) {
@@ -327,7 +327,8 @@ Bench::Bench(std::string model_type) {
   std::filesystem::create_directories(folder_);
   experiment.name = "fake";
   experiment.models.push_back({"m", std::move(model_type), {}, {}, {}});
-  run.model = "m", run.optimizer = "none";
+  run.model = "m";
+  run.optimizer = "none";
 }
 
 Bench::~Bench() {
@@ -348,7 +349,8 @@ experiment::TestEntry& Bench::add_test(const std::string& name, const std::vecto
   out << "x [1],y [kPa],z [kPa]\n";
   for (std::size_t i = 0; i < x.size(); ++i) out << fmt::format("{:.17g},{:.17g},{:.17g}\n", x[i], y[i], 10 * y[i]);
   experiment::TestEntry entry;
-  entry.name = name, entry.type = "curve";
+  entry.name = name;
+  entry.type = "curve";
   entry.data.files = {file};
   entry.data.columns = {{"x", "x"}, {"y", "y"}};
   if (second) entry.data.columns.emplace_back("z", "z");

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
-#include "calibration/calibration_problem.hpp"
+#include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
+#include "search/calibration_problem.hpp"
 
 /// Models, tests and mechanisms small enough to check by hand. A fake model answers S_tt(x) for C_tt = x:
 ///
@@ -43,7 +43,7 @@ class Bench {
                                   bool second = false);
   experiment::ModelEntry& model() { return experiment.models.front(); }
   experiment::ParameterSetting& parameter(const std::string& name);
-  [[nodiscard]] calibration::Assembly assemble() const { return {experiment, run, shelf}; }
+  [[nodiscard]] assembly::Assembly assemble() const { return {experiment, run, shelf}; }
 
   experiment::Experiment experiment;
   experiment::RunEntry run;

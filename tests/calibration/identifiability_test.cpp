@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/identifiability.hpp"
+#include "uncertainty/identifiability.hpp"
 
 #include <cmath>
 
@@ -7,18 +7,18 @@
 #include <gtest/gtest.h>
 
 #include "calibration/fakes.hpp"
-#include "calibration/valley_words.hpp"
+#include "uncertainty/valley_words.hpp"
 
 namespace tunica {
 namespace {
 
-using calibration::Identifiability;
 using fakes::Bench;
 using testing::HasSubstr;
+using uncertainty::Identifiability;
 
 Identifiability identify(const Bench& bench, const std::vector<double>& free) {
   Identifiability found;
-  const Status status = calibration::identify(bench.assemble(), free, found);
+  const Status status = uncertainty::identify(bench.assemble(), free, found);
   EXPECT_TRUE(status.ok()) << status.reason();
   return found;
 }
@@ -195,18 +195,18 @@ TEST(Identifiability, FailsWhereThePointCannotBeEvaluated) {
   add_line(bench);
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("no"); });
   Identifiability found;
-  EXPECT_EQ(calibration::identify(bench.assemble(), std::vector<double>{1, 2, 0}, found).reason(), "test 't': no");
+  EXPECT_EQ(uncertainty::identify(bench.assemble(), std::vector<double>{1, 2, 0}, found).reason(), "test 't': no");
   fakes::set_behaviour({});
   bench.experiment.tests[0].hold_out.all = true;
-  EXPECT_EQ(calibration::identify(bench.assemble(), std::vector<double>{1, 2, 0}, found).reason(), "no row is fitted");
+  EXPECT_EQ(uncertainty::identify(bench.assemble(), std::vector<double>{1, 2, 0}, found).reason(), "no row is fitted");
 }
 
 TEST(Uncertainty, IsPrintedWithTwoDigits) {
-  EXPECT_EQ(calibration::with_uncertainty(0.79671234, 0.00412, "1"), "0.7967 ± 0.0041");
-  EXPECT_EQ(calibration::with_uncertainty(-0.1608, 0.002, "kPa"), "-0.1608 ± 0.0020 kPa");
-  EXPECT_EQ(calibration::with_uncertainty(123456, 789, "kPa"), "1.235e+05 ± 7.9e+02 kPa");
-  EXPECT_EQ(calibration::with_uncertainty(7, 1e-12, ""), "7 ± 1e-12");
-  EXPECT_EQ(calibration::with_uncertainty(7, 0, ""), "7");
+  EXPECT_EQ(uncertainty::with_uncertainty(0.79671234, 0.00412, "1"), "0.7967 ± 0.0041");
+  EXPECT_EQ(uncertainty::with_uncertainty(-0.1608, 0.002, "kPa"), "-0.1608 ± 0.0020 kPa");
+  EXPECT_EQ(uncertainty::with_uncertainty(123456, 789, "kPa"), "1.235e+05 ± 7.9e+02 kPa");
+  EXPECT_EQ(uncertainty::with_uncertainty(7, 1e-12, ""), "7 ± 1e-12");
+  EXPECT_EQ(uncertainty::with_uncertainty(7, 0, ""), "7");
 }
 
 }  // namespace

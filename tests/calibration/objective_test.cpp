@@ -6,13 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "assembly/noise.hpp"
 #include "calibration/fakes.hpp"
-#include "calibration/noise.hpp"
 
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
+using assembly::Assembly;
 using experiment::ObjectiveType;
 using fakes::Bench;
 using testing::HasSubstr;
@@ -23,10 +23,12 @@ struct Evaluation {
 };
 
 Evaluation evaluate(const Assembly& assembly, const std::vector<double>& free) {
-  Evaluation e{0, std::vector<double>(assembly.test_count()), std::vector<double>(assembly.residual_count()),
-               std::vector<double>(assembly.residual_count() * free.size())};
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.evaluate(free, e.objective, e.per_test, e.residuals, e.jacobian, *workspace);
+  Evaluation e{0, std::vector<double>(assembly.layout().test_count),
+               std::vector<double>(assembly.layout().residual_count),
+               std::vector<double>(assembly.layout().residual_count * free.size())};
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status =
+      assembly.evaluator().evaluate(free, e.objective, e.per_test, e.residuals, e.jacobian, *workspace);
   EXPECT_TRUE(status.ok()) << status.reason();
   return e;
 }
@@ -34,7 +36,7 @@ Evaluation evaluate(const Assembly& assembly, const std::vector<double>& free) {
 /// Σ w ρ(‖r‖²) as tunica/optimizer.hpp promises it to optimisers.
 double from_blocks(const Assembly& assembly, const std::vector<double>& residuals) {
   double sum = 0;
-  for (const ResidualBlock& block : assembly.blocks()) {
+  for (const ResidualBlock& block : assembly.layout().blocks) {
     double s = 0;
     for (std::size_t i = 0; i < block.size; ++i) s += std::pow(residuals[block.offset + i], 2);
     constexpr double epsilon = Problem::root_smoothing;
@@ -83,7 +85,8 @@ TEST_P(Objective, HasTheJacobianOfItsResiduals) {
   const Evaluation e = evaluate(assembly, at);
   for (std::size_t j = 0; j < at.size(); ++j) {
     std::vector<double> up = at, down = at;
-    up[j] += 1e-4, down[j] -= 1e-4;
+    up[j] += 1e-4;
+    down[j] -= 1e-4;
     const Evaluation above = evaluate(assembly, up), below = evaluate(assembly, down);
     for (std::size_t i = 0; i < e.residuals.size(); ++i) {
       const double difference = (above.residuals[i] - below.residuals[i]) / 2e-4;
@@ -104,9 +107,9 @@ TEST(StandardisedQuadratic, DividesTheMeanSquareByTheRangeOfTheFittedRows) {
   const Assembly assembly = bench.assemble();
   // a + b x at a = 2, b = 3: 2, 5 against 1, 3; range 2.
   EXPECT_NEAR(evaluate(assembly, {2, 3, 0}).objective, 4 * (0.5 * (1 + 4)) / 2, 1e-14);
-  EXPECT_EQ(assembly.channels()[0].fitted, (std::vector<bool>{true, true, false}));
-  EXPECT_EQ(assembly.prediction_count(), 3u);
-  EXPECT_EQ(assembly.residual_count(), 2u);
+  EXPECT_EQ(assembly.layout().channels[0].fitted, (std::vector<bool>{true, true, false}));
+  EXPECT_EQ(assembly.layout().prediction_count, 3u);
+  EXPECT_EQ(assembly.layout().residual_count, 2u);
 }
 
 TEST(StandardisedQuadratic, RefusesAChannelWithoutRange) {
@@ -153,7 +156,7 @@ TEST(LeastSquares, AddsPriorsAsOneMoreBlock) {
   bench.run.objective = ObjectiveType::least_squares;
   bench.parameter("c").prior = {1, 0.25};
   const Assembly assembly = bench.assemble();
-  ASSERT_EQ(assembly.blocks().size(), 2u);
+  ASSERT_EQ(assembly.layout().blocks.size(), 2u);
   EXPECT_NEAR(evaluate(assembly, {1, 1, 0}).objective, 16, 1e-12);
   EXPECT_EQ(evaluate(assembly, {1, 1, 0}).per_test[0], 0);
 }
@@ -163,8 +166,8 @@ TEST(OtherObjectives, SayThatTheyDoNotUseAPrior) {
   bench.add_test("t", {0, 1, 2}, {1, 2, 3});
   bench.parameter("c").prior = {1, 0.25};
   const Assembly assembly = bench.assemble();
-  EXPECT_EQ(assembly.blocks().size(), 1u);
-  EXPECT_THAT(assembly.warnings(), testing::Contains(HasSubstr("the prior of 'c' is not used")));
+  EXPECT_EQ(assembly.layout().blocks.size(), 1u);
+  EXPECT_THAT(assembly.layout().warnings, testing::Contains(HasSubstr("the prior of 'c' is not used")));
 }
 
 TEST(HoldOut, OfAWholeTestLeavesItOutOfTheObjectiveAndInThePredictions) {
@@ -172,8 +175,8 @@ TEST(HoldOut, OfAWholeTestLeavesItOutOfTheObjectiveAndInThePredictions) {
   bench.add_test("s", {0, 1, 2}, {1, 2, 3});
   bench.add_test("t", {0, 1, 2}, {5, 6, 7}).hold_out.all = true;
   const Assembly assembly = bench.assemble();
-  EXPECT_EQ(assembly.blocks().size(), 1u);
-  EXPECT_EQ(assembly.prediction_count(), 6u);
+  EXPECT_EQ(assembly.layout().blocks.size(), 1u);
+  EXPECT_EQ(assembly.layout().prediction_count, 6u);
   const Evaluation e = evaluate(assembly, {1, 1, 0});
   EXPECT_EQ(e.objective, 0);
   EXPECT_EQ(e.per_test[1], 0);
@@ -193,7 +196,7 @@ TEST(Noise, IsEstimatedFromDifferencesOnAnUnevenGridWithTurningPoints) {
     y.push_back(3 * x.back() + normal(generator));
   }
   std::vector<std::string> warnings;
-  const auto noise = calibration::noise_model(channel(y), x, std::vector<bool>(x.size(), true), "test 't'", warnings);
+  const auto noise = assembly::noise_model(channel(y), x, std::vector<bool>(x.size(), true), "test 't'", warnings);
   EXPECT_TRUE(noise.estimated);
   EXPECT_NEAR(noise.sd[0], 0.2, 0.016);
   ASSERT_EQ(warnings.size(), 1u);
@@ -205,11 +208,11 @@ TEST(Noise, IsPooledOverReplicatesAndHalvedInVarianceByAMeanOfTwo) {
   replicated.replicates = {{0.9, 2.1}, {1.1, 1.9}};
   std::vector<std::string> warnings;
   const std::vector<double> x{0, 1};
-  const auto noise = calibration::noise_model(replicated, x, {true, true}, "test 't'", warnings);
+  const auto noise = assembly::noise_model(replicated, x, {true, true}, "test 't'", warnings);
   EXPECT_NEAR(noise.sd[1], std::sqrt(0.02 / 2), 1e-15);
   EXPECT_THAT(warnings.at(0), HasSubstr("the replicates"));
   replicated.noise = data::Noise{0.4, 0, 0};
-  EXPECT_NEAR(calibration::noise_model(replicated, x, {true, true}, "", warnings).sd[0], 0.4 / std::sqrt(2), 1e-15);
+  EXPECT_NEAR(assembly::noise_model(replicated, x, {true, true}, "", warnings).sd[0], 0.4 / std::sqrt(2), 1e-15);
 }
 
 TEST(Noise, OfARowThatMeasuresZeroIsNeverZero) {
@@ -217,7 +220,7 @@ TEST(Noise, OfARowThatMeasuresZeroIsNeverZero) {
   relative.noise = data::Noise{0, 0.1, 0};
   std::vector<std::string> warnings;
   const auto noise =
-      calibration::noise_model(relative, std::vector<double>{0, 1, 2}, {true, true, true}, "test 't'", warnings);
+      assembly::noise_model(relative, std::vector<double>{0, 1, 2}, {true, true, true}, "test 't'", warnings);
   EXPECT_THAT(noise.sd, testing::ElementsAre(0.1, 0.1, 0.2));
   EXPECT_THAT(warnings.at(0), HasSubstr("row 0 measures 0"));
 }
@@ -228,12 +231,12 @@ TEST(Noise, ThatMakesRowsAllButExactIsWarnedOf) {
   const auto warnings_with = [&](data::Noise noise, std::vector<bool> fitted) {
     relative.noise = noise;
     std::vector<std::string> warnings;
-    calibration::noise_model(relative, x, fitted, "test 't'", warnings);
+    assembly::noise_model(relative, x, fitted, "test 't'", warnings);
     return warnings;
   };
   const std::vector<bool> all(5, true), without_first{false, true, true, true, true};
   EXPECT_THAT(warnings_with({0, 0.1, 0}, all),
-              testing::ElementsAre(HasSubstr("takes 2 rows for all but exact, σ = 1e-06 ")));
+              testing::ElementsAre(HasSubstr("makes 2 rows almost exact: σ = 1e-06 ")));
   EXPECT_THAT(warnings_with({0, 0.1, 0}, without_first), testing::ElementsAre(HasSubstr("takes a row for all but")));
   EXPECT_TRUE(warnings_with({0.001, 0.1, 0}, all).empty());
   EXPECT_TRUE(warnings_with({0, 0.1, 0}, {false, false, true, true, true}).empty());
@@ -244,7 +247,7 @@ TEST(Noise, ThatCannotBeKnownIsRefused) {
   const std::vector<double> x{0, 1, 2};
   const std::vector<bool> all(3, true);
   const auto refuse = [&](const data::Channel& of) {
-    return fakes::message_of([&] { calibration::noise_model(of, x, all, "test 't', channel 'y'", warnings); });
+    return fakes::message_of([&] { assembly::noise_model(of, x, all, "test 't', channel 'y'", warnings); });
   };
   EXPECT_THAT(refuse(channel({1, 2, 3})),
               HasSubstr("test 't', channel 'y': no noise is stated and none can be estimated"));

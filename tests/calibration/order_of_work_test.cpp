@@ -9,10 +9,10 @@
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
-using calibration::CalibrationProblem;
+using assembly::Assembly;
 using fakes::Bench;
 using fakes::Recording;
+using search::CalibrationProblem;
 
 /// A costly test of three rows, named before a cheap one of five, and a ≥ b − 1; a is linear from 0 to 10, b = 1.
 class OrderOfWork : public testing::Test {
@@ -33,8 +33,8 @@ class OrderOfWork : public testing::Test {
   static std::vector<double> free(double a) { return {a, 5, 0}; }
   Status evaluate(const Assembly& assembly, double a, bool skip) {
     simulated_.clear();
-    const auto workspace = assembly.make_workspace();
-    return assembly.evaluate(free(a), objective_, per_test_, {}, {}, *workspace, skip);
+    const auto workspace = assembly.evaluator().make_workspace();
+    return assembly.evaluator().evaluate(free(a), objective_, per_test_, {}, {}, *workspace, skip);
   }
   Bench bench_;
   std::string simulated_;
@@ -45,7 +45,7 @@ class OrderOfWork : public testing::Test {
 
 TEST_F(OrderOfWork, CostlyTestsComeLast) {
   const Assembly assembly = bench_.assemble();
-  EXPECT_TRUE(assembly.has_costly_tests());
+  EXPECT_TRUE(assembly.layout().has_costly_tests);
   EXPECT_TRUE(evaluate(assembly, 8, true).ok());
   EXPECT_EQ(simulated_, "qs");
   EXPECT_EQ(objective_, per_test_[1] + per_test_[0]);
@@ -75,10 +75,10 @@ TEST_F(OrderOfWork, AnInfeasiblePointWhoseSimulationWouldFailIsInfeasible) {
 
 TEST_F(OrderOfWork, ResidualsAreThoseOfAllTests) {
   const Assembly assembly = bench_.assemble();
-  const auto workspace = assembly.make_workspace();
-  std::vector<double> residuals(assembly.residual_count());
+  const auto workspace = assembly.evaluator().make_workspace();
+  std::vector<double> residuals(assembly.layout().residual_count);
   simulated_.clear();
-  EXPECT_EQ(assembly.evaluate(free(1), objective_, per_test_, residuals, {}, *workspace, true).kind(),
+  EXPECT_EQ(assembly.evaluator().evaluate(free(1), objective_, per_test_, residuals, {}, *workspace, true).kind(),
             Status::Kind::infeasible);
   EXPECT_EQ(simulated_, "qs");
 }
@@ -92,7 +92,7 @@ TEST_F(OrderOfWork, TheProblemSkipsWhereItIsTold) {
     settings.skip_costly = skip;
     CalibrationProblem problem(assembly, std::move(settings));
     std::vector<double> x(3);
-    assembly.to_unit(free(1), x);
+    assembly.box().to_unit(free(1), x);
     simulated_.clear();
     EXPECT_EQ(problem.evaluate(x, objective_).kind(), Status::Kind::infeasible);
     EXPECT_EQ(simulated_, skip ? "q" : "qs");

@@ -10,14 +10,14 @@
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
+using assembly::Assembly;
 using fakes::Bench;
 using testing::HasSubstr;
 
 std::vector<double> jacobian(const Assembly& assembly, const std::vector<double>& free) {
-  std::vector<double> predictions(assembly.prediction_count()), found(predictions.size() * free.size());
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(free, predictions, found, *workspace);
+  std::vector<double> predictions(assembly.layout().prediction_count), found(predictions.size() * free.size());
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(free, predictions, found, *workspace);
   EXPECT_TRUE(status.ok()) << status.reason();
   return found;
 }
@@ -30,7 +30,7 @@ TEST(Jacobian, GoesThroughSharedAndHeldParameters) {
   const Assembly assembly = bench.assemble();
   // y = level (1 + x) + b x + x²
   EXPECT_THAT(jacobian(assembly, {0.5, 1}), testing::ElementsAre(2, 1, 3, 2));
-  EXPECT_TRUE(assembly.jacobian_is_exact());
+  EXPECT_TRUE(assembly.layout().jacobian_is_exact);
 }
 
 TEST(Jacobian, IsZeroByParametersOfAnotherTest) {
@@ -51,7 +51,7 @@ TEST_P(Differences, AgreeWithTheFormulaInsideAndAtBounds) {
   bench.add_test("s", x, {1, 2, 3, 4});
   bench.add_test("t", {5, 6}, {1, 2}).mechanisms = {{"offset", {}, {}}};
   const Assembly assembly = bench.assemble();
-  ASSERT_FALSE(assembly.jacobian_is_exact());
+  ASSERT_FALSE(assembly.layout().jacobian_is_exact);
   const std::vector<double>& at = GetParam();  // a b c g offset
   const std::vector<double> found = jacobian(assembly, at);
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -92,8 +92,8 @@ TEST(Differences, SayWhichParameterCannotBeMoved) {
   });
   const Assembly assembly = bench.assemble();
   std::vector<double> predictions(3), found(12);
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(std::vector<double>{1, 1, 0, 0}, predictions, found, *workspace);
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(std::vector<double>{1, 1, 0, 0}, predictions, found, *workspace);
   EXPECT_EQ(status.kind(), Status::Kind::failed);
   EXPECT_THAT(status.reason(), HasSubstr("no differences by 'a' at 1: test 't': a must be 1"));
 }
@@ -113,13 +113,15 @@ TEST_P(Host, TurnsWhatAPluginDoesIntoAFailureThatSaysWhere) {
   fakes::set_behaviour(GetParam().behaviour);
   double objective = 17;
   std::vector<double> per_test(1);
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.evaluate(std::vector<double>{1, 1, 0}, objective, per_test, {}, {}, *workspace);
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status =
+      assembly.evaluator().evaluate(std::vector<double>{1, 1, 0}, objective, per_test, {}, {}, *workspace);
   EXPECT_EQ(status.kind(), Status::Kind::failed);
   EXPECT_EQ(objective, 17);
   for (const std::string& part : GetParam().says) EXPECT_THAT(status.reason(), HasSubstr(part));
   fakes::set_behaviour({});
-  EXPECT_TRUE(assembly.evaluate(std::vector<double>{1, 1, 0}, objective, per_test, {}, {}, *workspace).ok());
+  EXPECT_TRUE(
+      assembly.evaluator().evaluate(std::vector<double>{1, 1, 0}, objective, per_test, {}, {}, *workspace).ok());
 }
 
 const std::vector<Misbehaviour> misbehaviours = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/calibration_problem.hpp"
+#include "search/calibration_problem.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -16,11 +16,11 @@
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
-using calibration::CalibrationProblem;
+using assembly::Assembly;
 using fakes::Bench;
 using fakes::Line;
 using fakes::Recording;
+using search::CalibrationProblem;
 using testing::HasSubstr;
 
 /// y = 1 + x measured; the objective at (a, b, c) has its zero at (1, 1, 0).
@@ -65,7 +65,7 @@ TEST_F(ProblemOnALine, RefusesEverythingAfterTheBudgetWithoutCounting) {
   std::vector<Status> statuses(8);
   problem.evaluate_batch(xs, objectives, statuses);
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_reason(), "max_evaluations");
+  EXPECT_EQ(problem.stop_sentence(), "max_evaluations");
   EXPECT_EQ(problem.evaluations(), 5u);
   EXPECT_EQ(problem.budget(), 0u);
   EXPECT_TRUE(statuses[4].ok());
@@ -91,7 +91,7 @@ TEST_F(ProblemOnALine, StopsAtItsTarget) {
   EXPECT_FALSE(problem.should_stop());
   EXPECT_TRUE(problem.evaluate(std::vector<double>{0.1, 0.5, 0.5}, objective).ok());
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_reason(), "target");
+  EXPECT_EQ(problem.stop_sentence(), "target");
 }
 
 TEST_F(ProblemOnALine, StopsWhenItStalls) {
@@ -103,7 +103,7 @@ TEST_F(ProblemOnALine, StopsWhenItStalls) {
   for (const double a : {0.5, 0.4, 0.6, 0.3, 0.3, 0.3, 0.3}) {
     static_cast<void>(problem.evaluate(std::vector<double>{a, 0.5, 0.5}, objective));
   }
-  EXPECT_EQ(problem.stop_reason(), "stall");
+  EXPECT_EQ(problem.stop_sentence(), "stall");
   EXPECT_EQ(problem.evaluations(), 7u);
   EXPECT_EQ(problem.best().index, 3u);
 }
@@ -121,7 +121,7 @@ TEST_F(ProblemOnALine, StopsOnTheClockAndOnRequest) {
   EXPECT_FALSE(problem.should_stop());
   pressed = true;
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_reason(), "interrupted");
+  EXPECT_EQ(problem.stop_sentence(), "interrupted");
 }
 
 TEST_F(ProblemOnALine, LinearisesInTheUnitBox) {
@@ -245,7 +245,7 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
     s.on_failure = experiment::OnFailure::stop;
     CalibrationProblem problem(assembly, s);
     static_cast<void>(problem.evaluate(bad, objective));
-    EXPECT_EQ(problem.stop_reason(), "failure: test 't': a is too large");
+    EXPECT_EQ(problem.stop_sentence(), "failure: test 't': a is too large");
   }
   {
     auto s = settings();
@@ -256,7 +256,7 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
       EXPECT_FALSE(problem.should_stop());
       static_cast<void>(problem.evaluate(bad, objective));
     }
-    EXPECT_THAT(problem.stop_reason(), HasSubstr("failure rate: 51 of 100 evaluations failed"));
+    EXPECT_THAT(problem.stop_sentence(), HasSubstr("failure rate: 51 of 100 evaluations failed"));
   }
   {
     CalibrationProblem problem(assembly, settings());
@@ -265,7 +265,7 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
     std::vector<Status> statuses(250);
     problem.evaluate_batch(xs, objectives, statuses);
     EXPECT_THAT(
-        problem.stop_reason(),
+        problem.stop_sentence(),
         HasSubstr("nothing succeeded in the first 200 evaluations; the first failure: test 't': a is too large"));
   }
 }
@@ -290,7 +290,7 @@ TEST_F(ProblemOnALine, RetriesFromTheNearestGoodPoint) {
   EXPECT_NEAR(recording_.lines[1].parameters[0], 7, 1e-12);
   solved = 100;
   const Status status = problem.evaluate(std::vector<double>{0.9, 0.5, 0.5}, objective);
-  EXPECT_THAT(status.reason(), HasSubstr("also on the way from the nearest good point"));
+  EXPECT_THAT(status.reason(), HasSubstr("steps from the nearest good point"));
   EXPECT_NEAR(recording_.lines[2].parameters[0], 9, 1e-12);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/quality.hpp"
+#include "assembly/quality.hpp"
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 TEST(Agreement, IsMeasuredAsTheLiteratureDoes) {
   const std::vector<double> e{1, 2, 3, 6}, p{1, 3, 3, 5};
-  const auto found = calibration::agreement(e, p);
+  const auto found = assembly::agreement(e, p);
   EXPECT_EQ(found.rows, 4u);
   EXPECT_NEAR(found.rmse, std::sqrt(0.5), 1e-15);
   EXPECT_NEAR(*found.r2, 1 - 2.0 / 14, 1e-15);
@@ -21,9 +21,9 @@ TEST(Agreement, IsMeasuredAsTheLiteratureDoes) {
 
 TEST(Agreement, LeavesOutWhatConstantOrZeroDataCannotSay) {
   const std::vector<double> constant{2, 2}, zero{0, 0}, p{1, 3};
-  EXPECT_FALSE(calibration::agreement(constant, p).r2);
-  EXPECT_TRUE(calibration::agreement(constant, p).nmad);
-  EXPECT_FALSE(calibration::agreement(zero, zero).nmad);
+  EXPECT_FALSE(assembly::agreement(constant, p).r2);
+  EXPECT_TRUE(assembly::agreement(constant, p).nmad);
+  EXPECT_FALSE(assembly::agreement(zero, zero).nmad);
 }
 
 TEST(Quality, KeepsHeldOutRowsApart) {
@@ -32,10 +32,10 @@ TEST(Quality, KeepsHeldOutRowsApart) {
   entry.hold_out.rows = {3, {}, 1};
   bench.add_test("u", {0, 1}, {1, 2}).hold_out.all = true;
   const auto assembly = bench.assemble();
-  std::vector<double> predictions(assembly.prediction_count());
-  const auto workspace = assembly.make_workspace();
-  ASSERT_TRUE(assembly.predict(std::vector<double>{1, 1, 0}, predictions, {}, *workspace).ok());
-  const auto found = calibration::quality(assembly, predictions);
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  const auto workspace = assembly.evaluator().make_workspace();
+  ASSERT_TRUE(assembly.evaluator().predict(std::vector<double>{1, 1, 0}, predictions, {}, *workspace).ok());
+  const auto found = assembly::quality(assembly, predictions);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].fitted->rmse, 0);
   EXPECT_EQ(found[0].held_out->rows, 1u);

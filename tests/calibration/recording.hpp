@@ -26,8 +26,8 @@ inline void PrintTo(const Line& line, std::ostream* out) { *out << '#' << line.i
 
 struct Recording {
   std::vector<Line> lines;
-  std::function<void(const calibration::Record&)> recorder() {
-    return [this](const calibration::Record& record) {
+  std::function<void(const search::Record&)> recorder() {
+    return [this](const search::Record& record) {
       lines.push_back({record.index,
                        {record.parameters.begin(), record.parameters.end()},
                        {record.per_test.begin(), record.per_test.end()},
@@ -37,8 +37,8 @@ struct Recording {
     };
   }
   /// A journal of the first `count` lines.
-  [[nodiscard]] calibration::Replay replay(std::size_t count) const {
-    return [lines = lines, count](std::uint64_t index, calibration::Replayed& entry) {
+  [[nodiscard]] search::Replay replay(std::size_t count) const {
+    return [lines = lines, count](std::uint64_t index, search::JournalEntry& entry) {
       if (index >= count) return false;
       const Line& line = lines.at(index);
       entry = {line.parameters, line.per_test, line.objective,

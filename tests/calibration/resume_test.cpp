@@ -5,15 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calibration/calibration_problem.hpp"
 #include "calibration/recording.hpp"
+#include "search/calibration_problem.hpp"
 
 namespace tunica {
 namespace {
 
-using calibration::CalibrationProblem;
 using fakes::Bench;
 using fakes::Recording;
+using search::CalibrationProblem;
 using testing::HasSubstr;
 
 class Resuming : public testing::Test {
@@ -31,10 +31,11 @@ class Resuming : public testing::Test {
     static_cast<void>(problem.linearise(std::vector<double>{0.6, 0.5, 0.5}, objective, residuals, jacobian));
   }
 
-  Recording record(const calibration::Replay& replay, double shift = 0) {
+  Recording record(const search::Replay& replay, double shift = 0) {
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.record = recording.recorder(), settings.replay = replay;
+    settings.record = recording.recorder();
+    settings.replay = replay;
     CalibrationProblem problem(assembly_ ? *assembly_ : assembly_.emplace(bench_.experiment, bench_.run, bench_.shelf),
                                settings);
     search(problem, shift);
@@ -42,7 +43,7 @@ class Resuming : public testing::Test {
   }
 
   Bench bench_;
-  std::optional<calibration::Assembly> assembly_;
+  std::optional<assembly::Assembly> assembly_;
 };
 
 TEST_F(Resuming, TakesKnownEvaluationsFromTheJournal) {
@@ -90,16 +91,18 @@ TEST_F(Resuming, RefusesAJournalOfAnotherShape) {
 }
 
 TEST_F(Resuming, NumbersALaterStageOn) {
-  const calibration::Assembly assembly = bench_.assemble();
+  const assembly::Assembly assembly = bench_.assemble();
   Recording recording;
   CalibrationProblem::Settings settings;
-  settings.record = recording.recorder(), settings.first_index = 40, settings.stop.max_evaluations = 5;
+  settings.record = recording.recorder();
+  settings.first_index = 40;
+  settings.stop.max_evaluations = 5;
   CalibrationProblem problem(assembly, settings);
   search(problem);
   EXPECT_EQ(recording.lines.front().index, 40u);
   EXPECT_EQ(recording.lines.back().index, 44u);
   EXPECT_GE(problem.best().index, 40u);
-  EXPECT_EQ(problem.stop_reason(), "max_evaluations") << "the budget is the stage's own";
+  EXPECT_EQ(problem.stop_sentence(), "max_evaluations") << "the budget is the stage's own";
 }
 
 }  // namespace

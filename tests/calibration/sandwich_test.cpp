@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 
 #include "calibration/fakes.hpp"
-#include "calibration/identifiability.hpp"
+#include "uncertainty/identifiability.hpp"
 
 namespace tunica {
 namespace {
@@ -27,7 +27,8 @@ struct Lines {
       test.weights = {name[0] == 't' ? second_weight : 1.0};
       test.data.noise = {{"y", {absolute, relative, 0}}};
       for (std::size_t i = 0; i < count; ++i) {
-        abscissae.push_back(x[i]), measured.push_back(y[i]);
+        abscissae.push_back(x[i]);
+        measured.push_back(y[i]);
         sd.push_back(std::hypot(absolute, relative * y[i]));
         const double range = y.back() - y.front(), rows = static_cast<double>(count);
         const double scale =
@@ -46,10 +47,10 @@ struct Lines {
     const Matrix GW = G.transpose() * Eigen::Map<const Vector>(weight.data(), n).asDiagonal();
     return (GW * G).inverse() * GW;
   }
-  [[nodiscard]] std::vector<calibration::ParameterInterval> intervals() const {
-    calibration::Identifiability found;
+  [[nodiscard]] std::vector<uncertainty::ParameterInterval> intervals() const {
+    uncertainty::Identifiability found;
     const auto assembly = bench.assemble();
-    const Status status = calibration::identify(assembly, std::vector<double>{2, 3}, found);
+    const Status status = uncertainty::identify(assembly, std::vector<double>{2, 3}, found);
     EXPECT_TRUE(status.ok()) << status.reason();
     return found.parameters;
   }

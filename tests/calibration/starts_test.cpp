@@ -9,17 +9,17 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include "calibration/calibration_problem.hpp"
 #include "calibration/recording.hpp"
+#include "search/calibration_problem.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica {
 namespace {
 
-using calibration::CalibrationProblem;
 using fakes::Bench;
 using fakes::Line;
 using fakes::Recording;
+using search::CalibrationProblem;
 using testing::HasSubstr;
 
 /// A search of its own: `steps` random points around the best so far, singly, in batches and with residuals. What it
@@ -66,26 +66,31 @@ class StartsOnALine : public testing::Test {
     });
   }
 
-  Outcome run(std::size_t threads, const experiment::Stop& stop, const calibration::Replay& replay = {}) {
+  Outcome run(std::size_t threads, const experiment::Stop& stop, const search::Replay& replay = {}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const calibration::Assembly assembly = bench_.assemble();
+    const assembly::Assembly assembly = bench_.assemble();
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.stop = stop, settings.seed = 11, settings.record = recording.recorder(), settings.replay = replay;
+    settings.stop = stop;
+    settings.seed = 11;
+    settings.record = recording.recorder();
+    settings.replay = replay;
     CalibrationProblem problem(assembly, settings);
     wander(problem, 2);
     problem.for_each_start(20, [](std::size_t k, Problem& child) { wander(child, 5 + static_cast<int>(k % 4) * 5); });
     wander(problem, 3);
-    return {recording.lines,           problem.stop_reason(),    problem.evaluations(),
+    return {recording.lines,           problem.stop_sentence(),  problem.evaluations(),
             problem.tally().jacobians, problem.tally().failures, problem.best().index};
   }
 
   /// The plain loop that parallel starts must reproduce: one start after the other on one problem.
   Outcome one_after_the_other(const experiment::Stop& stop) {
-    const calibration::Assembly assembly = bench_.assemble();
+    const assembly::Assembly assembly = bench_.assemble();
     Recording recording;
     CalibrationProblem::Settings settings;
-    settings.stop = stop, settings.seed = 11, settings.record = recording.recorder();
+    settings.stop = stop;
+    settings.seed = 11;
+    settings.record = recording.recorder();
     CalibrationProblem problem(assembly, settings);
     wander(problem, 2);
     for (std::size_t k = 0; k < 20 && !problem.should_stop(); ++k) {
@@ -93,7 +98,7 @@ class StartsOnALine : public testing::Test {
       wander(child, 5 + static_cast<int>(k % 4) * 5);
     }
     wander(problem, 3);
-    return {recording.lines,           problem.stop_reason(),    problem.evaluations(),
+    return {recording.lines,           problem.stop_sentence(),  problem.evaluations(),
             problem.tally().jacobians, problem.tally().failures, problem.best().index};
   }
 
@@ -195,7 +200,7 @@ TEST_F(StartsOnALine, SeeTheSameBodiesRunForAnyNumberOfThreads) {
   std::vector<std::vector<std::size_t>> visited;
   for (const std::size_t threads : {1u, 2u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const calibration::Assembly assembly = bench_.assemble();
+    const assembly::Assembly assembly = bench_.assemble();
     CalibrationProblem::Settings settings;
     settings.stop = budget(100);
     CalibrationProblem problem(assembly, settings);
@@ -216,16 +221,18 @@ TEST_F(StartsOnALine, SeeTheSameBodiesRunForAnyNumberOfThreads) {
 
 TEST_F(StartsOnALine, KeepAPrefixWhenInterrupted) {
   const Outcome whole = run(1, budget(100000));
-  const calibration::Assembly assembly = bench_.assemble();
+  const assembly::Assembly assembly = bench_.assemble();
   Recording recording;
   std::atomic<int> looks = 0;
   CalibrationProblem::Settings settings;
-  settings.stop = budget(100000), settings.seed = 11, settings.record = recording.recorder();
+  settings.stop = budget(100000);
+  settings.seed = 11;
+  settings.record = recording.recorder();
   settings.interrupted = [&] { return ++looks > 300; };
   CalibrationProblem problem(assembly, settings);
   wander(problem, 2);
   problem.for_each_start(20, [](std::size_t k, Problem& child) { wander(child, 5 + static_cast<int>(k % 4) * 5); });
-  EXPECT_EQ(problem.stop_reason(), "interrupted");
+  EXPECT_EQ(problem.stop_sentence(), "interrupted");
   ASSERT_LT(recording.lines.size(), whole.lines.size());
   EXPECT_TRUE(std::equal(recording.lines.begin(), recording.lines.end(), whole.lines.begin()));
   EXPECT_GT(recording.lines.size(), 10u);
@@ -234,9 +241,10 @@ TEST_F(StartsOnALine, KeepAPrefixWhenInterrupted) {
 TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
   constexpr std::uint64_t most = 1'000'000;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
-  const calibration::Assembly assembly = bench_.assemble();
+  const assembly::Assembly assembly = bench_.assemble();
   CalibrationProblem::Settings settings;
-  settings.stop = budget(most), settings.stop.target = 1e9;  // any point will do
+  settings.stop = budget(most);
+  settings.stop.target = 1e9;  // any point will do
   CalibrationProblem problem(assembly, settings);
   std::uint64_t wasted = 0;
   const std::size_t begun = problem.for_each_start(2, [&](std::size_t k, Problem& child) {
@@ -248,13 +256,13 @@ TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
     for (; !child.should_stop(); ++wasted) static_cast<void>(child.evaluate(fails, objective));
   });
   EXPECT_EQ(problem.evaluations(), 1u);
-  EXPECT_EQ(problem.stop_reason(), "target");
+  EXPECT_EQ(problem.stop_sentence(), "target");
   EXPECT_EQ(begun, 1u);
   EXPECT_LT(wasted, most);
 }
 
 TEST_F(StartsOnALine, NestOneAfterTheOther) {
-  const calibration::Assembly assembly = bench_.assemble();
+  const assembly::Assembly assembly = bench_.assemble();
   CalibrationProblem::Settings settings;
   settings.stop = budget(100000);
   CalibrationProblem problem(assembly, settings);

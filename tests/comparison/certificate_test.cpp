@@ -13,18 +13,33 @@
 
 using namespace tunica;
 using comparison::Certificate;
+using comparison::CertificateVerdict;
 using ::testing::HasSubstr;
 
 namespace {
 
 Certificate spotless() {
   Certificate certificate;
-  calibration::Neighbourhood around;
+  search::Neighbourhood around;
   around.objective = 66.1;
   around.lowest = {66.2, 1e-5, "mu", {}};
   certificate.fresh = {around, 0, true};
-  certificate.realisations = 100, certificate.agreeing = 97;
+  certificate.realisations = 100;
+  certificate.agreeing = 97;
   return certificate;
+}
+
+Certificate judged(Certificate certificate) {
+  comparison::judge(certificate);
+  return certificate;
+}
+
+std::string sentence(const Certificate& certificate) { return judged(certificate).sentence; }
+
+CertificateVerdict verdict(const Certificate& certificate) { return judged(certificate).verdict; }
+
+bool warns(const Certificate& certificate) {
+  return comparison::certificate_warning("m/walk", judged(certificate)).has_value();
 }
 
 /// A run that ended where it is told to.
@@ -35,9 +50,9 @@ struct Ended {
     execution::RealisationResult result;
     result.best.parameters = std::move(at);
     std::vector<double> per_test(1);
-    const auto workspace = plan->runs[0].assembly->make_workspace();
-    static_cast<void>(
-        plan->runs[0].assembly->evaluate(result.best.parameters, result.best.objective, per_test, {}, {}, *workspace));
+    const auto workspace = plan->runs[0].assembly->evaluator().make_workspace();
+    static_cast<void>(plan->runs[0].assembly->evaluator().evaluate(result.best.parameters, result.best.objective,
+                                                                   per_test, {}, {}, *workspace));
     result.trace = {{1, result.best.objective}};
     summary = comparison::summarise(*plan, {{{result}}}, {});
     written = comparison::result_json(summary, {});
@@ -51,8 +66,8 @@ struct Ended {
 }  // namespace
 
 TEST(Certificate, SaysInOneSentenceWhatSpeaksForTheOptimum) {
-  EXPECT_EQ(comparison::verdict(spotless()),
-            "re-evaluated identically in a fresh process; no better neighbour; 97 of 100 realisations agree; no bound "
+  EXPECT_EQ(sentence(spotless()),
+            "evaluated identically in a fresh process; no better neighbour; 97 of 100 realisations agree; no bound "
             "active");
 }
 
@@ -60,29 +75,52 @@ TEST(Certificate, SaysWhatSpeaksAgainstIt) {
   auto certificate = spotless();
   certificate.fresh->identical = false;
   certificate.fresh->difference = 1e-14;
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("equal to rounding: the objective differs by 1e-14;"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("its objective differs by rounding only (1e-14);"));
   certificate.fresh->difference = 0.5;
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("where THE OBJECTIVE DIFFERS by 0.5;"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("its objective differs by 0.5;"));
   auto& around = certificate.fresh->around;
   around.better = true;
   around.lowest->objective = 66.1 * (1 - 1e-5);
-  EXPECT_THAT(comparison::verdict(certificate),
-              HasSubstr("; a step of 1e-05 along mu lowers the objective by 0.001 %;"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("; a step of 1e-05 along mu lowers the objective by 0.001 %;"));
   around.lowest->objective = 66.1 * 0.99;
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; NOT AN OPTIMUM: a step of"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("; not an optimum: a step of"));
   around.lowest.reset();
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; no neighbour could be compared;"));
-  around.constraints = 80, around.active_constraints = 3;
+  EXPECT_THAT(sentence(certificate), HasSubstr("; no neighbour could be compared;"));
+  around.constraints = 80;
+  around.active_constraints = 3;
   certificate.at_bounds = {"k2", "theta"};
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; k2, theta at their bounds; 3 of 80 constraints active"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("; k2 and theta at their bounds; 3 of 80 constraints active"));
   around.status = Status::infeasible("unstable", 0.1);
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; it BREAKS A CONSTRAINT;"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("; it breaks a constraint;"));
   around.status = Status::failed("no root");
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("it FAILED in a fresh process: no root;"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("it failed in a fresh process: no root;"));
   certificate.fresh.reset();
   certificate.missing = "it ended with code 4";
-  EXPECT_THAT(comparison::verdict(certificate),
-              HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("not evaluated again in a fresh process (it ended with code 4)"));
+}
+
+TEST(Certificate, HasACodeForEveryFinding) {
+  auto certificate = spotless();
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::confirmed);
+  auto& around = certificate.fresh->around;
+  around.better = true;
+  around.lowest->objective = 66.1 * (1 - 1e-5);
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::better_neighbour);
+  around.lowest->objective = 66.1 * 0.99;
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::not_an_optimum);
+  certificate.ended_at_target = true;
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::ended_at_target);
+  around.better = false;
+  around.lowest.reset();
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::no_neighbours);
+  around.status = Status::infeasible("unstable", 0.1);
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::constraint_broken);
+  certificate.fresh->difference = 0.5;
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::objective_differs);
+  around.status = Status::failed("no root");
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::failed);
+  certificate.fresh.reset();
+  EXPECT_EQ(verdict(certificate), CertificateVerdict::not_checked);
 }
 
 TEST(Certificate, DoesNotBlameASearchForEndingAtItsTarget) {
@@ -90,28 +128,29 @@ TEST(Certificate, DoesNotBlameASearchForEndingAtItsTarget) {
   certificate.ended_at_target = true;
   certificate.fresh->around.better = true;
   certificate.fresh->around.lowest->objective = 66.1 * 0.9;
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("; stopped at its target, not at the optimum: a step of"));
-  EXPECT_FALSE(comparison::alarming(certificate));
+  EXPECT_THAT(sentence(certificate), HasSubstr("; stopped at its target, not at the optimum: a step of"));
+  EXPECT_FALSE(warns(certificate));
   certificate.ended_at_target = false;
-  EXPECT_TRUE(comparison::alarming(certificate));
+  EXPECT_TRUE(warns(certificate));
 }
 
 TEST(Certificate, AlarmsOfWhatIsNotTheOptimumThatItIsSaidToBe) {
   auto certificate = spotless();
-  EXPECT_FALSE(comparison::alarming(certificate));
+  EXPECT_FALSE(warns(certificate));
   certificate.fresh->difference = 0.5;
-  EXPECT_TRUE(comparison::alarming(certificate));
+  EXPECT_TRUE(warns(certificate));
   certificate.fresh->difference = 1e-12;
   auto& around = certificate.fresh->around;
-  around.better = true, around.lowest->objective = 66.1 * (1 - 1e-5);
-  EXPECT_FALSE(comparison::alarming(certificate));
+  around.better = true;
+  around.lowest->objective = 66.1 * (1 - 1e-5);
+  EXPECT_FALSE(warns(certificate));
   around.lowest->objective = 66.1 * (1 - 1e-2);
-  EXPECT_TRUE(comparison::alarming(certificate));
+  EXPECT_TRUE(warns(certificate));
   certificate = spotless();
   certificate.fresh->around.status = Status::failed("no root");
-  EXPECT_TRUE(comparison::alarming(certificate));
+  EXPECT_TRUE(warns(certificate));
   certificate.fresh.reset();
-  EXPECT_FALSE(comparison::alarming(certificate));
+  EXPECT_FALSE(warns(certificate));
 }
 
 TEST(Certificate, CountsRealisationsThatAgreeAndHowFarTheyAreApart) {
@@ -130,7 +169,7 @@ TEST(Certificate, CountsRealisationsThatAgreeAndHowFarTheyAreApart) {
   EXPECT_EQ(certificate.spread[0].max, 2.5);
   EXPECT_NEAR(certificate.spread[0].share, 0.05, 1e-12);
   EXPECT_EQ(certificate.spread[1].share, 0);
-  EXPECT_THAT(comparison::verdict(certificate), HasSubstr("2 of 4 realisations agree, a within 5 % of its range"));
+  EXPECT_THAT(sentence(certificate), HasSubstr("2 of 4 realisations agree, a within 5 % of its range"));
   // Searches that stopped at a target have no reason to agree any closer.
   Certificate stopped;
   comparison::add_agreement(*ended.plan->runs[0].assembly, result, 5.0, 5.5, stopped);
@@ -149,7 +188,7 @@ TEST(Certify, FindsTheRecordedObjectiveAgainAndNoBetterNeighbourOfTheOptimum) {
   EXPECT_TRUE(certificate.fresh->identical);
   EXPECT_FALSE(certificate.fresh->around.better);
   EXPECT_EQ(certificate.fresh->around.evaluated, 24u) << "three parameters and three directions, two steps, two signs";
-  EXPECT_THAT(certificate.verdict, HasSubstr("re-evaluated identically in a fresh process; no better neighbour"));
+  EXPECT_THAT(certificate.sentence, HasSubstr("evaluated identically in a fresh process; no better neighbour"));
 }
 
 TEST(Certify, FindsTheWayDownFromAPointThatIsNoOptimum) {
@@ -158,8 +197,10 @@ TEST(Certify, FindsTheWayDownFromAPointThatIsNoOptimum) {
   const auto& around = ended.summary.runs[0].certificate.fresh->around;
   EXPECT_TRUE(around.better);
   EXPECT_LT(around.lowest->objective, around.objective);
-  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("NOT AN OPTIMUM"));
-  EXPECT_THAT(ended.summary.warnings, ::testing::Contains(HasSubstr("m/walk: re-evaluated")));
+  EXPECT_EQ(ended.summary.runs[0].certificate.verdict, CertificateVerdict::not_an_optimum);
+  ASSERT_FALSE(ended.summary.warnings.empty());
+  EXPECT_EQ(ended.summary.warnings.back().kind, execution::WarningKind::not_an_optimum);
+  EXPECT_THAT(ended.summary.warnings.back().text(), HasSubstr("m/walk: evaluated"));
 }
 
 TEST(Certify, StatesADifferenceFromWhatWasRecorded) {
@@ -188,7 +229,7 @@ TEST(Certify, LeavesARunUncertifiedWhenTheAnswerIsMissing) {
   Ended ended({2, 1, 3});
   comparison::add_certificates("", "it was ended by signal 9", ended.summary);
   EXPECT_FALSE(ended.summary.runs[0].certificate.fresh);
-  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("(it was ended by signal 9)"));
+  EXPECT_THAT(ended.summary.runs[0].certificate.sentence, HasSubstr("(it was ended by signal 9)"));
   comparison::add_certificates("{\"runs\": []}", "", ended.summary);
-  EXPECT_THAT(ended.summary.runs[0].certificate.verdict, HasSubstr("there is no run 'm/walk'"));
+  EXPECT_THAT(ended.summary.runs[0].certificate.sentence, HasSubstr("there is no run 'm/walk'"));
 }

@@ -46,17 +46,22 @@ TEST(HoldOut, AnObservableThatIsOnlyFittedOrOnlyHeldOutIsNoTransfer) {
 
 TEST(HoldOut, WarnsOfWhatFitsBetterThanItPredicts) {
   const auto quality = tube();
-  EXPECT_EQ(transfer_warning("hgo/lm", quality),
-            "hgo/lm: FITS BETTER THAN IT PREDICTS: force is missed by 1.5 mN in sample and by 13.6 mN held out (root "
-            "mean square; worst above, R² -14.9)");
+  const auto warning = transfer_warning("hgo/lm", quality);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->kind, tunica::execution::WarningKind::predicts_worse);
+  EXPECT_EQ(warning->subjects, std::vector<std::string>{"force"});
+  EXPECT_EQ(warning->text(),
+            "hgo/lm: the run fits better than it predicts: its force error is 1.5 mN in sample and 13.6 mN held out "
+            "(root mean square; worst in above, R² -14.9)");
+  EXPECT_EQ(transfers(quality)[0].verdict, HoldOutVerdict::predicted);
+  EXPECT_EQ(transfers(quality)[1].verdict, HoldOutVerdict::worse_than_fitted);
 }
 
 TEST(HoldOut, IsSilentWherePredictionsAreAsGoodAsTheFitOrBothAreNearlyPerfect) {
-  EXPECT_EQ(transfer_warning("m", {channel("a", "force", false, 5, 1, 0.9), channel("b", "force", true, 5, 1.9, 0.8)}),
-            "");
-  EXPECT_EQ(transfer_warning(
-                "m", {channel("a", "force", false, 5, 1e-9, 1, 1e-9), channel("b", "force", true, 5, 1e-6, 1, 1e-6)}),
-            "");
+  EXPECT_FALSE(
+      transfer_warning("m", {channel("a", "force", false, 5, 1, 0.9), channel("b", "force", true, 5, 1.9, 0.8)}));
+  EXPECT_FALSE(transfer_warning(
+      "m", {channel("a", "force", false, 5, 1e-9, 1, 1e-9), channel("b", "force", true, 5, 1e-6, 1, 1e-6)}));
 }
 
 TEST(HoldOut, TheTableHasInSampleAndHeldOutSideBySide) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/ranking_table.hpp"
+#include "text/wrapping.hpp"
 
 #include <gmock/gmock.h>
 
 #include <sstream>
 
-#include "comparison/text.hpp"
-
 using namespace tunica::comparison;
 using ::testing::HasSubstr;
+using tunica::execution::WarningKind;
+using tunica::text::columns;
 
 namespace {
 
@@ -27,15 +28,15 @@ Estimate estimate(double value, std::optional<Interval> ci95, Estimate::Bound bo
 }  // namespace
 
 TEST(RankingTable, WritesValuesWithTheirUncertainty) {
-  EXPECT_EQ(value_text(estimate(22.3861, Interval{21.9, 22.8722})), "22.386 ± 0.49 kPa");
-  EXPECT_EQ(value_text(estimate(22.4, Interval{21.9, 25})), "22.4 kPa (21.9 … 25)");
-  EXPECT_EQ(value_text(estimate(22.4, {})), "22.4 kPa  (not fixed by the data)");
-  EXPECT_EQ(value_text(estimate(200, {}, Estimate::Bound::upper)), "200 kPa  <- AT ITS UPPER BOUND");
+  EXPECT_EQ(value_text(estimate(22.3861, Interval{21.9, 22.8722})).plain(), "22.386 ± 0.49 kPa");
+  EXPECT_EQ(value_text(estimate(22.4, Interval{21.9, 25})).plain(), "22.4 kPa (21.9 … 25)");
+  EXPECT_EQ(value_text(estimate(22.4, {})).plain(), "22.4 kPa  (not fixed by the data)");
+  EXPECT_EQ(value_text(estimate(200, {}, Estimate::Bound::upper)).plain(), "200 kPa  <- at its upper bound");
 }
 
 TEST(RankingTable, BeginsWithTheWarningsAndShowsRunsWithoutAResult) {
   Summary summary;
-  summary.warnings = {"something is odd"};
+  summary.warnings = {{WarningKind::set_up, "something is odd"}};
   RunSummary failed;
   failed.label = "gho/es";
   failed.group = "least_squares on circ";
@@ -44,9 +45,9 @@ TEST(RankingTable, BeginsWithTheWarningsAndShowsRunsWithoutAResult) {
   failed.realisations = 1;
   summary.runs.push_back(failed);
   summary.ranking.push_back({0, {}});
-  const auto text = ranking_table(summary);
-  EXPECT_EQ(text.find("WARNINGS\n  ! something is odd\n"), 0u);
-  EXPECT_THAT(text, HasSubstr("NO RESULT"));
+  const auto text = ranking_table(summary).plain();
+  EXPECT_EQ(text.find("Warnings\n  ! something is odd\n"), 0u);
+  EXPECT_THAT(text, HasSubstr("     no result: row 3"));
   EXPECT_THAT(text, HasSubstr("no result: row 3: no root"));
 }
 
@@ -62,16 +63,16 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   good.expected_running_time = 123456789;
   good.seconds = 123456;
   good.evaluations = 34567;
-  good.certificate.verdict = "no better neighbour";
+  good.certificate.sentence = "no better neighbour";
   RunSummary broken = good;
   broken.label = "b/es";
   broken.status = tunica::Status::infeasible("unstable at stretch 1.2", 0.3);
   summary.runs = {good, broken};
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
-  const auto text = ranking_table(summary);
+  const auto text = ranking_table(summary).plain();
   EXPECT_THAT(text, HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                 1.2346e-21   19/20 "
                               "1234567 1.23e+08   34567      0 123456      0\n"));
-  EXPECT_THAT(text, HasSubstr("12.3\n     NO FEASIBLE POINT, least violation 0.3: unstable at stretch 1.2\n"));
+  EXPECT_THAT(text, HasSubstr("12.3\n     no feasible point; least violation 0.3: unstable at stretch 1.2\n"));
   EXPECT_THAT(text, HasSubstr("ΔAICc"));
   EXPECT_THAT(text, HasSubstr("  optimum: no better neighbour\n"));
 }
@@ -81,18 +82,21 @@ TEST(RankingTable, SaysWhatEndedARunAndWhetherItsBestSearchHadConverged) {
   RunSummary run;
   run.label = "m/lm", run.group = "g", run.has_result = true, run.reason = "the reason";
   summary.ranking = {{0, 1, std::nullopt}};
-  const auto text = [&](bool converged, const std::string& stop) {
-    run.converged = converged, run.stop_reason = stop;
+  using tunica::search::StopReason;
+  const auto text = [&](bool converged, StopReason stop) {
+    run.converged = converged;
+    run.stopped_by = stop;
+    run.stop_sentence = stop == StopReason::none ? "" : "stall";
     summary.runs = {run};
-    return ranking_table(summary);
+    return ranking_table(summary).plain();
   };
-  EXPECT_THAT(text(true, ""), HasSubstr("m/lm  (converged: the reason)\n"));
-  EXPECT_THAT(text(false, ""), HasSubstr("m/lm  (not converged: the reason)\n"));
-  EXPECT_THAT(text(true, "stall"),
+  EXPECT_THAT(text(true, StopReason::none), HasSubstr("m/lm  (converged: the reason)\n"));
+  EXPECT_THAT(text(false, StopReason::none), HasSubstr("m/lm  (not converged: the reason)\n"));
+  EXPECT_THAT(text(true, StopReason::stall),
               HasSubstr("m/lm  (ended by stall; the search that found the best point had converged: the\n"));
-  EXPECT_THAT(text(false, "stall"),
+  EXPECT_THAT(text(false, StopReason::stall),
               HasSubstr("m/lm  (ended by stall; the search that found the best point had not converged:\n"));
-  EXPECT_THAT(text(true, "target"), HasSubstr("m/lm  (ended at its target)\n"));
+  EXPECT_THAT(text(true, StopReason::target), HasSubstr("m/lm  (ended at its target)\n"));
 }
 
 TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {
@@ -101,7 +105,7 @@ TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {
   run.label = "m/lm", run.group = "g", run.has_result = true, run.target = 0.25;
   summary.runs = {run, run};
   summary.ranking = {{0, 1, std::nullopt}, {1, 2, std::nullopt}};
-  EXPECT_THAT(ranking_table(summary), HasSubstr("Ranking by success, then ERT, at the target 0.25: g\n"));
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("Ranking by success, then ERT, at the target 0.25: g\n"));
 }
 
 TEST(RankingTable, GivesMeanAndDeviationOverRealisations) {
@@ -113,7 +117,7 @@ TEST(RankingTable, GivesMeanAndDeviationOverRealisations) {
   run.objectives = sample_statistics(std::vector<double>{1, 3});
   summary.runs = {run};
   summary.ranking = {{0, 1, std::nullopt}};
-  EXPECT_THAT(ranking_table(summary),
+  EXPECT_THAT(ranking_table(summary).plain(),
               HasSubstr("  over realisations: objective 2 ± 1.4, mu 22.5 ± 0.71 kPa (mean ± sd"));
 }
 
@@ -125,11 +129,11 @@ TEST(RankingTable, SaysNothingOfTheDataAtAPointThatIsNoFit) {
   run.parameters[0].assessed = false;
   summary.runs = {run};
   summary.ranking = {{0, 1, std::nullopt}};
-  EXPECT_THAT(ranking_table(summary), ::testing::Not(HasSubstr("not fixed by the data")));
+  EXPECT_THAT(ranking_table(summary).plain(), ::testing::Not(HasSubstr("not fixed by the data")));
   summary.runs[0].parameters[0].assessed = true;
-  EXPECT_THAT(ranking_table(summary), HasSubstr("(not fixed by the data)"));
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("(not fixed by the data)"));
   summary.runs[0].parameters[0].held = true;
-  EXPECT_THAT(ranking_table(summary), HasSubstr("(held by a constraint)"));
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("(held by a constraint)"));
 }
 
 TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
@@ -142,7 +146,7 @@ TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
   run.uncertainty = {"the profile of mu is open towards the upper bound"};
   summary.runs = {run};
   summary.ranking = {{0, 1, std::nullopt}};
-  const auto text = ranking_table(summary);
+  const auto text = ranking_table(summary).plain();
   EXPECT_THAT(text, HasSubstr("\n            profile (21.8 … open), bootstrap (21.7 … 23.1)\n"));
   EXPECT_THAT(text, HasSubstr("\n  - the profile of mu is open towards the upper bound\n"));
 }
@@ -150,7 +154,8 @@ TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
 TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   const std::string name(60, 'x');
   Summary summary;
-  summary.warnings = {name + " is odd in many ways, and this sentence says at length in which of them"};
+  summary.warnings = {
+      {WarningKind::set_up, name + " is odd in many ways, and this sentence says at length in which of them"}};
   RunSummary run;
   run.label = name + "/" + name;
   run.group = "least_squares on " + name + ", " + name;
@@ -162,7 +167,7 @@ TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   run.parameters[0].name = name + "." + name;
   run.quality.resize(1);
   run.quality[0].test = name, run.quality[0].channel = "transverse_stretch";
-  run.certificate.verdict = "no better neighbour " + name;
+  run.certificate.sentence = "no better neighbour " + name;
   run.stability.emplace();
   run.stability->imposed = "h(stretch), admissible";
   run.stability->ratio_to_free = 5.33;
@@ -176,7 +181,7 @@ TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   run.stability->models[0].verdict.domain.largest = 1.5;
   summary.runs = {run, run};
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
-  const auto text = ranking_table(summary);
+  const auto text = ranking_table(summary).plain();
   EXPECT_THAT(text, HasSubstr("1.250 circ")) << "the table of stability is missing";
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {

@@ -115,8 +115,8 @@ TEST(StudyTables, ListEveryRealisationWithItsParameters) {
   const Study study;
   const auto text = comparison::realisations_csv(*study.plan, study.results, study.summary);
   EXPECT_EQ(text.find("run,realisation,objective,a [kPa],b [kPa],c [kPa],evaluations,evaluations_to_target,status,"
-                      "ended_by,seconds [s],success\n"),
+                      "ended_by,seconds [s],success,stop_reason\n"),
             0u);
-  EXPECT_THAT(text, HasSubstr("\nm/walk,3,2,2,1,3,100,,ok,,0.25,0\n"));
-  EXPECT_THAT(text, HasSubstr("\nm/walk,4,1.0002,2,1,3,70,20,ok,,0.25,1\n"));
+  EXPECT_THAT(text, HasSubstr("\nm/walk,3,2,2,1,3,100,,ok,,0.25,0,\n"));
+  EXPECT_THAT(text, HasSubstr("\nm/walk,4,1.0002,2,1,3,70,20,ok,,0.25,1,\n"));
 }

@@ -23,7 +23,8 @@ struct Summarised {
     results[0].realisations = {realisation(1, {2.5, 1, 3}), realisation(2, {2, 1, 3})};
     execution::RealisationResult failed;
     failed.tally = {150, 0, 150, 0, "row 1: no root"};
-    failed.stop_reason = "nothing succeeded";
+    failed.stopped_by = search::StopReason::nothing_succeeded;
+    failed.stop_sentence = "nothing succeeded";
     results[1].realisations = {failed};
   }
 
@@ -34,8 +35,9 @@ struct Summarised {
     result.best.parameters = at;
     result.best.index = 10 * number;
     std::vector<double> per_test(1);
-    auto workspace = plan->runs[0].assembly->make_workspace();
-    static_cast<void>(plan->runs[0].assembly->evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
+    auto workspace = plan->runs[0].assembly->evaluator().make_workspace();
+    static_cast<void>(
+        plan->runs[0].assembly->evaluator().evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
     result.trace = {{2, 1e6}, {result.best.index + 1, result.best.objective}};
     result.tally = {100, 20, 4, 0, "row 2: overflow"};
     result.seconds = 0.5;
@@ -47,6 +49,12 @@ struct Summarised {
   std::optional<execution::Plan> plan;
   std::vector<execution::RunResult> results;
 };
+
+std::vector<std::string> sentences(const comparison::Summary& summary) {
+  std::vector<std::string> all;
+  for (const auto& warning : summary.warnings) all.push_back(warning.text());
+  return all;
+}
 
 }  // namespace
 
@@ -87,22 +95,33 @@ TEST(Summary, WarnsOfWhatNobodyShouldOverlook) {
   Summarised made;
   made.results[0].realisations = {made.realisation(1, {10, 1, 3})};
   made.results[0].realisations[0].best.objective *= 1.5;
-  const auto warnings = made.summarise().warnings;
-  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: a = 10 kPa IS AT ITS UPPER BOUND (10 kPa)")));
-  EXPECT_THAT(warnings, Contains(HasSubstr("where the search recorded")));
+  const auto summary = made.summarise();
+  const auto warnings = sentences(summary);
+  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: a = 10 kPa lies at its upper bound (10 kPa)")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("but the search recorded")));
   EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: 4 of 100 evaluations failed (4 %); the first: row 2: overflow")));
   EXPECT_THAT(warnings,
-              Contains(HasSubstr("m/compass: NO RESULT: all 150 evaluations failed; the first: row 1: no root")));
+              Contains(HasSubstr("m/compass: no result: all 150 evaluations failed; the first: row 1: no root")));
   EXPECT_THAT(warnings, Contains(HasSubstr("test curve: some rows are held out")));
   EXPECT_THAT(warnings, Contains("plugin x was refused"));
+  const auto named = [&](execution::WarningKind kind, const std::string& run,
+                         const std::vector<std::string>& subjects) {
+    return std::any_of(summary.warnings.begin(), summary.warnings.end(),
+                       [&](const auto& one) { return one.kind == kind && one.run == run && one.subjects == subjects; });
+  };
+  EXPECT_TRUE(named(execution::WarningKind::at_bound, "m/walk", {"a"}));
+  EXPECT_TRUE(named(execution::WarningKind::not_repeatable, "m/walk", {}));
+  EXPECT_TRUE(named(execution::WarningKind::no_result, "m/compass", {}));
+  EXPECT_TRUE(named(execution::WarningKind::held_out, "", {"curve"}));
+  EXPECT_TRUE(named(execution::WarningKind::plugin_refused, "", {}));
 }
 
 TEST(Summary, TellsTheMostFrequentReasonsOfFailures) {
   Summarised made;
   made.results[0].realisations[0].tally.reasons = {{"a", 1}, {"b", 3}, {"c", 2}};
   made.results[0].realisations[1].tally.reasons = {{"d", 1}, {"c", 9}};
-  EXPECT_THAT(made.summarise().warnings,
-              Contains(HasSubstr("; 11 times: c; 3 times: b; 1 times: a; and other reasons")));
+  EXPECT_THAT(sentences(made.summarise()),
+              Contains(HasSubstr("; 11 times: c; 3 times: b; 1 time: a; and other reasons")));
 }
 
 TEST(FitTable, ShowsMeasuredPredictedAndWhatWasHeldOut) {

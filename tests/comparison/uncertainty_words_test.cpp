@@ -6,7 +6,7 @@
 #include "execution/laboratory.hpp"
 
 using namespace tunica;
-using calibration::Profile;
+using uncertainty::Profile;
 using Kind = Profile::End::Kind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -20,11 +20,14 @@ struct Words {
     laboratory.add_run("walk");
     plan.emplace(laboratory.plan());
     comparison::Estimate estimate;
-    estimate.name = "a", estimate.value = 2, estimate.min = 0, estimate.max = 10;
+    estimate.name = "a";
+    estimate.value = 2;
+    estimate.max = 10;
     estimate.ci95 = {1, 3};
     summary.parameters.assign(3, estimate);
     profile.threshold = 3.84;
-    profile.lower = {Kind::crossed, 1.1}, profile.upper = {Kind::crossed, 2.9};
+    profile.lower = {Kind::crossed, 1.1};
+    profile.upper = {Kind::crossed, 2.9};
   }
   std::vector<std::string> said(experiment::ObjectiveType objective = experiment::ObjectiveType::least_squares) {
     summary.uncertainty.clear();
@@ -49,7 +52,7 @@ TEST(ProfileWords, NameOpenEndsAndDisagreement) {
   words.profile.upper = {Kind::open, 10};
   EXPECT_THAT(words.said(),
               ElementsAre("the profile of a is open towards the upper bound: the data do not limit it there",
-                          HasSubstr("a: the profile (1.1 … open) and the linearised interval (1 … 3) DISAGREE")));
+                          HasSubstr("a: the profile (1.1 … open) and the linearised interval (1 … 3) disagree")));
   words.summary.parameters[0].ci95 = {1, 10};
   words.profile.lower.value = 1;
   EXPECT_THAT(words.said(), ElementsAre(HasSubstr("open towards the upper bound")))
@@ -70,7 +73,7 @@ TEST(ProfileWords, SayWhereRefitsFailedAndWhereTheCentreWasNoOptimum) {
   words.profile.lowest = -0.5;
   words.summary.parameters[0].ci95.reset();
   EXPECT_THAT(words.said(), ElementsAre(HasSubstr("ends at 1.1, before the lower bound: beyond it no refit succeeded"),
-                                        HasSubstr("came to a MORE LIKELY point (-2 ln L lower by 0.5)")));
+                                        HasSubstr("found a more likely point (-2 ln L lower by 0.5)")));
 }
 
 TEST(ProfileWords, SayThatAnotherObjectiveHasAnotherOptimum) {
@@ -79,9 +82,26 @@ TEST(ProfileWords, SayThatAnotherObjectiveHasAnotherOptimum) {
               ElementsAre(HasSubstr("the run minimised sum_of_norms")));
 }
 
+TEST(LinearisedWords, AdviseAProfileOrTakeTheOneThatIsThere) {
+  Words words;
+  words.summary.uncertainty = {"later"};
+  comparison::add_linearised_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, ElementsAre("later")) << "all intervals are straight";
+  words.summary.parameters[0].straight = false;
+  comparison::add_linearised_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty,
+              ElementsAre("the linearised interval of a may be far off: the likelihood is not quadratic over this "
+                          "interval, or a bound cuts it off; --profiles a gives a better one",
+                          "later"));
+  words.summary.uncertainty.clear();
+  words.summary.parameters[0].profile = comparison::ProfileInterval{1, 3};
+  comparison::add_linearised_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, ElementsAre(HasSubstr("cuts it off; take the profile")));
+}
+
 TEST(BootstrapWords, CountFailuresAndNameCorrelatedResiduals) {
   Words words;
-  calibration::Bootstrap bootstrap;
+  uncertainty::Bootstrap bootstrap;
   bootstrap.draws.resize(200);
   bootstrap.failures = 3;
   bootstrap.blocks = {7};
@@ -90,7 +110,7 @@ TEST(BootstrapWords, CountFailuresAndNameCorrelatedResiduals) {
   EXPECT_EQ(words.summary.bootstrap->failed, 3u);
   EXPECT_THAT(words.summary.uncertainty,
               ElementsAre("3 of 200 bootstrap draws could not be fitted and are left out",
-                          HasSubstr("neighbouring residuals of curve, y are correlated (0.64): the bootstrap drew "
+                          HasSubstr("neighbouring residuals of curve, y are correlated (0.64), so the bootstrap drew "
                                     "blocks of 7 rows")));
   words.summary.uncertainty.clear();
   comparison::add_bootstrap_words(*words.plan->runs[0].assembly, {}, words.summary);

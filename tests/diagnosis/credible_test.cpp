@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnosis/credible.hpp"
+#include "diagnosis/naming/credible.hpp"
 
 namespace tunica::diagnosis {
 namespace {

@@ -189,9 +189,10 @@ TEST(Diagnose, RefusesWhatLeavesNothingToJudgeBy) {
   for (const Strip& strip : held_out.strips) held_out.experiment["tests"][strip.name]["hold_out"] = true;
   EXPECT_THAT(refused(held_out), HasSubstr("held out"));
   const Measured short_one({{.stretch = {1.1, 1.2, 1.3}}});
-  EXPECT_THAT(refused(short_one),
-              HasSubstr("diagnosis: 3 parameters are fitted to 3 rows, which leaves nothing to judge by; fix "
-                        "parameters or give more rows"));
+  EXPECT_THAT(
+      refused(short_one),
+      HasSubstr("diagnosis: 3 parameters are fitted to 3 rows, which leaves nothing to test the model with. Fix "
+                "parameters or give more rows"));
 }
 
 TEST(Diagnose, WarnsOfNoiseThatItHadToEstimate) {
@@ -232,7 +233,7 @@ TEST(DiagnoseBatch, RefusesAFolderThatIsNotThere) {
   const Measured measured;
   const Ended ended = tunica(measured, {"diagnose", "--batch", "nowhere"});
   EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("--batch nowhere: no such folder; name one that holds folders with an "
+  EXPECT_THAT(ended.err, HasSubstr("--batch nowhere: no such folder. Name one that holds folders with an "
                                    "experiment.json each"));
 }
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "diagnosis/measured.hpp"
-#include "diagnosis/outputs.hpp"
+#include "diagnosis/output/outputs.hpp"
 
 namespace tunica::trial {
 namespace {
@@ -25,10 +25,10 @@ TEST(GrossRows, AWrongRowIsSuspectData) {
     return strip.name == "axial" && std::abs(stretch - 1.3) < 0.01 ? 3.0 : 0;
   });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::suspect_data);
-  EXPECT_EQ(found.causes[0].id, "outliers");
-  EXPECT_EQ(found.causes[0].target.row, 14u);
-  EXPECT_EQ(found.causes[0].target.tests, std::vector<std::string>{"axial"});
+  ASSERT_EQ(found.explanation.verdict, Verdict::suspect_data);
+  EXPECT_EQ(found.explanation.claim.causes[0].id, "outliers");
+  EXPECT_EQ(found.explanation.claim.causes[0].place.row, 14u);
+  EXPECT_EQ(found.explanation.claim.causes[0].place.tests, std::vector<std::string>{"axial"});
   const json written = diagnosis::diagnosis_json(found);
   EXPECT_EQ(written["causes"][0]["id"], "outliers");
   EXPECT_EQ(written["causes"][0]["target"]["row"], 14);
@@ -44,10 +44,10 @@ TEST(GrossRows, AWrongRowIsSuspectDataWhereOutliersAreNotAskedFor) {
     return strip.name == "axial" && std::abs(stretch - 1.3) < 0.01 ? 4.0 : 0;
   });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::suspect_data);
-  EXPECT_THAT(found.reasons.front(), HasSubstr("nothing is wrong but row 14"));
-  EXPECT_TRUE(found.causes.empty());
-  EXPECT_FALSE(found.extension);
+  ASSERT_EQ(found.explanation.verdict, Verdict::suspect_data);
+  EXPECT_THAT(found.explanation.reasons.front().text, HasSubstr("nothing is wrong but row 14"));
+  EXPECT_TRUE(found.explanation.claim.causes.empty());
+  EXPECT_FALSE(found.explanation.claim.best);
 }
 
 // Twenty standard deviations of a noise that is estimated: without that row, which would make it four times as large.
@@ -61,10 +61,10 @@ TEST(GrossRows, AWrongRowIsNoNoise) {
       });
   for (auto& test : measured.experiment["tests"]) test["data"].erase("noise");
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.gross.size(), 1u);
-  EXPECT_EQ(found.gross.front().row, 14u);
-  EXPECT_THAT(found.gross.front().where, HasSubstr("measured "));
-  for (const auto& source : found.noise)
+  ASSERT_EQ(found.analysis.evidence.gross.size(), 1u);
+  EXPECT_EQ(found.analysis.evidence.gross.front().row, 14u);
+  EXPECT_THAT(found.analysis.evidence.gross.front().where, HasSubstr("measured "));
+  for (const auto& source : found.analysis.evidence.noise)
     EXPECT_NEAR(source.noise.absolute, 0.3, 4 * 0.3 / std::sqrt(2 * source.freedom)) << source.test;
   // In the table it is as far off as it is.
   diagnosis::write_tables(measured.folder.path(), found);
@@ -89,10 +89,10 @@ TEST(GrossRows, AWrongRowBesideACauseIsNamedWithIt) {
         return strip.name == "circumferential" && std::abs(stretch - 1.3) < 0.01 ? 6.0 : 0;
       });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::named);
-  ASSERT_EQ(found.left_out.size(), 1u);
-  const auto& row = found.left_out.front();
-  EXPECT_EQ(row.target.row, 14u);
+  ASSERT_EQ(found.explanation.verdict, Verdict::named);
+  ASSERT_EQ(found.explanation.left_out.size(), 1u);
+  const auto& row = found.explanation.left_out.front();
+  EXPECT_EQ(row.place.row, 14u);
   // The noise of the row itself, and an interval of 95 % twice: false alarm 1e-4.
   EXPECT_NEAR(row.amplitude.value, 6, row.amplitude.high - row.amplitude.low);
   EXPECT_NEAR(row.amplitude.high - row.amplitude.low, 2 * 1.96 * 0.3, 1e-3);
@@ -118,12 +118,12 @@ TEST(GrossRows, OfTwoWrongRowsTheOneThatIsNotInTheExtensionIsTold) {
     return strip.name == "axial" && (first || second) ? first ? 6.0 : -5.0 : 0;
   });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::suspect_data);
-  ASSERT_TRUE(found.extension);
-  EXPECT_EQ(found.extension->additions.size(), 1u);
-  EXPECT_LT(found.p_after, 1e-4);
-  EXPECT_THAT(found.warnings, Contains(AllOf(HasSubstr("extended.json takes out one gross row of a test"),
-                                             HasSubstr("of axial, stress; strike them out of the data file"))));
+  ASSERT_EQ(found.explanation.verdict, Verdict::suspect_data);
+  ASSERT_TRUE(found.explanation.claim.best);
+  EXPECT_EQ(found.explanation.claim.best->additions.size(), 1u);
+  EXPECT_LT(found.explanation.p_after, 1e-4);
+  EXPECT_THAT(warning_texts(found), Contains(AllOf(HasSubstr("extended.json takes out one gross row of a test"),
+                                                   HasSubstr("of axial, stress. Remove them from the data file"))));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/least_squares.hpp"
+#include "diagnosis/evidence/least_squares.hpp"
 
 #include <gmock/gmock.h>
 
@@ -14,15 +14,15 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
-std::vector<Variable> each_alone(const calibration::Assembly& assembly) {
+std::vector<Variable> each_alone(const assembly::Assembly& assembly) {
   std::vector<Variable> variables;
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) variables.push_back({j});
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) variables.push_back({j});
   return variables;
 }
 
-Fit fit(const calibration::Assembly& assembly, const std::vector<Variable>& variables, const std::vector<double>& start,
+Fit fit(const assembly::Assembly& assembly, const std::vector<Variable>& variables, const std::vector<double>& start,
         const Rows& rows = {}) {
-  Fit found = least_squares(assembly, variables, start, *assembly.make_workspace(), 200, rows);
+  Fit found = least_squares(assembly, variables, start, *assembly.evaluator().make_workspace(), 200, rows);
   EXPECT_TRUE(found.status.ok()) << found.status.reason();
   return found;
 }
@@ -48,7 +48,7 @@ Fit of_exact_strips(const std::vector<double>& start) {
   exact.measure(1);
   auto experiment = exact.read();
   for (auto& test : experiment.tests) test.data.noise = {{"stress", {0.3, 0, 0}}};
-  const calibration::Assembly assembly(experiment, experiment.runs.front(), testing::catalogue());
+  const assembly::Assembly assembly(experiment, experiment.runs.front(), testing::catalogue());
   return fit(assembly, each_alone(assembly), start);
 }
 
@@ -112,10 +112,10 @@ TEST(LeastSquares, FindsWhatAModelWithHistoryRemembers) {
   Parabola bench;
   bench.model().mechanisms = {{"memory", {}, {}}};
   auto assembly = bench.assemble();
-  std::vector<double> seen(assembly.prediction_count());
-  ASSERT_TRUE(assembly.predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.make_workspace()).ok());
-  const auto workspace = assembly.make_workspace();
-  assembly.measure(seen, *workspace);
+  std::vector<double> seen(assembly.layout().prediction_count);
+  ASSERT_TRUE(assembly.evaluator().predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.evaluator().make_workspace()).ok());
+  const auto workspace = assembly.evaluator().make_workspace();
+  assembly.evaluator().measure(seen, *workspace);
   const Fit found = least_squares(assembly, each_alone(assembly), std::vector<double>{2, 1, 0, 0.1}, *workspace, 200);
   EXPECT_LT(found.chi2, 1e-3);
   EXPECT_NEAR(found.free[3], 0.4, 0.02);
@@ -170,7 +170,7 @@ TEST(LeastSquares, TellsWhyNothingCouldBeEvaluated) {
   const auto assembly = bench.assemble();
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("a torn strip"); });
   const Fit found =
-      least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0}, *assembly.make_workspace());
+      least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0}, *assembly.evaluator().make_workspace());
   EXPECT_FALSE(found.status.ok());
   EXPECT_THAT(found.status.reason(), ::testing::HasSubstr("a torn strip"));
 }

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::trial {
@@ -55,12 +55,12 @@ void Measured::measure(std::uint64_t seed, const Hide& hide, const Add& add) con
   json truth = experiment;
   if (hide) hide(truth);
   const auto read = experiment::read_experiment(folder.write("truth.json", truth.dump(2)), testing::catalogue());
-  const calibration::Assembly assembly(read, read.runs.front(), testing::catalogue());
-  std::vector<double> free(assembly.parameters().size()), exact(assembly.prediction_count());
-  assembly.from_unit(assembly.initial_unit(), free);
-  if (const Status status = assembly.predict(free, exact, {}, *assembly.make_workspace()); !status.ok())
+  const assembly::Assembly assembly(read, read.runs.front(), testing::catalogue());
+  std::vector<double> free(assembly.layout().parameters.size()), exact(assembly.layout().prediction_count);
+  assembly.box().from_unit(assembly.box().initial(), free);
+  if (const Status status = assembly.evaluator().predict(free, exact, {}, *assembly.evaluator().make_workspace()); !status.ok())
     throw std::runtime_error(status.reason());
-  for (const auto& view : assembly.channels())
+  for (const auto& view : assembly.layout().channels)
     for (const Strip& strip : strips) {
       if (strip.name != view.test) continue;
       std::mt19937_64 generator(derive_seed(seed, strip.name));
@@ -79,9 +79,15 @@ experiment::Experiment Measured::read() const {
 
 diagnosis::Diagnosis Measured::diagnose(bool quick) const {
   const experiment::Experiment own = read();
-  diagnosis::Settings settings = diagnosis::settings_of(own);
-  settings.quick = quick;
-  return diagnosis::diagnose(own, settings, testing::catalogue());
+  diagnosis::Request request = diagnosis::request_of(own);
+  request.quick = quick;
+  return diagnosis::diagnose(own, request, testing::catalogue());
+}
+
+std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found) {
+  std::vector<std::string> texts;
+  for (const diagnosis::Warning& warning : found.warnings()) texts.push_back(warning.text);
+  return texts;
 }
 
 json mechanism(const std::string& type, const std::string& parameter, double value, json more) {

@@ -49,6 +49,9 @@ class Measured {
   void write(const Strip& strip, const std::vector<double>& stress) const;
 };
 
+/// The sentences of its warnings.
+std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found);
+
 /// {"type": type, "parameters": {name: {"initial": value}}}, and more keys.
 nlohmann::json mechanism(const std::string& type, const std::string& parameter, double value,
                          nlohmann::json more = nlohmann::json::object());

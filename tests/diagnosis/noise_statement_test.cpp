@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/noise_statement.hpp"
+#include "diagnosis/evidence/noise_statement.hpp"
 
 #include <gmock/gmock.h>
 
@@ -42,7 +42,7 @@ struct Replicated : fakes::Bench {
       }
     }
   }
-  NoiseSource stated() { return state_noise(experiment, run.tests, shelf).front(); }
+  NoiseSource stated() { return noise_sources(experiment, run.tests, shelf).front(); }
 };
 
 TEST(NoiseStatement, KeepsWhatTheFileStates) {
@@ -119,7 +119,7 @@ TEST(NoiseStatement, RefusesIdenticalReplicates) {
 
 TEST(NoiseStatement, LeavesTestsOfOtherRunsAlone) {
   Replicated bench({0.5}, 3, 6);
-  EXPECT_TRUE(state_noise(bench.experiment, {}, bench.shelf).empty());
+  EXPECT_TRUE(noise_sources(bench.experiment, {}, bench.shelf).empty());
   EXPECT_TRUE(bench.experiment.tests[0].data.noise.empty());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/detection.hpp"
+#include "diagnosis/detection/detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,8 @@
 #include <random>
 
 #include <Eigen/QR>
+
+#include "diagnosis/detection/noise_draws.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -47,8 +49,8 @@ struct Linear {
     curve.test = "t", curve.channel = "y", curve.count = rows, curve.noise.freedom = freedom;
     for (Eigen::Index i = 0; i < rows; ++i) curve.abscissa.push_back(static_cast<double>(i) / (rows - 1));
     curves = {curve};
-    detection.emplace(projection, directions, candidates.size(), smooth_shapes(curves, rows),
-                      noise_draws(curves, rows, 10000, 1));
+    detector.emplace(projection, directions, candidates.size(), smooth_shapes(curves, rows),
+                     noise_draws(curves, rows, 10000, 1));
   }
   Linear(const Linear&) = delete;
   Linear& operator=(const Linear&) = delete;
@@ -71,7 +73,7 @@ struct Linear {
                                                            along([](double u) { return std::sin(70 * u); })})};
   std::vector<Direction> directions = diagnosis::directions(candidates, projection);
   std::vector<Curve> curves;
-  std::optional<Detection> detection;
+  std::optional<Detector> detector;
 };
 
 TEST(Projection, LeavesWhatIsOrthogonalToEveryColumn) {
@@ -137,14 +139,14 @@ TEST(Scores, SeeNothingOnTheSideAMechanismCannotGoTo) {
 
 // Draws of seed 1 calibrate, 2000 others of seed 77 are judged. Two-sample Kolmogorov–Smirnov bound at 1e-3, for each
 // of three p-values: false alarm below 3e-3.
-TEST(Detection, HasUniformPValuesWhereThereIsNothingToFind) {
+TEST(Detector, HasUniformPValuesWhereThereIsNothingToFind) {
   const Linear linear;
   std::mt19937_64 generator(77);
   constexpr std::size_t count = 2000;
   std::vector<double> together, smooth, mechanisms;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto verdict = linear.detection->judge(linear.noise(generator));
-    together.push_back(verdict.p), smooth.push_back(verdict.smooth), mechanisms.push_back(verdict.mechanisms);
+    const auto detection = linear.detector->test(linear.noise(generator));
+    together.push_back(detection.p), smooth.push_back(detection.smooth), mechanisms.push_back(detection.mechanisms);
   }
   for (auto* p : {&together, &smooth, &mechanisms}) {
     std::sort(p->begin(), p->end());
@@ -157,63 +159,63 @@ TEST(Detection, HasUniformPValuesWhereThereIsNothingToFind) {
 
 // 2000 sets, seed 78: the share of p ≤ 0.05 within four binomial standard deviations, 0.02, and what 10 000 draws leave
 // open, 0.005, for five candidates: false alarm 5e-4.
-TEST(Detection, CountsTheHypothesesOfACandidate) {
+TEST(Detector, CountsTheHypothesesOfACandidate) {
   const Linear linear;
   std::mt19937_64 generator(78);
   std::vector<int> alarms(linear.candidates.size());
   constexpr int count = 2000;
   for (int k = 0; k < count; ++k) {
-    const auto verdict = linear.detection->judge(linear.noise(generator));
-    for (std::size_t c = 0; c < alarms.size(); ++c) alarms[c] += verdict.by_candidate[c] <= 0.05;
+    const auto detection = linear.detector->test(linear.noise(generator));
+    for (std::size_t c = 0; c < alarms.size(); ++c) alarms[c] += detection.by_candidate[c] <= 0.05;
   }
   for (const int n : alarms) EXPECT_NEAR(static_cast<double>(n) / count, 0.05, 0.025);
 }
 
-TEST(Detection, FindsWhatIsThereAndSaysWhich) {
+TEST(Detector, FindsWhatIsThereAndSaysWhich) {
   const Linear linear;
   std::mt19937_64 generator(79);
   const Direction& hidden = linear.directions[1];
-  const auto verdict = linear.detection->judge(linear.noise(generator) + 8 * hidden.unit);
-  EXPECT_LT(verdict.p, 1e-4);
-  const auto smallest = std::min_element(verdict.by_candidate.begin(), verdict.by_candidate.end());
-  EXPECT_EQ(smallest - verdict.by_candidate.begin(), 1);
-  EXPECT_EQ(verdict.direction[1], 1u);
+  const auto detection = linear.detector->test(linear.noise(generator) + 8 * hidden.unit);
+  EXPECT_LT(detection.p, 1e-4);
+  const auto smallest = std::min_element(detection.by_candidate.begin(), detection.by_candidate.end());
+  EXPECT_EQ(smallest - detection.by_candidate.begin(), 1);
+  EXPECT_EQ(detection.direction[1], 1u);
 }
 
-TEST(Detection, AlarmsJustAboveTheThresholdAndNotBelow) {
+TEST(Detector, AlarmsJustAboveTheThresholdAndNotBelow) {
   const Linear linear;
   const Direction& rough = linear.directions.back();  // nearly orthogonal to the smooth shapes and the others
   for (const double alpha : {0.01, 0.05, 0.2}) {
-    const double T = linear.detection->threshold(rough.candidate, alpha);
-    EXPECT_LE(linear.detection->judge(std::sqrt(1.05 * T) * rough.unit).p, alpha);
-    EXPECT_GT(linear.detection->judge(std::sqrt(0.95 * T) * rough.unit).p, alpha);
+    const double T = linear.detector->threshold(rough.candidate, alpha);
+    EXPECT_LE(linear.detector->test(std::sqrt(1.05 * T) * rough.unit).p, alpha);
+    EXPECT_GT(linear.detector->test(std::sqrt(0.95 * T) * rough.unit).p, alpha);
   }
 }
 
 // σ estimated with 12 degrees of freedom. 2000 sets, seed 80: the share of alarms at 5 % is below 7 % but for 3e-5. As
 // if σ were known, the same sets would raise more than 10 %.
-TEST(Detection, AllowsForNoiseThatIsOnlyEstimated) {
+TEST(Detector, AllowsForNoiseThatIsOnlyEstimated) {
   const Linear known, estimated(12);
   std::mt19937_64 generator(80);
   int alarms = 0, blind = 0;
   constexpr int count = 2000;
   for (int k = 0; k < count; ++k) {
     const Eigen::VectorXd r = estimated.noise(generator, 12);
-    alarms += estimated.detection->judge(r).p <= 0.05, blind += known.detection->judge(r).p <= 0.05;
+    alarms += estimated.detector->test(r).p <= 0.05, blind += known.detector->test(r).p <= 0.05;
   }
   EXPECT_LT(alarms, 0.07 * count);
   EXPECT_GT(alarms, 0.03 * count);
   EXPECT_GT(blind, 0.10 * count);
 }
 
-TEST(Detection, HasNothingToSayWithoutMechanismsAndShapes) {
+TEST(Detector, HasNothingToSayWithoutMechanismsAndShapes) {
   const Projection projection(base_jacobian());
   const std::vector<Direction> none;
   const std::vector<Curve> curves;
-  const Detection detection(projection, none, 2, smooth_shapes(curves, rows), noise_draws(curves, rows, 100, 1));
-  const auto verdict = detection.judge(along([](double u) { return 9 * u; }));
-  EXPECT_EQ(verdict.p, 1);
-  EXPECT_EQ(verdict.by_candidate, std::vector<double>(2, 1.0));
+  const Detector detector(projection, none, 2, smooth_shapes(curves, rows), noise_draws(curves, rows, 100, 1));
+  const auto detection = detector.test(along([](double u) { return 9 * u; }));
+  EXPECT_EQ(detection.p, 1);
+  EXPECT_EQ(detection.by_candidate, std::vector<double>(2, 1.0));
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/base_fit.hpp"
-#include "diagnosis/causes.hpp"
+#include "diagnosis/evidence/evidence.hpp"
+#include "diagnosis/hypotheses/candidates.hpp"
+#include "diagnosis/hypotheses/extension.hpp"
 #include "measured.hpp"
 #include "support/loaded.hpp"
 
@@ -37,25 +38,24 @@ TEST(Signatures, OfTheWholeCatalogueAreTheSlopesOfWhatTheExtensionPredicts) {
   const auto& catalogue = testing::catalogue();
   const auto experiment =
       experiment::read_experiment(TUNICA_SOURCE_DIR "/examples/hidden_effect/experiment.json", catalogue);
-  Diagnosis d;
-  d.settings = settings_of(experiment);
-  prepare(d, experiment, catalogue);
-  fit_base(d, catalogue);
+  const Request request = request_of(experiment);
+  const Progress silent;
+  const Inquiry inquiry{experiment, request, catalogue, silent};
+  const Evidence evidence = evidence_of(inquiry, {});
   // At rest fibres begin to pull: a kink, of which either slope is right.
   std::vector<Eigen::Index> smooth;
-  for (const Curve& curve : d.curves)
+  for (const Curve& curve : evidence.curves)
     for (Eigen::Index i = 0; i < curve.count; ++i)
       if (curve.abscissa[static_cast<std::size_t>(i)] != 1) smooth.push_back(curve.first + i);
-  const Projection projection(interior(d.fit));
+  const Projection projection(interior(evidence.fit));
   std::set<std::string> seen;
-  for (const Candidate& candidate :
-       candidates(d.experiment, d.run, d.settings, *d.base, d.fit.free, projection, catalogue))
+  for (const Candidate& candidate : candidates(inquiry, evidence, projection))
     for (const Hypothesis& hypothesis : candidate.hypotheses) {
-      if (hypothesis.at_large || hypothesis.addition.target.row) continue;
-      const Extended extended(d.experiment, d.run, {hypothesis.addition}, catalogue);
-      const auto workspace = extended.assembly().make_workspace();
+      if (hypothesis.at_large || hypothesis.addition.place.row) continue;
+      const Extension extended(evidence.experiment, evidence.run, {hypothesis.addition}, catalogue);
+      const auto workspace = extended.assembly().evaluator().make_workspace();
       const auto predicted = [&](double amplitude) {
-        std::vector<double> free = extended.at_null(d.fit.free);
+        std::vector<double> free = extended.at_null(evidence.fit.free);
         for (const std::size_t member : extended.parts().front().amplitude)
           free[member] = extended.parts().front().null + amplitude;
         Eigen::VectorXd values;
@@ -77,7 +77,7 @@ TEST(Signatures, OfTheWholeCatalogueAreTheSlopesOfWhatTheExtensionPredicts) {
         const Eigen::VectorXd expected = sign * slope(predicted, predicted(0), h, even ? 2 : 1);
         off = std::min(off, (hypothesis.signature - expected)(smooth).norm() / hypothesis.signature.norm());
       }
-      EXPECT_LT(off, 1e-6) << candidate.id << ' ' << hypothesis.addition.target.words();
+      EXPECT_LT(off, 1e-6) << candidate.id << ' ' << hypothesis.addition.place.words();
       seen.insert(candidate.id);
     }
   // Those that leave a trace there: all but what tubes without layers, or strips, cannot show.

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "comparison/text.hpp"
+#include "text/wrapping.hpp"
 #include "diagnosis/measured.hpp"
-#include "diagnosis/outputs.hpp"
+#include "diagnosis/output/outputs.hpp"
 
 namespace tunica::trial {
 namespace {
@@ -23,7 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 const diagnosis::Detectable& detectable(const Diagnosis& found, const std::string& id) {
-  for (const auto& entry : found.detectable)
+  for (const auto& entry : found.prospects.detectable)
     if (entry.id == id) return entry;
   throw std::runtime_error("no " + id);
 }
@@ -37,13 +37,13 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
   const Measured measured;
   measured.measure(31);
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::nothing_detected);
-  EXPECT_THAT(found.reasons.front(), HasSubstr("what is left over could be noise (p = "));
-  EXPECT_TRUE(found.causes.empty());
-  EXPECT_TRUE(found.ranking.empty());
-  EXPECT_FALSE(found.extension);
-  ASSERT_EQ(found.detectable.size(), testing::catalogue().mechanisms().size());
-  for (const auto& entry : found.detectable)
+  ASSERT_EQ(found.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_THAT(found.explanation.reasons.front().text, HasSubstr("the residuals could be noise (p = "));
+  EXPECT_TRUE(found.explanation.claim.causes.empty());
+  EXPECT_TRUE(found.explanation.ranking.empty());
+  EXPECT_FALSE(found.explanation.claim.best);
+  ASSERT_EQ(found.prospects.detectable.size(), testing::catalogue().mechanisms().size());
+  for (const auto& entry : found.prospects.detectable)
     EXPECT_EQ(entry.absent.empty(), std::isfinite(entry.detectable)) << entry.id << ": " << entry.absent;
   EXPECT_EQ(detectable(found, "viscoelasticity").absent, "the data have no time");
   EXPECT_EQ(detectable(found, "pressure_offset").absent, "no test that it applies to");
@@ -54,12 +54,12 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
 
 TEST(Verdict, DoubtsAmplitudesOfCausesAndRivals) {
   Diagnosis found;
-  found.verdict = Verdict::indistinguishable, found.named = 1;
-  found.ambiguity_set = {"first", "second"};
-  found.causes = {diagnosis::Cause(), diagnosis::Cause()};
-  found.causes[0].id = "first", found.causes[1].id = "second";
-  found.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
-  found.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
+  found.explanation.verdict = Verdict::indistinguishable, found.explanation.claim.named = 1;
+  found.explanation.claim.ambiguity_set = {"first", "second"};
+  found.explanation.claim.causes = {diagnosis::Cause(), diagnosis::Cause()};
+  found.explanation.claim.causes[0].id = "first", found.explanation.claim.causes[1].id = "second";
+  found.explanation.claim.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
+  found.explanation.claim.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
   const std::string words = in_one_line(diagnosis::summary(found));
   EXPECT_THAT(words, HasSubstr("value = 3 kPa (2 … 4), at its bound; probability 0.00"));
   EXPECT_THAT(words, HasSubstr("second (0.00, beyond what is plausible)"));
@@ -70,17 +70,17 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   measured.measure(31);
   Diagnosis found = measured.diagnose();
   const std::string name(50, 'x');
-  found.verdict = Verdict::indistinguishable;
-  found.ambiguity_set = {name, name, name};
-  found.misfit.resize(2);
-  for (auto& misfit : found.misfit)
+  found.explanation.verdict = Verdict::indistinguishable;
+  found.explanation.claim.ambiguity_set = {name, name, name};
+  found.explanation.misfit.resize(2);
+  for (auto& misfit : found.explanation.misfit)
     misfit.test = name, misfit.channel = "stress", misfit.where = "rows 3 to 18 " + name;
-  found.alternatives = {{name, name}, {name, name}};
-  found.causes.resize(2);
-  for (auto& cause : found.causes) cause.id = name;
+  found.explanation.claim.alternatives = {{name, name}, {name, name}};
+  found.explanation.claim.causes.resize(2);
+  for (auto& cause : found.explanation.claim.causes) cause.id = name;
   std::istringstream stream(diagnosis::summary(found));
   int lines = 0;
-  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(comparison::columns(line), 80u) << line;
+  for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(text::columns(line), 80u) << line;
   EXPECT_GT(lines, 8);
   EXPECT_LE(lines, 25) << "names of 50 characters take a line each";
 }
@@ -108,7 +108,7 @@ TEST(Verdict, WhatIsSaidToBeDetectableIsFound) {
     measured.measure(seed, [least](json& truth) {
       truth["tests"]["circumferential"]["mechanisms"] = {mechanism("force_offset", "value", 1.5 * least)};
     });
-    alarms += measured.diagnose().detection.p <= 0.05;
+    alarms += measured.diagnose().analysis.alarm.detection.p <= 0.05;
   }
   EXPECT_GE(alarms, 9);
 }
@@ -135,8 +135,8 @@ TEST(Verdict, AChannelOfWeightZeroTakesNoPart) {
   measured.experiment["tests"]["axial"]["weight"] = 0;
   measured.measure(31);
   const Diagnosis found = measured.diagnose();
-  EXPECT_EQ(found.fit.residuals.size(), 30);
-  EXPECT_THAT(json(found.warnings).dump(), HasSubstr("test 'axial': stress of weight 0 takes no part"));
+  EXPECT_EQ(found.analysis.evidence.fit.residuals.size(), 30);
+  EXPECT_THAT(json(warning_texts(found)).dump(), HasSubstr("test 'axial': stress has weight 0 and takes no part"));
 }
 
 // A wall with crimped fibres, and an offset of the load cell. The base fit ends at theta = 0, where two families are
@@ -153,26 +153,27 @@ TEST(Verdict, ARefitLeavesTheBoundThatTheEffectDroveTheBaseFitTo) {
     truth["tests"]["axial"]["mechanisms"] = {mechanism("force_offset", "value", 1.5)};
   });
   const Diagnosis found = measured.diagnose();
-  const auto theta = [](const calibration::Assembly& assembly, const std::vector<double>& free) {
+  const auto theta = [](const assembly::Assembly& assembly, const std::vector<double>& free) {
     for (std::size_t j = 0; j < free.size(); ++j)
-      if (assembly.parameters()[j].name == "theta") return free[j];
+      if (assembly.layout().parameters[j].name == "theta") return free[j];
     return std::nan("");
   };
-  ASSERT_NEAR(theta(*found.base, found.fit.free), 0, 1e-3);
-  ASSERT_TRUE(found.extension);
+  ASSERT_NEAR(theta(*found.analysis.evidence.base, found.analysis.evidence.fit.free), 0, 1e-3);
+  ASSERT_TRUE(found.explanation.claim.best);
   // Four times the 0.7° that a fit of the true pair has on such data: 6e-5.
-  EXPECT_NEAR(theta(found.extension->extended->assembly(), found.extension->fit.free), 40, 2.8);
-  EXPECT_THAT(found.ambiguity_set, Contains("fibre_recruitment"));
+  EXPECT_NEAR(theta(found.explanation.claim.best->extension->assembly(), found.explanation.claim.best->fit.free), 40,
+              2.8);
+  EXPECT_THAT(found.explanation.claim.ambiguity_set, Contains("fibre_recruitment"));
 }
 
 // Ten times as much noise is stated as there is. P(|r|² of 30 rows < 10) under the noise it has: 1e-4.
 TEST(Verdict, NoiseThatIsStatedTooLargeIsToldOf) {
   Measured measured;
   measured.measure(42);
-  EXPECT_THAT(measured.diagnose().warnings, ::testing::IsEmpty());
+  EXPECT_THAT(warning_texts(measured.diagnose()), ::testing::IsEmpty());
   measured.experiment["tests"]["axial"]["data"]["noise"]["absolute"] = 3;
-  EXPECT_THAT(measured.diagnose().warnings,
-              ::testing::ElementsAre(AllOf(HasSubstr("residuals are smaller than their noise"),
+  EXPECT_THAT(warning_texts(measured.diagnose()),
+              ::testing::ElementsAre(AllOf(HasSubstr("the residuals are smaller than the stated noise implies"),
                                            HasSubstr(": axial, stress (0."), HasSubstr("That σ is too large"))));
 }
 
@@ -180,19 +181,19 @@ TEST(Verdict, ConstraintsOfTheRunAreSaidNotToBind) {
   Measured measured;
   measured.measure(43);
   measured.experiment["runs"][0]["constraints"] = {{{"type", "transverse_stability"}}};
-  EXPECT_THAT(measured.diagnose().warnings,
-              Contains(HasSubstr("the constraints of the run (transverse_stability) do not bind")));
+  EXPECT_THAT(warning_texts(measured.diagnose()),
+              Contains(HasSubstr("the constraints of the run (transverse_stability) do not apply")));
 }
 
 TEST(Verdict, TheAlarmStandsUpToTheNoiseThatItSays) {
   Measured measured;
   measured.measure(44, offset_of_the_axial_strip);
-  const auto factor = measured.diagnose().alarm_factor;
+  const auto factor = measured.diagnose().analysis.alarm.factor;
   ASSERT_TRUE(factor);
   const auto verdict_with = [&](double times) {
     for (const Strip& strip : measured.strips)
       measured.experiment["tests"][strip.name]["data"]["noise"]["absolute"] = times * strip.sd;
-    return measured.diagnose().verdict;
+    return measured.diagnose().explanation.verdict;
   };
   EXPECT_NE(verdict_with(0.98 * *factor), Verdict::nothing_detected);
   EXPECT_EQ(verdict_with(1.08 * *factor), Verdict::nothing_detected);
@@ -206,7 +207,7 @@ TEST(Verdict, AmplitudesThatCouldHideHaveTheUnitOfTheirChannelAndStandAroundThei
   EXPECT_EQ(detectable(found, "fibre_recruitment").null, 1);
   const std::string words = in_one_line(diagnosis::summary(found));
   EXPECT_THAT(words, HasSubstr("May hide: "));
-  for (const auto& entry : found.detectable) {
+  for (const auto& entry : found.prospects.detectable) {
     const bool beyond = entry.absent.empty() && entry.detectable >= entry.reach;
     EXPECT_EQ(words.find(entry.id + " at any plausible amplitude") != std::string::npos, beyond) << entry.id;
   }
@@ -218,22 +219,22 @@ TEST(Verdict, AMechanismOfTheMaterialIsNamedWithItsAmplitude) {
   measured.measure(35,
                    [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::named);
-  EXPECT_EQ(found.ambiguity_set, std::vector<std::string>{"axial_fibres"});
-  const auto& cause = found.causes[0];
+  ASSERT_EQ(found.explanation.verdict, Verdict::named);
+  EXPECT_EQ(found.explanation.claim.ambiguity_set, std::vector<std::string>{"axial_fibres"});
+  const auto& cause = found.explanation.claim.causes[0];
   EXPECT_GT(cause.probability, 0.95);
-  EXPECT_TRUE(cause.target.tests.empty());
+  EXPECT_TRUE(cause.place.tests.empty());
   // Twice the interval of 95 %: false alarm 1e-4.
   EXPECT_NEAR(cause.amplitude.value, 1.5, cause.amplitude.high - cause.amplitude.low);
   EXPECT_EQ(cause.shifts.size(), 3u);
-  EXPECT_GT(found.p_after, 0.01);
-  ASSERT_FALSE(found.misfit.empty());
+  EXPECT_GT(found.explanation.p_after, 0.01);
+  ASSERT_FALSE(found.explanation.misfit.empty());
   // The rows of a window of a fifth of the curve at least, of which half may be beyond its end.
-  const std::string& where = found.misfit.front().where;
-  EXPECT_GE(std::stoi(where.substr(where.find("in the mean of ") + 15)), 4) << where;
-  ASSERT_TRUE(found.gain);
-  EXPECT_LT(found.gain->after, found.gain->before);
-  EXPECT_THAT(found.gain->held_out, Not(::testing::IsEmpty()));
+  const std::string& where = found.explanation.misfit.front().where;
+  EXPECT_GE(std::stoi(where.substr(where.find("on average over ") + 16)), 4) << where;
+  ASSERT_TRUE(found.prospects.gain);
+  EXPECT_LT(found.prospects.gain->after, found.prospects.gain->before);
+  EXPECT_THAT(found.prospects.gain->held_out, Not(::testing::IsEmpty()));
 }
 
 // Of twelve seeds with three blocks or more each 5 % fall below 0.05; eight or more do with probability 1e-3.
@@ -244,8 +245,8 @@ TEST(Verdict, BlocksThatWereLeftOutAgreeWithTheRightExtension) {
     measured.measure(seed,
                      [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
     const Diagnosis found = measured.diagnose();
-    ASSERT_TRUE(found.gain);
-    for (const auto& block : found.gain->held_out) ++blocks, rejected += block.p_value < 0.05;
+    ASSERT_TRUE(found.prospects.gain);
+    for (const auto& block : found.prospects.gain->held_out) ++blocks, rejected += block.p_value < 0.05;
   }
   EXPECT_GE(blocks, 24);
   EXPECT_LE(rejected, 7);
@@ -261,9 +262,9 @@ TEST(Verdict, ABlockThatDisagreesWithTheOthersIsToldByItsPValue) {
         return strip.name == "circumferential" ? 0.9 * std::sin(30 * stretch) : 0;
       });
   const Diagnosis found = measured.diagnose();
-  ASSERT_TRUE(found.gain);
+  ASSERT_TRUE(found.prospects.gain);
   double p = 1;
-  for (const auto& block : found.gain->held_out)
+  for (const auto& block : found.prospects.gain->held_out)
     if (block.block == "test circumferential") p = block.p_value;
   EXPECT_LT(p, 1e-6);
 }
@@ -275,9 +276,9 @@ TEST(Verdict, TwoThatOnlyTogetherExplainAnUnlistedEffectAreNotNamed) {
     return strip.name == "axial" ? 1.5 * std::exp(-std::pow((stretch - 1.3) / 0.15, 2)) : 0;
   });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::indistinguishable);
-  EXPECT_TRUE(found.unlisted);
-  EXPECT_GE(found.named, 2u);
+  ASSERT_EQ(found.explanation.verdict, Verdict::indistinguishable);
+  EXPECT_TRUE(found.explanation.unlisted);
+  EXPECT_GE(found.explanation.claim.named, 2u);
   EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("an effect that the catalogue does not list"));
   EXPECT_EQ(diagnosis::diagnosis_json(found)["unlisted"], true);
 }
@@ -288,10 +289,11 @@ TEST(Verdict, LookAlikesCountAsOneExplanation) {
   measured.measure(
       38, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("matrix_stiffening", "b", 0.05)}; });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.verdict, Verdict::indistinguishable) << diagnosis::summary(found);
-  ASSERT_FALSE(found.look_alikes.empty());
-  EXPECT_THAT(found.look_alikes.front(), ::testing::IsSupersetOf({"matrix_stiffening", "chain_extensibility"}));
-  EXPECT_LE(found.look_alikes.size(), 4u);
+  ASSERT_EQ(found.explanation.verdict, Verdict::indistinguishable) << diagnosis::summary(found);
+  ASSERT_FALSE(found.explanation.claim.look_alikes.empty());
+  EXPECT_THAT(found.explanation.claim.look_alikes.front(),
+              ::testing::IsSupersetOf({"matrix_stiffening", "chain_extensibility"}));
+  EXPECT_LE(found.explanation.claim.look_alikes.size(), 4u);
   EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("much the same here)"));
 }
 
@@ -302,11 +304,11 @@ TEST(Verdict, AModelWithoutFreeParametersIsDiagnosedAsWell) {
   measured.measure(40, offset_of_the_axial_strip);
   for (const bool quick : {true, false}) {
     const Diagnosis found = measured.diagnose(quick);
-    ASSERT_FALSE(found.causes.empty());
-    EXPECT_EQ(found.causes[0].id, "force_offset");
-    EXPECT_TRUE(found.causes[0].shifts.empty());
+    ASSERT_FALSE(found.explanation.claim.causes.empty());
+    EXPECT_EQ(found.explanation.claim.causes[0].id, "force_offset");
+    EXPECT_TRUE(found.explanation.claim.causes[0].shifts.empty());
     // Five standard errors of an offset of 30 rows with 0.3 kPa: false alarm 1e-6.
-    EXPECT_NEAR(found.causes[0].amplitude.value, 2, 5 * 0.3 / std::sqrt(30.0));
+    EXPECT_NEAR(found.explanation.claim.causes[0].amplitude.value, 2, 5 * 0.3 / std::sqrt(30.0));
   }
 }
 
@@ -324,13 +326,13 @@ TEST(Verdict, TheLevelOfTheFileDecides) {
       37, [](json& truth) { truth["tests"]["axial"]["mechanisms"] = {mechanism("force_offset", "value", 0.2)}; });
   measured.experiment["diagnosis"]["alpha"] = 0.0001;
   const Diagnosis strict = measured.diagnose();
-  EXPECT_EQ(strict.verdict, Verdict::nothing_detected);
-  EXPECT_EQ(strict.settings.alpha, 0.0001);
+  EXPECT_EQ(strict.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_EQ(strict.request.alpha, 0.0001);
   measured.experiment["diagnosis"]["alpha"] = 0.3;
   const Diagnosis lax = measured.diagnose();
-  EXPECT_NE(lax.verdict, Verdict::nothing_detected);
-  EXPECT_EQ(lax.detection.p, strict.detection.p);
-  EXPECT_GT(lax.detection.p, 0.0001);
+  EXPECT_NE(lax.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_EQ(lax.analysis.alarm.detection.p, strict.analysis.alarm.detection.p);
+  EXPECT_GT(lax.analysis.alarm.detection.p, 0.0001);
   EXPECT_LT(detectable(lax, "force_offset").detectable, detectable(strict, "force_offset").detectable);
 }
 
@@ -340,17 +342,17 @@ TEST(Verdict, AMeasurementErrorWithAPriorExplainsWhatItCan) {
   Measured measured;
   measured.measure(38, offset_of_the_axial_strip);
   const Diagnosis unaware = measured.diagnose();
-  EXPECT_NE(unaware.verdict, Verdict::nothing_detected);
-  EXPECT_THAT(unaware.ambiguity_set, Contains("force_offset"));
+  EXPECT_NE(unaware.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_THAT(unaware.explanation.claim.ambiguity_set, Contains("force_offset"));
   json& error = measured.experiment["tests"]["axial"]["mechanisms"];
   error = {mechanism("force_offset", "value", 0)};
   error[0]["parameters"]["value"]["prior"] = {{"mean", 0}, {"sd", 2}};
-  EXPECT_EQ(measured.diagnose().verdict, Verdict::nothing_detected);
+  EXPECT_EQ(measured.diagnose().explanation.verdict, Verdict::nothing_detected);
   // Known to 0.05 kPa, the load cell is out of question.
   error[0]["parameters"]["value"]["prior"]["sd"] = 0.05;
   const Diagnosis sure = measured.diagnose();
-  EXPECT_NE(sure.verdict, Verdict::nothing_detected);
-  EXPECT_LT(sure.fit.free.back(), 0.5);
+  EXPECT_NE(sure.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_LT(sure.analysis.evidence.fit.free.back(), 0.5);
 }
 
 TEST(Verdict, AMaterialCauseComesFirstForWhatAMeasurementErrorWithAPriorCannotExplain) {
@@ -364,10 +366,10 @@ TEST(Verdict, AMaterialCauseComesFirstForWhatAMeasurementErrorWithAPriorCannotEx
   });
   const Diagnosis found = measured.diagnose();
   // What a fit of the fibres leaves of so large an effect is often taken for a second one: the verdict is not asked.
-  ASSERT_FALSE(found.causes.empty());
-  EXPECT_EQ(found.causes[0].id, "axial_fibres");
-  ASSERT_EQ(found.causes[0].shifts.size(), 4u);
-  const auto& offset = found.causes[0].shifts.back();
+  ASSERT_FALSE(found.explanation.claim.causes.empty());
+  EXPECT_EQ(found.explanation.claim.causes[0].id, "axial_fibres");
+  ASSERT_EQ(found.explanation.claim.causes[0].shifts.size(), 4u);
+  const auto& offset = found.explanation.claim.causes[0].shifts.back();
   EXPECT_EQ(offset.name, "axial.force_offset.value");
   EXPECT_NEAR(offset.after, 2, 1);
 }

@@ -74,7 +74,7 @@ TEST(Scorer, ReadsWhatAVerdictSays) {
                               {"reached", true}});
   const json diagnosis = json::parse(R"({"verdict": "indistinguishable", "ambiguity_set": ["outliers", "b"],
     "causes": [{"id": "outliers", "target": {"test": "t", "channel": "axial_force", "row": 4}, "probability": 0.7,
-                "amplitude": {"value": 2.2, "unit": "mN", "ci95": [1.5, 2.9]}, "explanation": "consistent with"}],
+                "amplitude": {"value": 2.2, "unit": "mN", "ci95": [1.5, 2.9]}, "claim": "consistent_with"}],
     "confusable": [{"id": "outliers", "with": "b", "correlation": 0.97}],
     "gain": {"held_out": [{"block": "t", "p_value": 0.4}, {"block": "u", "p_value": null}]}})");
   write_case(folder, "case-1", truth, diagnosis);

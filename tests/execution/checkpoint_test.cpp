@@ -21,7 +21,7 @@ std::string refusal(const std::filesystem::path& folder) {
 TEST(Checkpoint, ReadsBackWhatItWrote) {
   const trial::Folder folder;
   Checkpoint checkpoint;
-  checkpoint.facts = {{"the seed", "7"}};
+  checkpoint.facts = {"abc", "7", {{"a.csv", "x"}}, "es 0.1.0", "9"};
   execution::RealisationResult result;
   result.realisation = 4;
   result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};
@@ -29,7 +29,8 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   result.tally = {120, 30, 5, 2, "row 3: \"no\" root", {{"row 3: \"no\" root", 5}}};
   result.converged = true;
   result.reason = "step below tolerance";
-  result.stop_reason = "stall";
+  result.stopped_by = search::StopReason::failure_rate;
+  result.stop_sentence = "failure rate: too many";
   result.seconds = 1.5;
   checkpoint.finished.emplace_back(3, result);
   execution::write_checkpoint(folder.path(), checkpoint);
@@ -56,7 +57,8 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.tally.reasons[0].count, 5u);
   EXPECT_TRUE(back.converged);
   EXPECT_EQ(back.reason, result.reason);
-  EXPECT_EQ(back.stop_reason, "stall");
+  EXPECT_EQ(back.stopped_by, search::StopReason::failure_rate);
+  EXPECT_EQ(back.stop_sentence, "failure rate: too many");
   EXPECT_EQ(back.seconds, 1.5);
 }
 
@@ -66,26 +68,27 @@ TEST(Checkpoint, SaysWhatIsWrongWithAFile) {
   folder.write("checkpoint.json", "{\"format\": 1,");
   EXPECT_THAT(refusal(folder.path()), HasSubstr("cannot be understood"));
   folder.write("checkpoint.json", "{\"format\": 9, \"facts\": {}, \"finished\": []}");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 2"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 3"));
 }
 
 TEST(Checkpoint, NamesEveryChange) {
   const trial::Folder folder;
   folder.write("input.json", R"({"stop": {"max_evaluations": 10}, "name": "a"})");
   const auto message = trial::message_of<InputError>([&] {
-    execution::refuse_changes(folder.path(),
-                              {{"the experiment file", "1"}, {"the plugin of es", "es 0.1.0"}, {"the data a.csv", "x"}},
-                              {{"the experiment file", "2"}, {"the plugin of es", "es 0.2.0"}, {"the data b.csv", "x"}},
+    execution::refuse_changes(folder.path(), {"1", "7", {{"a.csv", "x"}, {"c.csv", "y"}}, "es 0.1.0", "9"},
+                              {"2", "7", {{"b.csv", "x"}, {"c.csv", "z"}}, "es 0.2.0", "9"},
                               R"({"name": "a", "seed": 3})");
   });
   EXPECT_THAT(message, HasSubstr("/stop"));
   EXPECT_THAT(message, HasSubstr("/seed (was absent, is 3)"));
-  EXPECT_THAT(message, HasSubstr("the plugin of es changed (was es 0.1.0, is es 0.2.0)"));
-  EXPECT_THAT(message, HasSubstr("the data b.csv is new"));
-  EXPECT_THAT(message, HasSubstr("the data a.csv is gone"));
+  EXPECT_THAT(message, HasSubstr("the plugins changed (was es 0.1.0, is es 0.2.0)"));
+  EXPECT_THAT(message, HasSubstr("the data b.csv are new"));
+  EXPECT_THAT(message, HasSubstr("the data a.csv are gone"));
+  EXPECT_THAT(message, HasSubstr("the data c.csv changed (was y, is z)"));
+  EXPECT_THAT(message, ::testing::Not(HasSubstr("the seed")));
 }
 
 TEST(Checkpoint, LetsAnUnchangedRunThrough) {
   const trial::Folder folder;
-  EXPECT_NO_THROW(execution::refuse_changes(folder.path(), {{"the seed", "1"}}, {{"the seed", "1"}}, "{}"));
+  EXPECT_NO_THROW(execution::refuse_changes(folder.path(), {.seed = "1"}, {.seed = "1"}, "{}"));
 }

@@ -30,9 +30,9 @@ std::string row(const EvaluationTable& table, std::size_t run, const std::vector
   return fmt::to_string(buffer);
 }
 
-calibration::Replayed read(const EvaluationTable& table, std::string line, EvaluationTable::Row& parsed) {
+search::JournalEntry read(const EvaluationTable& table, std::string line, EvaluationTable::Row& parsed) {
   line.pop_back();
-  calibration::Replayed entry;
+  search::JournalEntry entry;
   table.parse(line, parsed);
   table.values(parsed, entry);
   return entry;
@@ -103,6 +103,6 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
   EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is no run"));
   EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
   table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
-  calibration::Replayed entry;
+  search::JournalEntry entry;
   EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is no status"));
 }

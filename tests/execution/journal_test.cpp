@@ -97,7 +97,7 @@ TEST(Recovery, DropsATornLastLineAndGoesOnBehindIt) {
   auto recovered = files.recover();
   EXPECT_THAT(recovered.stored.rows, ::testing::ElementsAre(1, 2, 0));
   EXPECT_EQ(trial::text_of(files.main()), header + row(1, 1, "1", "1"));
-  calibration::Replayed entry;
+  search::JournalEntry entry;
   ASSERT_TRUE(recovered.evaluations[1].get(1, entry));
   EXPECT_EQ(entry.parameters.front(), 4);
   EXPECT_EQ(entry.objective, 16);
@@ -129,7 +129,7 @@ TEST(Recovery, BringsBackStatusesOtherThanOk) {
   Journaled files;
   files.folder.write("evaluations.csv", header + row(1, 1, "1", "1") + "2,m/o,1,2,,,failed,,no root,0.5\n");
   const auto recovered = files.recover();
-  calibration::Replayed entry;
+  search::JournalEntry entry;
   ASSERT_TRUE(recovered.evaluations[0].get(1, entry));
   EXPECT_EQ(entry.status.reason(), "no root");
   EXPECT_EQ(entry.seconds, 0.5);

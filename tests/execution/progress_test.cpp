@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/progress.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <limits>
 
 #include "execution/laboratory.hpp"
-#include "execution/terminal.hpp"
+#include "text/wrapping.hpp"
 
 using namespace tunica;
 using execution::Meter;
 using execution::Progress;
-
-TEST(Progress, WritesTimesAsClocksDo) {
-  EXPECT_EQ(execution::clock_text(7.4), "0:07");
-  EXPECT_EQ(execution::clock_text(750), "12:30");
-  EXPECT_EQ(execution::clock_text(3 * 3600 + 5 * 60), "3:05:00");
-}
 
 TEST(Progress, CountsAndKeepsTheBestSuccess) {
   Meter meter;
@@ -57,24 +49,6 @@ TEST(Progress, ShortensTheNameOfTheRunBeforeAnyFigure) {
   const Progress progress(Progress::Style::lines, plan, meters);
   EXPECT_EQ(progress.text(1, 79),
             " 25 %  0/2 searches  500 /s  " + std::string(24, 'm') + "…: best 2.5  max 0:03 left");
-  EXPECT_EQ(execution::shown_columns(progress.text(1, 79)), 79u);
+  EXPECT_EQ(text::columns(progress.text(1, 79)), 79u);
   EXPECT_EQ(progress.text(1, 50), " 25 %  0/2 searches  500 /s  best 2.5  max 0:03 left");
-}
-
-TEST(Terminal, ShortensByCharactersAndShowsNoControlCharacters) {
-  EXPECT_EQ(execution::shown_columns("λ3 ± 2"), 6u);
-  EXPECT_EQ(execution::shortened("λμν", 3), "λμν");
-  EXPECT_EQ(execution::shortened("λμνξ", 3), "λμ…");
-  EXPECT_EQ(execution::shortened("a\033[31mb\r", 20), "a?[31mb?");
-  EXPECT_EQ(execution::shortened("ab", 0), "");
-}
-
-TEST(Terminal, IsNoneWhereOutputIsAFile) {
-  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ASSERT_GE(null, 0);
-  const auto terminal = execution::Terminal::of(null);
-  ::close(null);
-  EXPECT_FALSE(terminal.redraws);
-  EXPECT_FALSE(terminal.colours);
-  EXPECT_EQ(terminal.columns, 80u);
 }

@@ -51,7 +51,8 @@ void expect_equal(const Execution& a, const Execution& b) {
       };
       EXPECT_EQ(numbers(left.trace), numbers(right.trace));
       EXPECT_EQ(left.tally.evaluations, right.tally.evaluations);
-      EXPECT_EQ(left.stop_reason, right.stop_reason);
+      EXPECT_EQ(left.stopped_by, right.stopped_by);
+      EXPECT_EQ(left.stop_sentence, right.stop_sentence);
       EXPECT_EQ(left.reason, right.reason);
     }
 }
@@ -177,7 +178,7 @@ TEST(Runner, SharesTheBudgetBetweenStagesAndStartsFromTheBest) {
   std::string line;
   std::getline(stream, line);
   execution::EvaluationTable::Row row;
-  calibration::Replayed entry;
+  search::JournalEntry entry;
   double best = 1e300, first_of_second = 0;
   for (int id = 1; id <= 41; ++id) {
     std::getline(stream, line);
@@ -213,7 +214,7 @@ TEST(Runner, GoesOnWithTheOthersWhenAnOptimiserThrows) {
   const auto& broken = ended.runs[0].realisations[0];
   EXPECT_TRUE(broken.finished);
   EXPECT_FALSE(broken.converged);
-  EXPECT_EQ(broken.stop_reason, execution::optimizer_failure);
+  EXPECT_EQ(broken.stopped_by, search::StopReason::optimizer_failure);
   EXPECT_THAT(broken.reason, HasSubstr("plugin 'fakes 1' failed: the population is too small"));
   EXPECT_EQ(broken.tally.evaluations, 1u);
   EXPECT_TRUE(broken.best.found());

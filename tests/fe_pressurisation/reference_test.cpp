@@ -92,7 +92,7 @@ TEST(FiniteElementReference, ConvergesWithClampedEnds) {
 }
 
 TEST(FiniteElementReference, ClampedEndsGiveTheReferenceCurve) {
-  const auto columns = columns_of(TUNICA_SOURCE_DIR "/tests/fe_pressurisation/tube_set_s.csv");
+  const auto columns = columns_of(TUNICA_SOURCE_DIR "/tests/support/tube_set_s.csv");
   ASSERT_EQ(columns.size(), 6u);
   const auto gho = make_model("gho");
   struct Case {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "cli/process.hpp"
 #include "execution/folder.hpp"
 #include "experiment/experiment.hpp"
@@ -44,7 +44,7 @@ class NativeInFiles : public ::testing::Test {
              : R"({"stretch": "stretch", "stress": "stress"})",
         more.empty() ? "" : ", " + more);
   }
-  [[nodiscard]] calibration::Assembly assemble(const std::string& text) const {
+  [[nodiscard]] assembly::Assembly assemble(const std::string& text) const {
     folder.write("experiment.json", text);
     const auto experiment = experiment::read_experiment(folder.path() / "experiment.json", catalogue());
     return {experiment, experiment.runs.front(), catalogue()};
@@ -66,14 +66,14 @@ struct Predicted {
 };
 
 /// At set S, and whatever comes behind it.
-Predicted predict(const calibration::Assembly& assembly, const std::vector<double>& more) {
+Predicted predict(const assembly::Assembly& assembly, const std::vector<double>& more) {
   std::vector<double> at{18.668, 0.1367, 24.905, 0.2912, 46.44};
   at.insert(at.end(), more.begin(), more.end());
-  EXPECT_EQ(assembly.parameters().size(), at.size());
-  Predicted p{std::vector<double>(assembly.prediction_count()), {}};
+  EXPECT_EQ(assembly.layout().parameters.size(), at.size());
+  Predicted p{std::vector<double>(assembly.layout().prediction_count), {}};
   p.jacobian.resize(p.values.size() * at.size());
-  const auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(at, p.values, p.jacobian, *workspace);
+  const auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(at, p.values, p.jacobian, *workspace);
   EXPECT_TRUE(status.ok()) << status.reason();
   return p;
 }
@@ -174,8 +174,8 @@ TEST_F(NativeInFiles, TestsMayShareOne) {
                     fmt::format(R"("b": {{{}, {}, "data": {{"file": "tube.csv", "columns": {{"pressure": "pressure",
         "outer_diameter_stretch": "diameter"}}}}}})",
                                 clamped_tube, shared)));
-  ASSERT_EQ(assembly.parameters().size(), 6u);
-  EXPECT_EQ(assembly.parameters().back().name, "gain");
+  ASSERT_EQ(assembly.layout().parameters.size(), 6u);
+  EXPECT_EQ(assembly.layout().parameters.back().name, "gain");
   const Predicted p = predict(assembly, {0.1}), bare = predict(assembly, {0});
   for (std::size_t i = 0; i < 8; ++i) EXPECT_NE(p.values[i], bare.values[i]) << i;
 }

@@ -4,8 +4,8 @@
 #include <ctime>
 
 #include "conformance/constrained_functions.hpp"
+#include "conformance/g_suite.hpp"
 #include "optimizers/allocations.hpp"
-#include "optimizers/g_suite.hpp"
 #include "optimizers/lamb_aorta.hpp"
 #include "optimizers/plugin_under_test.hpp"
 

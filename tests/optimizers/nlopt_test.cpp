@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "conformance/constrained_functions.hpp"
-#include "optimizers/g_suite.hpp"
+#include "conformance/g_suite.hpp"
 #include "optimizers/plugin_under_test.hpp"
 
 namespace tunica::testing {

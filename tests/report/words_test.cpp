@@ -18,10 +18,16 @@ std::string page_of(const trial::Scratch& scratch, const char* result) {
 }
 
 const char* const held_out = R"({
-  "warnings": ["m/a: FITS BETTER THAN IT PREDICTS: far off", "m/a: k = 1 IS AT A BOUND", "m/b: k = 1 IS AT A BOUND",
-               "m/b: k = 1 IS AT A BOUND and more", "data: are noisy"],
+  "warnings": ["m/a: far off", "m/a: k = 1 lies at a bound", "m/b: k = 1 lies at a bound",
+               "m/b: k = 1 lies at a bound and more", "data: are noisy"],
+  "warning_details": [{"kind": "predicts_worse", "run": "m/a", "sentence": "far off"},
+                      {"kind": "at_bound", "run": "m/a", "subjects": ["k"], "sentence": "k = 1 lies at a bound"},
+                      {"kind": "at_bound", "run": "m/b", "subjects": ["k"], "sentence": "k = 1 lies at a bound"},
+                      {"kind": "at_bound", "run": "m/b", "subjects": ["k"], "sentence": "k = 1 lies at a bound and more"},
+                      {"kind": "set_up", "run": null, "sentence": "data: are noisy"}],
   "runs": [{"run": "m/a", "model": "m", "optimizer": "a", "tests": ["in_vivo", "unseen"], "realisations": 1,
-            "best": {"objective": 1, "status": "ok", "parameters": {"k": {"value": 1, "at_bound": "lower"}},
+            "objective_type": "least_squares",
+            "best": {"objective": 1, "status": "ok", "hold_out": [{"channel": "d", "verdict": "worse_than_fitted"}], "parameters": {"k": {"value": 1, "at_bound": "lower"}},
                      "per_test": {"in_vivo": {"channels": [{"channel": "d", "unit": "mm", "r2": 0.9, "rmse": 0.1},
                                                            {"channel": "f", "unit": "mN", "r2": 0.8, "rmse": 2},
                                                            {"channel": "p", "unit": "kPa", "r2": 0.7, "rmse": 3},
@@ -49,8 +55,8 @@ const char* const named = R"({"provenance": {"seed": 3}, "diagnosis": {"verdict"
 TEST(Words, SayAWarningOfSeveralRunsOnce) {
   const trial::Scratch scratch;
   const std::string page = page_of(scratch, held_out);
-  EXPECT_THAT(page, HasSubstr("<li>m/a and m/b: k = 1 IS AT A BOUND</li>"));
-  EXPECT_THAT(page, HasSubstr("<li>m/b: k = 1 IS AT A BOUND and more</li>"));
+  EXPECT_THAT(page, HasSubstr("<li>m/a and m/b: k = 1 lies at a bound</li>"));
+  EXPECT_THAT(page, HasSubstr("<li>m/b: k = 1 lies at a bound and more</li>"));
   EXPECT_THAT(page, HasSubstr("4 warnings"));
 }
 
@@ -61,9 +67,20 @@ TEST(Words, KeepApartWhatWasFittedAndWhatWasHeldOut) {
   EXPECT_THAT(page, HasSubstr("Fitted: 4 curves, the worst R² 0.6 in in_vivo (q, RMSE 4 kPa), the best R² 0.9 in "
                               "in_vivo (d, RMSE 0.1 mm)."));
   EXPECT_THAT(page, HasSubstr("Held out: R² -3 in unseen (d, RMSE 0.5 mm)."));
-  EXPECT_THAT(page, HasSubstr("It fits better than it predicts what was held out; k at a bound."));
+  EXPECT_THAT(page, HasSubstr("The run fits better than it predicts what was held out; k lies at a bound."));
   EXPECT_THAT(page,
               HasSubstr("Fit more of the tests together, or take a model with fewer parameters. Widen the bounds"));
+}
+
+TEST(Words, OfAnOlderResultAreTakenFromItsFiguresNotFromItsSentences) {
+  const trial::Scratch scratch;
+  const char* const older = R"({"warnings": ["m/a: k lies at a bound", "m/b: k lies at a bound"],
+    "runs": [{"run": "m/a", "best": {"objective": 2, "certificate": {"verdict": "in any words",
+      "fresh_process": {"objective": 2}, "neighbours": {"better": true, "lowest": {"objective": 1.9}}}}}],
+    "ranking": [{"run": "m/a", "rank": 1, "group": "g"}]})";
+  const std::string page = page_of(scratch, older);
+  EXPECT_THAT(page, HasSubstr("A neighbouring point is better, so this is not an optimum."));
+  EXPECT_THAT(page, HasSubstr("<li>m/a: k lies at a bound</li><li>m/b: k lies at a bound</li>"));
 }
 
 TEST(Words, TakeTheProfileForTheIntervalWhereThereIsOne) {
@@ -75,7 +92,7 @@ TEST(Words, TakeTheProfileForTheIntervalWhereThereIsOne) {
       "rough": {"value": 1, "unit": "1", "min": 0, "max": 9, "ci95": [0, 4], "ci95_reliable": false}},
       "uncertainty": ["profiles are of normal noise"]}}],
     "ranking": [{"run": "m/a", "rank": 1, "group": "g"}]})");
-  EXPECT_THAT(page, HasSubstr("Half limited on one side only; rough intervals of rough."));
+  EXPECT_THAT(page, HasSubstr("The data limit half on one side only; the interval of rough is rough."));
   EXPECT_THAT(page, HasSubstr("Run tunica run EXPERIMENT --profiles rough."));
   EXPECT_THAT(page, HasSubstr(">95 %, linearised</th><th scope=\"col\">95 %, profile</th>"));
   EXPECT_THAT(page, HasSubstr(">0 … 4 (rough)</td><td class=\"\">0.5 … 2</td>"));
@@ -94,7 +111,7 @@ TEST(Words, OfASimulationSayWhatWasSimulated) {
   const trial::Scratch scratch;
   scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n1,2\n");
   scratch.write("simulation.json", R"({"name": "aorta", "model": "gho", "tests": ["tube"], "seed": 3, "noise": 0.02,
-      "parameters": {"mu": {"value": 18.7, "unit": "kPa"}, "tube.error": {"value": 0, "unit": "1"}}, "origin": "run 'gho/lm' of a/result.json: mu = 18.7 kPa"})");
+      "parameters": {"mu": {"value": 18.7, "unit": "kPa"}, "tube.error": {"value": 0, "unit": "1"}}, "source": "run 'gho/lm' of a/result.json", "origin": "run 'gho/lm' of a/result.json: mu = 18.7 kPa"})");
   const std::string page = report::report({scratch.path()}, scratch.path());
   for (const char* text : {"<h1>aorta: simulation</h1>", "gho in tube", "mu = 18.7 kPa", "2 % of every value, seed 3",
                            "run &#39;gho/lm&#39; of a/result.json<"})

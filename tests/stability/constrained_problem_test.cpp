@@ -8,16 +8,16 @@
 #include <cmath>
 #include <utility>
 
-#include "calibration/constrained_step.hpp"
-#include "calibration/identifiability.hpp"
 #include "calibration/recording.hpp"
 #include "mechanisms/shelf.hpp"
+#include "search/constrained_step.hpp"
+#include "uncertainty/identifiability.hpp"
 
 namespace tunica {
 namespace {
 
-using calibration::Assembly;
-using calibration::CalibrationProblem;
+using assembly::Assembly;
+using search::CalibrationProblem;
 using ::testing::HasSubstr;
 
 const experiment::Experiment& lamb() {
@@ -44,8 +44,9 @@ std::vector<double> random_point(boost::random::mt19937_64& engine, std::size_t 
 
 TEST(ConstrainedProblem, HasOneConstraintAStretchOfEveryStrip) {
   const Assembly assembly = assemble("gho", 0.7);
-  EXPECT_EQ(assembly.strips().size(), 2u);
-  EXPECT_EQ(assembly.constraint_count(), assembly.strips()[0].stretches.size() + assembly.strips()[1].stretches.size());
+  EXPECT_EQ(assembly.models().strips().size(), 2u);
+  EXPECT_EQ(assembly.constraints().count(),
+            assembly.models().strips()[0].stretches.size() + assembly.models().strips()[1].stretches.size());
 }
 
 // Seed 4; differences of a function accurate to 1e-9 with a step of 1e-5 leave 1e-5 of its scale, away from kinks.
@@ -155,12 +156,12 @@ TEST(ConstrainedProblem, IntervalsAreThoseAlongTheActiveConstraint) {
   const Assembly imposed(experiment, run, testing::catalogue());
   // The constrained optimum of the example: the constraint is active to 1e-6.
   const std::vector<double> at{15.2854, 14.0034, 47.3033};
-  std::vector<double> c(imposed.constraint_count());
-  ASSERT_TRUE(imposed.constraints(at, c, {}).ok());
+  std::vector<double> c(imposed.constraints().count());
+  ASSERT_TRUE(imposed.constraints().evaluate(at, c, {}).ok());
   ASSERT_GT(*std::max_element(c.begin(), c.end()), -1e-4);
-  calibration::Identifiability along, all;
-  ASSERT_TRUE(calibration::identify(imposed, at, along).ok());
-  ASSERT_TRUE(calibration::identify(unconstrained, at, all).ok());
+  uncertainty::Identifiability along, all;
+  ASSERT_TRUE(uncertainty::identify(imposed, at, along).ok());
+  ASSERT_TRUE(uncertainty::identify(unconstrained, at, all).ok());
   EXPECT_EQ(along.singular_values.size() + 1, all.singular_values.size());
   EXPECT_THAT(along.constrained, HasSubstr("intervals are those along its border"));
   EXPECT_EQ(all.constrained, "");
@@ -187,15 +188,15 @@ TEST(ConstrainedStep, IsTheShortestToTheOptimumWithinTheInequalities) {
   Eigen::MatrixXd A(2, 2);
   A << 1, 1, 1, 0;
   Eigen::VectorXd c = Eigen::Vector2d(-1, -3);  // the second is not reached
-  const auto found = calibration::constrained_step(J, r, A, c);
+  const auto found = search::constrained_step(J, r, A, c);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->step[0], 1, 1e-5);
   EXPECT_NEAR(found->step[1], 0, 1e-5);
   EXPECT_NEAR(found->largest_multiplier, 2, 1e-4);
   c[0] = -10;
-  EXPECT_NEAR(calibration::constrained_step(J, r, A, c)->step[0], 2, 1e-5);
+  EXPECT_NEAR(search::constrained_step(J, r, A, c)->step[0], 2, 1e-5);
   A.row(1) = -A.row(0), c << -1, 2;  // s₁ + s₂ ≤ 1 and ≥ 2
-  EXPECT_FALSE(calibration::constrained_step(J, r, A, c));
+  EXPECT_FALSE(search::constrained_step(J, r, A, c));
 }
 
 // A profile of every sixth row of these strips ends at 24.45 … 25.27 for mu, where the linearised interval is
@@ -211,13 +212,13 @@ TEST(ConstrainedProblem, DoubtsIntervalsThatEndWhereTheBorderHasBent) {
   run.constraints.emplace_back().type = "transverse_stability", run.constraints.back().h = {{1, 0.7}};
   const Assembly assembly(experiment, run, testing::catalogue());
   std::vector<double> at;
-  for (const auto& parameter : assembly.parameters())
+  for (const auto& parameter : assembly.layout().parameters)
     at.push_back(parameter.name == "mu"   ? 24.798790262987136
                  : parameter.name == "k1" ? 7.649384602315196
                  : parameter.name == "k2" ? 0.004008767464520589
                                           : 52.32876500441398);
-  calibration::Identifiability found;
-  ASSERT_TRUE(calibration::identify(assembly, at, found).ok());
+  uncertainty::Identifiability found;
+  ASSERT_TRUE(uncertainty::identify(assembly, at, found).ok());
   for (const auto& parameter : found.parameters) {
     EXPECT_EQ(parameter.held, parameter.name == "k2") << parameter.name;
     EXPECT_EQ(parameter.straight, parameter.name != "k1") << parameter.name << ' ' << parameter.ci95;
@@ -226,8 +227,8 @@ TEST(ConstrainedProblem, DoubtsIntervalsThatEndWhereTheBorderHasBent) {
 
 TEST(ConstrainedProblem, GivesNoIntervalsWhereConstraintsLeaveNoDirection) {
   const Assembly assembly = only_mu(true);
-  calibration::Identifiability found;
-  ASSERT_TRUE(calibration::identify(assembly, std::vector{15.2854}, found).ok());
+  uncertainty::Identifiability found;
+  ASSERT_TRUE(uncertainty::identify(assembly, std::vector{15.2854}, found).ok());
   EXPECT_TRUE(found.singular_values.empty());
   EXPECT_TRUE(found.parameters[0].held);
   EXPECT_FALSE(found.parameters[0].identified);
@@ -238,12 +239,12 @@ TEST(ConstrainedProblem, GivesNoIntervalsWhereConstraintsLeaveNoDirection) {
 TEST(ConstrainedProblem, LinearisesAnInfeasiblePointAsIfThereWereNoConstraint) {
   const Assembly imposed = only_mu(true), unconstrained = only_mu(false);
   const std::vector<double> at{2};
-  std::vector<double> c(imposed.constraint_count());
-  ASSERT_TRUE(imposed.constraints(at, c, {}).ok());
+  std::vector<double> c(imposed.constraints().count());
+  ASSERT_TRUE(imposed.constraints().evaluate(at, c, {}).ok());
   ASSERT_GT(*std::max_element(c.begin(), c.end()), 0.1);
-  calibration::Identifiability broken, all;
-  ASSERT_TRUE(calibration::identify(imposed, at, broken).ok());
-  ASSERT_TRUE(calibration::identify(unconstrained, at, all).ok());
+  uncertainty::Identifiability broken, all;
+  ASSERT_TRUE(uncertainty::identify(imposed, at, broken).ok());
+  ASSERT_TRUE(uncertainty::identify(unconstrained, at, all).ok());
   EXPECT_EQ(broken.constrained, "");
   EXPECT_EQ(broken.parameters[0].ci95, all.parameters[0].ci95);
 }
@@ -257,10 +258,10 @@ TEST(AdmissibleParameters, AreImposedByTheModelsOwnInequalities) {
   run.model = "holzapfel_2015";
   run.constraints.emplace_back().type = "admissible_parameters";
   const Assembly assembly(experiment, run, testing::catalogue());
-  ASSERT_EQ(assembly.constraint_count(), 2u);
+  ASSERT_EQ(assembly.constraints().count(), 2u);
   CalibrationProblem problem(assembly, {});
   std::vector<double> free{10, 0.3, 0.8, 10, 1, 40}, x(6), c(2), jacobian(12);
-  assembly.to_unit(free, x);
+  assembly.box().to_unit(free, x);
   double objective;
   const Status status = problem.evaluate(x, objective);
   EXPECT_EQ(status.kind(), Status::Kind::infeasible);

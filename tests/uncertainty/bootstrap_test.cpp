@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/bootstrap.hpp"
+#include "uncertainty/bootstrap.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "uncertainty/local.hpp"
 
 using namespace tunica;
-using calibration::Bootstrap;
+using uncertainty::Bootstrap;
 
 namespace {
 
@@ -25,7 +25,7 @@ double sd_of(const Bootstrap& made, std::size_t j) {
 TEST(Bootstrap, HasTheStandardErrorsOfLinearRegression) {
   // Period 4 in 40 rows, mean zero and uncorrelated with constant and slope to 1 %; the lag-1 correlation is near 0.
   const trial::Line line(40);
-  const auto made = calibration::bootstrap(line.assemble(), std::vector{1.0, 2.0}, trial::local(), 800, 7);
+  const auto made = uncertainty::bootstrap(line.assemble(), std::vector{1.0, 2.0}, trial::local(), 800, 7);
   EXPECT_EQ(made.failures, 0u);
   EXPECT_EQ(made.blocks[0], 1u);
   double mean = 0, xx = 0;
@@ -44,7 +44,7 @@ TEST(Bootstrap, HasTheStandardErrorsOfLinearRegression) {
 TEST(Bootstrap, DrawsBlocksWhereNeighboursAreAlike) {
   const trial::Line smooth(fakes::grid(0, 7, 40),
                            [](std::size_t i) { return 0.1 * std::sin(0.6 * static_cast<double>(i)); });
-  const auto made = calibration::bootstrap(smooth.assemble(), std::vector{1.0, 2.0}, trial::local(), 40, 7);
+  const auto made = uncertainty::bootstrap(smooth.assemble(), std::vector{1.0, 2.0}, trial::local(), 40, 7);
   EXPECT_GT(made.correlation[0], 0.7);
   EXPECT_GT(made.blocks[0], 3u);
   EXPECT_LE(made.blocks[0], 13u);
@@ -57,7 +57,7 @@ TEST(Bootstrap, CountsDrawsThatCannotBeFitted) {
   fakes::set_behaviour([&](double, std::span<double>, Status& status) {
     if (++calls > 1) status = Status::failed("no");  // the first is the best fit itself
   });
-  const auto made = calibration::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 50, 7);
+  const auto made = uncertainty::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 50, 7);
   fakes::set_behaviour({});
   EXPECT_EQ(made.draws.size(), 50u);
   EXPECT_EQ(made.failures, 50u);
@@ -68,7 +68,7 @@ TEST(Bootstrap, MakesNoDrawsWhereTheBestPointCannotBeEvaluated) {
   const trial::Line line;
   const auto assembly = line.assemble();
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("no"); });
-  const auto made = calibration::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 50, 7);
+  const auto made = uncertainty::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 50, 7);
   fakes::set_behaviour({});
   EXPECT_TRUE(made.draws.empty());
 }
@@ -78,7 +78,7 @@ TEST(Bootstrap, IsTheSameForAnyNumberOfThreads) {
   const auto assembly = line.assemble();
   const auto made = [&](int threads) {
     return trial::by_threads(threads, [&] {
-      return calibration::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 60, 7);
+      return uncertainty::bootstrap(assembly, std::vector{1.0, 2.0}, trial::local(), 60, 7);
     });
   };
   const auto one = made(1), two = made(2);

@@ -4,9 +4,9 @@
 
 #include <atomic>
 
-#include "calibration/identifiability.hpp"
-#include "calibration/profile.hpp"
+#include "uncertainty/identifiability.hpp"
 #include "uncertainty/local.hpp"
+#include "uncertainty/profile.hpp"
 #include "uncertainty/strips.hpp"
 
 using namespace tunica;
@@ -27,10 +27,10 @@ TEST(Coverage, OfTheLinearisedIntervalsIsWhatTheySayWhereTheValleyIsStraight) {
   std::atomic<int> straight = 0;
   tbb::parallel_for(std::size_t{0}, sets, [&](std::size_t k) {
     const auto data = strips.measured(k);
-    const auto found = calibration::likelihood_at(assembly, strips.truth, trial::local(), k, data).centre;
+    const auto found = uncertainty::likelihood_at(assembly, strips.truth, trial::local(), k, data).centre;
     ASSERT_TRUE(found.status.ok()) << found.status.reason();
-    calibration::Identifiability linear;
-    ASSERT_TRUE(calibration::identify(assembly, found.free, linear).ok());
+    uncertainty::Identifiability linear;
+    ASSERT_TRUE(uncertainty::identify(assembly, found.free, linear).ok());
     for (std::size_t j = 0; j < n; ++j)
       covered[k][j] = linear.parameters[j].lower <= strips.truth[j] && strips.truth[j] <= linear.parameters[j].upper;
     for (const auto& parameter : linear.parameters) straight += parameter.straight;
@@ -40,9 +40,9 @@ TEST(Coverage, OfTheLinearisedIntervalsIsWhatTheySayWhereTheValleyIsStraight) {
   for (std::size_t j = 0; j < n; ++j) {
     int count = 0;
     for (const auto& set : covered) count += set[j];
-    EXPECT_GE(count, 368) << assembly.parameters()[j].name;
-    EXPECT_LE(count, 392) << assembly.parameters()[j].name;
-    RecordProperty(assembly.parameters()[j].name, count);
+    EXPECT_GE(count, 368) << assembly.layout().parameters[j].name;
+    EXPECT_LE(count, 392) << assembly.layout().parameters[j].name;
+    RecordProperty(assembly.layout().parameters[j].name, count);
   }
 }
 
@@ -54,9 +54,9 @@ TEST(Coverage, IsNotClaimedWhereTheValleyIsBent) {
   std::atomic<int> straight = 0, given = 0;
   tbb::parallel_for(std::size_t{0}, sets, [&](std::size_t k) {
     const auto found =
-        calibration::likelihood_at(*strips.assembly, strips.truth, trial::local(), k, strips.measured(k)).centre;
-    calibration::Identifiability linear;
-    ASSERT_TRUE(calibration::identify(*strips.assembly, found.free, linear).ok());
+        uncertainty::likelihood_at(*strips.assembly, strips.truth, trial::local(), k, strips.measured(k)).centre;
+    uncertainty::Identifiability linear;
+    ASSERT_TRUE(uncertainty::identify(*strips.assembly, found.free, linear).ok());
     for (const auto& parameter : linear.parameters) {
       given += parameter.identified;
       straight += parameter.identified && parameter.straight;
@@ -77,13 +77,13 @@ TEST(Coverage, OfTheProfilesIsWhatTheySayWhereTheValleyIsBent) {
   std::vector<std::vector<char>> covered(sets, std::vector<char>(n, 0));
   tbb::parallel_for(std::size_t{0}, sets, [&](std::size_t k) {
     const auto data = strips.measured(k);
-    const auto likelihood = calibration::likelihood_at(assembly, strips.truth, trial::local(), k, data);
+    const auto likelihood = uncertainty::likelihood_at(assembly, strips.truth, trial::local(), k, data);
     ASSERT_TRUE(likelihood.centre.status.ok()) << likelihood.centre.status.reason();
     std::vector<std::size_t> all(n);
     for (std::size_t j = 0; j < n; ++j) all[j] = j;
-    for (const auto& profile : calibration::profiles(assembly, likelihood, trial::local(), all, k)) {
+    for (const auto& profile : uncertainty::profiles(assembly, likelihood, trial::local(), all, k)) {
       const double truth = strips.truth[profile.parameter];
-      const auto open = calibration::Profile::End::Kind::open;
+      const auto open = uncertainty::Profile::End::Kind::open;
       covered[k][profile.parameter] = (profile.lower.kind == open || profile.lower.value <= truth) &&
                                       (profile.upper.kind == open || truth <= profile.upper.value);
     }
@@ -91,7 +91,7 @@ TEST(Coverage, OfTheProfilesIsWhatTheySayWhereTheValleyIsBent) {
   for (std::size_t j = 0; j < n; ++j) {
     int count = 0;
     for (const auto& set : covered) count += set[j];
-    EXPECT_GE(count, 51) << assembly.parameters()[j].name;
-    RecordProperty(assembly.parameters()[j].name, count);
+    EXPECT_GE(count, 51) << assembly.layout().parameters[j].name;
+    RecordProperty(assembly.layout().parameters[j].name, count);
   }
 }

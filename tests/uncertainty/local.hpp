@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "calibration/fakes.hpp"
-#include "calibration/refit.hpp"
 #include "support/loaded.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace tunica::trial {
 
 /// ceres_lm from where it is told to start.
-inline calibration::LocalOptimizer local() {
+inline uncertainty::LocalOptimizer local() {
   const auto& entry = testing::catalogue().optimizers().at("ceres_lm");
   Options options = testing::defaults(entry.factory.options);
   options.set("starts", std::int64_t{1});

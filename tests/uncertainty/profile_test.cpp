@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "calibration/profile.hpp"
+#include "uncertainty/profile.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "calibration/identifiability.hpp"
+#include "uncertainty/identifiability.hpp"
 #include "uncertainty/local.hpp"
 
 using namespace tunica;
-using calibration::Profile;
+using uncertainty::Profile;
 using Kind = Profile::End::Kind;
 
 namespace {
 
-std::vector<Profile> profiles(const calibration::Assembly& assembly, const std::vector<double>& best) {
-  const auto likelihood = calibration::likelihood_at(assembly, best, trial::local(), 1);
+std::vector<Profile> profiles(const assembly::Assembly& assembly, const std::vector<double>& best) {
+  const auto likelihood = uncertainty::likelihood_at(assembly, best, trial::local(), 1);
   EXPECT_TRUE(likelihood.centre.status.ok()) << likelihood.centre.status.reason();
   std::vector<std::size_t> all(best.size());
   for (std::size_t j = 0; j < all.size(); ++j) all[j] = j;
-  return calibration::profiles(assembly, likelihood, trial::local(), all, 1);
+  return uncertainty::profiles(assembly, likelihood, trial::local(), all, 1);
 }
 
 void expect_interval(const Profile& profile, double centre, double half) {
@@ -77,8 +77,8 @@ TEST(Profile, FollowsTheLikelihoodWhereItIsNoParabola) {
   const auto assembly = line.assemble();
   const auto made = profiles(assembly, {2});
   expect_interval(made[0], 2, 0.979982);
-  calibration::Identifiability linear;
-  ASSERT_TRUE(calibration::identify(assembly, std::vector{2.0}, linear).ok());
+  uncertainty::Identifiability linear;
+  ASSERT_TRUE(uncertainty::identify(assembly, std::vector{2.0}, linear).ok());
   EXPECT_NEAR(linear.parameters[0].lower, 2 * std::exp(-0.489991), 1e-6);
   EXPECT_NEAR(linear.parameters[0].upper, 2 * std::exp(0.489991), 1e-6);
 }
@@ -86,9 +86,9 @@ TEST(Profile, FollowsTheLikelihoodWhereItIsNoParabola) {
 TEST(Profile, NoticesThatItsCentreWasNoOptimum) {
   const trial::Line line;
   const auto assembly = line.assemble();
-  auto likelihood = calibration::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
+  auto likelihood = uncertainty::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
   likelihood.centre.objective += 1;
-  const auto made = calibration::profiles(assembly, likelihood, trial::local(), {0}, 1);
+  const auto made = uncertainty::profiles(assembly, likelihood, trial::local(), {0}, 1);
   EXPECT_LT(made[0].lowest, -0.5);
 }
 
@@ -108,7 +108,7 @@ TEST(Profile, FailsAsAWholeWhereTheBestPointCannotBeEvaluated) {
   const trial::Line line;
   const auto assembly = line.assemble();
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("no"); });
-  const auto likelihood = calibration::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
+  const auto likelihood = uncertainty::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
   fakes::set_behaviour({});
   EXPECT_EQ(likelihood.centre.status.reason(), "test 't': no");
 }
@@ -116,11 +116,11 @@ TEST(Profile, FailsAsAWholeWhereTheBestPointCannotBeEvaluated) {
 TEST(Profile, EndsWhereRefitsFail) {
   const trial::Line line;
   const auto assembly = line.assemble();
-  const auto likelihood = calibration::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
+  const auto likelihood = uncertainty::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
   fakes::set_behaviour([](double a, std::span<double>, Status& status) {
     if (a > 1.01) status = Status::failed("no");
   });
-  const auto made = calibration::profiles(assembly, likelihood, trial::local(), {0}, 1);
+  const auto made = uncertainty::profiles(assembly, likelihood, trial::local(), {0}, 1);
   fakes::set_behaviour({});
   EXPECT_EQ(made[0].lower.kind, Kind::crossed);
   EXPECT_EQ(made[0].upper.kind, Kind::failed);

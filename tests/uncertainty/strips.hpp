@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "execution/folder.hpp"
 #include "experiment/experiment.hpp"
 #include "support/loaded.hpp"
@@ -24,15 +24,15 @@ class Strips {
   explicit Strips(double noise) : noise_(noise) {
     write(std::vector<double>(80, 0.0));
     read();
-    for (const auto& parameter : assembly->parameters())
+    for (const auto& parameter : assembly->layout().parameters)
       truth.push_back(parameter.name == "mu"      ? 18.668
                       : parameter.name == "k1"    ? 24.905
                       : parameter.name == "k2"    ? 0.2912
                       : parameter.name == "kappa" ? 0.1367
                                                   : 46.44);
-    exact_.resize(assembly->prediction_count());
-    const auto workspace = assembly->make_workspace();
-    EXPECT_TRUE(assembly->predict(truth, exact_, {}, *workspace).ok());
+    exact_.resize(assembly->layout().prediction_count);
+    const auto workspace = assembly->evaluator().make_workspace();
+    EXPECT_TRUE(assembly->evaluator().predict(truth, exact_, {}, *workspace).ok());
     write(exact_);
     read();
   }
@@ -46,7 +46,7 @@ class Strips {
     return values;
   }
 
-  std::optional<calibration::Assembly> assembly;
+  std::optional<assembly::Assembly> assembly;
   std::vector<double> truth;
 
  private:

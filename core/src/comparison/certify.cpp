@@ -15,7 +15,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json to_json(const calibration::Neighbourhood& around) {
+json to_json(const search::Neighbourhood& around) {
   json lowest = nullptr;
   if (around.lowest)
     lowest = {{"objective", around.lowest->objective},
@@ -35,8 +35,8 @@ json to_json(const calibration::Neighbourhood& around) {
           {"active_constraints", around.active_constraints}};
 }
 
-calibration::Neighbourhood from_json(const json& around) {
-  calibration::Neighbourhood result;
+search::Neighbourhood from_json(const json& around) {
+  search::Neighbourhood result;
   const std::string status = around.at("status");
   if (status == "failed") result.status = Status::failed(around.at("reason"));
   if (status == "infeasible") result.status = Status::infeasible(around.at("reason"), around.at("violation"));
@@ -67,6 +67,20 @@ const json& run_named(const json& result, const std::string& label) {
 
 }  // namespace
 
+std::string best_points_json(const Summary& summary) {
+  json runs = json::array();
+  for (const auto& run : summary.runs) {
+    json best = nullptr;
+    if (run.has_result) {
+      best = {{"objective", run.objective}, {"parameters", json::object()}};
+      for (const auto& parameter : run.parameters) best["parameters"][parameter.name] = {{"value", parameter.value}};
+    }
+    runs.push_back({{"run", run.label}, {"best", std::move(best)}});
+  }
+  const json document = {{"runs", std::move(runs)}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
 std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions) {
   json runs = json::array();
@@ -77,12 +91,12 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
       if (run.at("best").is_null()) continue;
       const json& values = run.at("best").at("parameters");
       std::vector<double> free;
-      for (const auto& parameter : planned.assembly->parameters()) {
+      for (const auto& parameter : planned.assembly->layout().parameters) {
         if (!values.contains(parameter.name))
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
         free.push_back(values.at(parameter.name).at("value"));
       }
-      const auto around = calibration::look_around(*planned.assembly, free);
+      const auto around = search::probe_neighbourhood(*planned.assembly, free);
       json entry = to_json(around);
       const double recorded = run.at("best").at("objective"), now = entry.at("objective");
       entry["run"] = planned.label;
@@ -92,9 +106,9 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
       if (contradictions && around.status.kind() == Status::Kind::failed)
         contradictions->push_back(
             fmt::format("{}: the best point cannot be evaluated: {}", planned.label, around.status.reason()));
-      else if (contradictions && !calibration::same_objective(now, recorded))
+      else if (contradictions && !search::same_objective(now, recorded))
         contradictions->push_back(
-            fmt::format("{}: NOT CONFIRMED: result.json records the objective {}, evaluated again it "
+            fmt::format("{}: not confirmed: result.json records the objective {}, but evaluated again it "
                         "is {}",
                         planned.label, recorded, now));
       runs.push_back(std::move(entry));
@@ -121,8 +135,8 @@ void add_certificates(const std::string& certified, const std::string& missing, 
         certificate.missing = problem.what();
       }
     }
-    certificate.verdict = verdict(certificate);
-    if (alarming(certificate)) summary.warnings.push_back(fmt::format("{}: {}", run.label, certificate.verdict));
+    judge(certificate);
+    if (auto warning = certificate_warning(run.label, certificate)) summary.warnings.push_back(std::move(*warning));
   }
 }
 

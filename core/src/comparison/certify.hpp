@@ -8,10 +8,14 @@
 
 namespace tunica::comparison {
 
-/// What `tunica certify` prints: for every run of a result.json that has a best point, that point evaluated again by
-/// this process, and its neighbours, as JSON. `contradictions`: a sentence for each point that does not confirm what
-/// is recorded. `plan` is made from the input.json beside it. Throws InputError when the
-/// two do not belong together.
+/// The best points of all runs, for a fresh process to certify before there is a result.json: {"runs": [{"run", "best":
+/// {"objective", "parameters": {name: {"value"}}}}]}, a part of what result.json says.
+std::string best_points_json(const Summary& summary);
+
+/// What `tunica certify` prints: for every run of a result.json, or of best_points_json(), that has a best point, that
+/// point evaluated again by this process, and its neighbours, as JSON. `contradictions`: a sentence for each point that
+/// does not confirm what is recorded. `plan` is made from the input.json beside it. Throws InputError when the two do
+/// not belong together.
 std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions = nullptr);
 

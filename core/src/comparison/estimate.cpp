@@ -6,51 +6,57 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/identifiability.hpp"
-#include "calibration/quality.hpp"
+#include "assembly/quality.hpp"
 #include "comparison/hold_out.hpp"
+#include "uncertainty/identifiability.hpp"
 
 namespace tunica::comparison {
 
 namespace {
+
+using execution::WarningKind;
 
 /// Share of the search range, in the coordinate the optimiser sees, within which a value counts as being on a bound.
 constexpr double on_bound = 1e-6;
 
 /// The best point once more, with a workspace that has seen nothing else. A search that starts from the solution
 /// before may end a solver a few roundings elsewhere, no further.
-void evaluate_again(const calibration::Assembly& assembly, const execution::RealisationResult& best,
-                    RunSummary& summary, std::vector<std::string>& warnings) {
-  auto workspace = assembly.make_workspace();
+void evaluate_again(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary,
+                    std::vector<execution::Warning>& warnings) {
+  auto workspace = assembly.evaluator().make_workspace();
   summary.per_test.resize(summary.tests.size());
   double objective = 0;
-  summary.status = assembly.evaluate(best.best.parameters, objective, summary.per_test, {}, {}, *workspace);
+  summary.status = assembly.evaluator().evaluate(best.best.parameters, objective, summary.per_test, {}, {}, *workspace);
   if (summary.status.kind() == Status::Kind::failed) {
-    warnings.push_back(
-        fmt::format("{}: the best point could not be evaluated again: {}", summary.label, summary.status.reason()));
+    warnings.push_back({WarningKind::not_evaluated_again,
+                        "the best point could not be evaluated again: " + summary.status.reason(), summary.label});
     return;
   }
-  if (summary.status.kind() == Status::Kind::infeasible && assembly.has_costly_tests()) {
+  if (summary.status.kind() == Status::Kind::infeasible && assembly.layout().has_costly_tests) {
     summary.objective = objective;  // the search may have left them out
     return;
   }
   if (std::abs(objective - best.best.objective) > 1e-9 * std::abs(best.best.objective) + 1e-12)
-    warnings.push_back(
-        fmt::format("{}: the best point gives the objective {} where the search recorded {}: model or test do "
-                    "not give the same answer twice",
-                    summary.label, objective, best.best.objective));
+    warnings.push_back({WarningKind::not_repeatable,
+                        fmt::format("the best point gives the objective {}, but the search recorded {}; the model or "
+                                    "the test does not give the same answer twice",
+                                    objective, best.best.objective),
+                        summary.label});
 }
 
-void add_parameters(const calibration::Assembly& assembly, const execution::RealisationResult& best,
+void add_parameters(const assembly::Assembly& assembly, const execution::RealisationResult& best,
                     const execution::RunResult& all, RunSummary& summary) {
-  const auto& declared = assembly.parameters();
+  const auto& declared = assembly.layout().parameters;
   const auto& values = best.best.parameters;
   std::vector<double> unit(values.size());
-  assembly.to_unit(values, unit);
+  assembly.box().to_unit(values, unit);
   for (std::size_t j = 0; j < declared.size(); ++j) {
     Estimate estimate;
-    estimate.name = declared[j].name, estimate.unit = declared[j].unit;
-    estimate.value = values[j], estimate.min = declared[j].min, estimate.max = declared[j].max;
+    estimate.name = declared[j].name;
+    estimate.unit = declared[j].unit;
+    estimate.value = values[j];
+    estimate.min = declared[j].min;
+    estimate.max = declared[j].max;
     if (unit[j] <= on_bound) estimate.at_bound = Estimate::Bound::lower;
     if (unit[j] >= 1 - on_bound) estimate.at_bound = Estimate::Bound::upper;
     std::vector<double> sample;
@@ -62,14 +68,16 @@ void add_parameters(const calibration::Assembly& assembly, const execution::Real
 }
 
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
-void add_identifiability(const calibration::Assembly& assembly, const execution::RealisationResult& best,
-                         RunSummary& summary, std::vector<std::string>& warnings) {
-  if (summary.status.kind() == Status::Kind::infeasible) return;  // of a point that is not allowed nobody asks
-  calibration::Identifiability found;
-  const Status status = calibration::identify(assembly, best.best.parameters, found);
+void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
+                         RunSummary& summary, std::vector<execution::Warning>& warnings) {
+  if (summary.status.kind() == Status::Kind::infeasible) return;  // nobody asks this of a point that is not allowed
+  uncertainty::Identifiability found;
+  const Status status = uncertainty::identify(assembly, best.best.parameters, found);
   if (!status.ok()) {
-    warnings.push_back(fmt::format("{}: no confidence intervals, for the best point cannot be linearised: {}",
-                                   summary.label, status.reason()));
+    warnings.push_back(
+        {WarningKind::not_linearised,
+         "there are no confidence intervals, because the best point cannot be linearised: " + status.reason(),
+         summary.label});
     return;
   }
   for (std::size_t j = 0; j < summary.parameters.size(); ++j) {
@@ -83,22 +91,13 @@ void add_identifiability(const calibration::Assembly& assembly, const execution:
   }
   summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();
-  std::vector<std::string> bent;
-  for (const auto& estimate : summary.parameters)
-    if (estimate.ci95 && !estimate.straight) bent.push_back(estimate.name);
-  if (!bent.empty())
-    summary.uncertainty.push_back(
-        fmt::format("the linearised interval{} of {} may be far off: before {} ends the likelihood is no parabola any "
-                    "more, or a bound is in the way; --profiles {} gives {}",
-                    bent.size() == 1 ? "" : "s", fmt::join(bent, ", "), bent.size() == 1 ? "its" : "their",
-                    fmt::join(bent, ","), bent.size() == 1 ? "a better one" : "better ones"));
 }
 
-void add_quality(const calibration::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
-  std::vector<double> predictions(assembly.prediction_count());
-  auto workspace = assembly.make_workspace();
-  if (!assembly.predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
-  for (auto& channel : calibration::quality(assembly, predictions)) {
+void add_quality(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  auto workspace = assembly.evaluator().make_workspace();
+  if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
+  for (auto& channel : assembly::quality(assembly, predictions)) {
     if (channel.fitted)
       summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted});
     if (channel.held_out)
@@ -107,14 +106,14 @@ void add_quality(const calibration::Assembly& assembly, const execution::Realisa
 }
 
 /// How far apart the curves of several realisations lie: one evaluation each, nothing beside the search.
-void add_spread(const calibration::Assembly& assembly, const execution::RunResult& all, RunSummary& summary) {
+void add_spread(const assembly::Assembly& assembly, const execution::RunResult& all, RunSummary& summary) {
   if (all.realisations.size() < 2) return;
-  std::vector<double> predictions(assembly.prediction_count());
-  auto workspace = assembly.make_workspace();
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  auto workspace = assembly.evaluator().make_workspace();
   std::size_t seen = 0;
   for (const auto& realisation : all.realisations) {
     if (!realisation.best.feasible()) continue;
-    if (!assembly.predict(realisation.best.parameters, predictions, {}, *workspace).ok()) continue;
+    if (!assembly.evaluator().predict(realisation.best.parameters, predictions, {}, *workspace).ok()) continue;
     if (seen++ == 0) summary.curve_lowest = summary.curve_highest = predictions;
     for (std::size_t i = 0; i < predictions.size(); ++i) {
       summary.curve_lowest[i] = std::min(summary.curve_lowest[i], predictions[i]);
@@ -125,16 +124,15 @@ void add_spread(const calibration::Assembly& assembly, const execution::RunResul
 
 }  // namespace
 
-void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings) {
+void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
+              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings) {
   evaluate_again(assembly, best, summary, warnings);
   add_parameters(assembly, best, all, summary);
   add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
   add_spread(assembly, all, summary);
   if (!summary.status.ok()) return;
-  if (std::string text = transfer_warning(summary.label, summary.quality); !text.empty())
-    warnings.push_back(std::move(text));
+  if (auto warning = transfer_warning(summary.label, summary.quality)) warnings.push_back(std::move(*warning));
 }
 
 }  // namespace tunica::comparison

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "comparison/summary.hpp"
+#include "execution/warning.hpp"
 
 namespace tunica::comparison {
 
 /// Fills in what the best point of a run says: it is evaluated again, from nothing, and must give what the search
 /// recorded (otherwise a warning); parameters with confidence intervals and bounds, quality of the fit per channel,
 /// identifiability in words.
-void estimate(const calibration::Assembly& assembly, const execution::RealisationResult& best,
-              const execution::RunResult& all, RunSummary& summary, std::vector<std::string>& warnings);
+void estimate(const assembly::Assembly& assembly, const execution::RealisationResult& best,
+              const execution::RunResult& all, RunSummary& summary, std::vector<execution::Warning>& warnings);
 
 }  // namespace tunica::comparison

@@ -11,6 +11,7 @@
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
@@ -21,7 +22,7 @@ using Diagnostics = std::vector<std::pair<std::string, std::vector<double>>>;
 /// What one run predicts for one test.
 struct Fit {
   std::string label;
-  std::vector<const calibration::ChannelView*> channels;
+  std::vector<const assembly::MeasuredChannel*> channels;
   std::vector<double> predictions;  ///< of all tests
   Diagnostics diagnostics;
   const RunSummary* summary = nullptr;
@@ -46,14 +47,16 @@ std::vector<Fit> fits_of(const execution::Plan& plan, const Summary& summary, co
     Fit fit;
     fit.label = summary.runs[run].label;
     fit.summary = &summary.runs[run];
-    for (const auto& channel : assembly.channels())
+    for (const auto& channel : assembly.layout().channels)
       if (channel.test == test) fit.channels.push_back(&channel);
     std::vector<double> free;
     for (const auto& parameter : summary.runs[run].parameters) free.push_back(parameter.value);
-    fit.predictions.resize(assembly.prediction_count());
-    auto workspace = assembly.make_workspace();
-    if (fit.channels.empty() || !assembly.predict(free, fit.predictions, {}, *workspace).ok()) continue;
-    if (!assembly.diagnostics(static_cast<std::size_t>(position - tests.begin()), free, fit.diagnostics).ok())
+    fit.predictions.resize(assembly.layout().prediction_count);
+    auto workspace = assembly.evaluator().make_workspace();
+    if (fit.channels.empty() || !assembly.evaluator().predict(free, fit.predictions, {}, *workspace).ok()) continue;
+    if (!assembly.evaluator()
+             .diagnostics(static_cast<std::size_t>(position - tests.begin()), free, fit.diagnostics)
+             .ok())
       fit.diagnostics.clear();
     fits.push_back(std::move(fit));
   }
@@ -95,7 +98,7 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
   for (const auto& fit : fits) {
     const auto& lead = *fit.channels.front();
     for (std::size_t row = 0; row < lead.count; ++row) {
-      text += execution::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
+      text += text::csv_cell(fit.label) + ',' + fit_cell(lead.abscissa[row]);
       for (const auto& other : lead.other_abscissae) text += ',' + fit_cell(other.second[row]);
       for (const auto* channel : fit.channels)
         text += ',' + fit_cell(channel->measured[row]) + ',' + fit_cell(fit.predictions[channel->offset + row]);

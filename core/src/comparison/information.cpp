@@ -7,23 +7,24 @@
 
 namespace tunica::comparison {
 
-std::optional<Information> information(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+std::optional<Information> information(const assembly::Assembly& assembly, experiment::ObjectiveType objective,
                                        std::span<const double> free) {
   if (objective != experiment::ObjectiveType::least_squares) return {};
-  for (const auto& parameter : assembly.parameters())
+  for (const auto& parameter : assembly.layout().parameters)
     if (parameter.prior) return {};
-  std::vector<double> predictions(assembly.prediction_count()), residuals(assembly.residual_count());
-  const auto workspace = assembly.make_workspace();
+  std::vector<double> predictions(assembly.layout().prediction_count), residuals(assembly.layout().residual_count);
+  const auto workspace = assembly.evaluator().make_workspace();
   double value = 0;
-  if (assembly.evaluate(free, value, {}, residuals, {}, *workspace).kind() == Status::Kind::failed) return {};
-  if (!assembly.predict(free, predictions, {}, *workspace).ok()) return {};
+  if (assembly.evaluator().evaluate(free, value, {}, residuals, {}, *workspace).kind() == Status::Kind::failed)
+    return {};
+  if (!assembly.evaluator().predict(free, predictions, {}, *workspace).ok()) return {};
 
   double deviance = 0, rows = 0;
   std::size_t parameters = free.size(), stated = 0, estimated = 0, block = 0;
-  for (const auto& channel : assembly.channels()) {
+  for (const auto& channel : assembly.layout().channels) {
     const auto count = static_cast<std::size_t>(std::count(channel.fitted.begin(), channel.fitted.end(), true));
     if (count == 0) continue;  // has no block
-    const ResidualBlock& own = assembly.blocks()[block++];
+    const ResidualBlock& own = assembly.layout().blocks[block++];
     if (channel.weight == 0) continue;
     if (channel.weight != 1) return {};
     rows += static_cast<double>(count);

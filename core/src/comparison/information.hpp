@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"
 
 namespace tunica::comparison {
@@ -29,7 +29,7 @@ struct Information {
 ///
 /// None but for `least_squares`, without priors, all weights 1 (or 0): elsewhere the best point does not have the
 /// greatest likelihood. None for a perfect fit.
-std::optional<Information> information(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+std::optional<Information> information(const assembly::Assembly& assembly, experiment::ObjectiveType objective,
                                        std::span<const double> free);
 
 }  // namespace tunica::comparison

@@ -56,7 +56,7 @@ double value_of(const json& value, const std::string& unit, const std::string& w
 
 std::pair<std::vector<double>, std::string> read_parameters(const std::filesystem::path& path, const std::string& model,
                                                             const std::string& run,
-                                                            const calibration::Assembly& assembly) {
+                                                            const assembly::Assembly& assembly) {
   const std::string file = path.string();
   std::string origin = file, chosen = run;
   json values;
@@ -75,14 +75,14 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   if (!values.is_object())
     throw InputError(fmt::format("{}: found {}, expected an object {{name: value}}", file, values.type_name()));
 
-  const auto& parameters = assembly.parameters();
-  const auto& fixed = assembly.fixed_parameters();
+  const auto& parameters = assembly.layout().parameters;
+  const auto& fixed = assembly.layout().fixed_parameters;
   std::vector<double> free;
   std::vector<std::string> known;
   for (const auto& parameter : parameters) free.push_back(parameter.initial), known.push_back(parameter.name);
   for (const auto& parameter : fixed) known.push_back(parameter.name);
   // A run of the model alone has names without it, where this one, with layers of other models, says whose they are.
-  const bool several = assembly.model_count() > 1;
+  const bool several = assembly.models().count() > 1;
   for (const auto& [written, value] : values.items()) {
     const std::string full = model + '.' + written;
     const bool prefixed = several && std::find(known.begin(), known.end(), written) == known.end() &&

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 
 namespace tunica::comparison {
 
@@ -16,7 +16,6 @@ namespace tunica::comparison {
 /// without a model's are those of `model`. Throws InputError on an unknown name
 /// (with the nearest one) and on a value that contradicts a fixed one.
 std::pair<std::vector<double>, std::string> read_parameters(const std::filesystem::path& file, const std::string& model,
-                                                            const std::string& run,
-                                                            const calibration::Assembly& assembly);
+                                                            const std::string& run, const assembly::Assembly& assembly);
 
 }  // namespace tunica::comparison

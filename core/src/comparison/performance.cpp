@@ -59,7 +59,7 @@ Profiles profiles(const execution::Plan& plan, const std::vector<execution::RunR
     for (const auto& [problem, run] : attempts) {
       const auto& realisations = results[run].realisations;
       const double weight = 1 / static_cast<double>(realisations.size() * attempts.size());
-      const double unit = static_cast<double>(plan.runs[run].assembly->parameters().size() + 1);
+      const double unit = static_cast<double>(plan.runs[run].assembly->layout().parameters.size() + 1);
       for (const auto& realisation : realisations) {
         const auto reached = evaluations_to(realisation, runs[run].threshold);
         if (!reached) continue;

@@ -22,7 +22,8 @@ std::string version() { return TUNICA_VERSION; }
 
 Provenance provenance_of(const execution::Plan& plan) {
   std::set<std::string> data;
-  for (const auto& run : plan.runs) data.insert(run.assembly->data_hashes().begin(), run.assembly->data_hashes().end());
+  for (const auto& run : plan.runs)
+    data.insert(run.assembly->layout().data_hashes.begin(), run.assembly->layout().data_hashes.end());
   return provenance_of(*plan.experiment, plan.plugins, {data.begin(), data.end()});
 }
 

@@ -11,20 +11,20 @@
 #include "comparison/hold_out.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
-#include "comparison/text.hpp"
-#include "execution/terminal.hpp"
+#include "text/units.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
-std::string unit_text(const std::string& unit) { return unit.empty() || unit == "1" ? "" : ' ' + unit; }
-
-std::string lines(const std::string& title, const std::vector<std::string>& sentences) {
-  if (sentences.empty()) return {};
-  std::string text = title + '\n';
-  for (const auto& sentence : sentences) text += hanging("  ! ", sentence) + '\n';
-  return text + '\n';
+text::StyledText warning_lines(const std::vector<execution::Warning>& warnings) {
+  text::StyledText lines;
+  if (warnings.empty()) return lines;
+  lines.add("Warnings", text::Emphasis::heading);
+  lines += "\n";
+  for (const auto& warning : warnings) lines += text::caution_line(warning.text());
+  return lines += "\n";
 }
 
 /// A count in at most seven columns.
@@ -49,9 +49,9 @@ std::string objective_text(double objective) {
 
 /// What a reader must know of a run that has no rank, or one that does not count.
 std::string flaw(const RunSummary& run) {
-  if (!run.has_result) return "NO RESULT: " + run.status.reason();
+  if (!run.has_result) return "no result: " + run.status.reason();
   if (run.status.kind() == Status::Kind::infeasible)
-    return fmt::format("NO FEASIBLE POINT, least violation {:.3g}: {}", run.status.violation(), run.status.reason());
+    return fmt::format("no feasible point; least violation {:.3g}: {}", run.status.violation(), run.status.reason());
   return run.status.ok() ? "" : run.status.reason();
 }
 
@@ -77,15 +77,16 @@ std::string row(const Ranked& entry, const RunSummary& run, bool compares_models
   const auto& to_target = run.evaluations_to_target.box;
   const std::size_t width = label_width(compares_models);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
-  if (columns(label) > width) text += execution::shortened(label, 77) + '\n' + std::string(3, ' ');
-  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}", pad(columns(label) > width ? "" : label, width),
-                      objective, fmt::format("{}/{}", run.successes, run.realisations),
+  if (text::columns(label) > width) text += text::shortened(label, 77) + '\n' + std::string(3, ' ');
+  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}",
+                      text::pad(text::columns(label) > width ? "" : label, width), objective,
+                      fmt::format("{}/{}", run.successes, run.realisations),
                       count_text(to_target ? std::optional(to_target->median) : std::nullopt),
                       count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
                       count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
   if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
   text += '\n';
-  if (const std::string reason = flaw(run); !reason.empty()) text += hanging("     ", reason) + '\n';
+  if (const std::string reason = flaw(run); !reason.empty()) text += text::hanging("     ", reason) + '\n';
   return text;
 }
 
@@ -98,21 +99,23 @@ std::string ranking_lines(const Summary& summary) {
     if (run.group != group) {
       group = run.group;
       text += ranked_by_success(summary.runs, group)
-                  ? hanging("Ranking by ", fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
-                  : hanging("Ranking by ", group);
+                  ? text::hanging("Ranking by ",
+                                  fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
+                  : text::hanging("Ranking by ", group);
       text += '\n';
       text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n",
-                          pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT", "total",
-                          "failed", "sec", compares_models ? "  ΔAICc" : "");
+                          text::pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT",
+                          "total", "failed", "sec", compares_models ? "  ΔAICc" : "");
     }
     text += row(entry, run, compares_models, differ_in_constraints(summary));
   }
   return text +
-         hanging("   ",
-                 "success: realisations at or below the target, or 0.1 % above the best known; evals: their "
-                 "median of evaluations to it; ERT: evaluations spent for one success, failed realisations included; "
-                 "total: all evaluations (their Jacobians are in ranking.csv), failed: of these; sec: all realisations "
-                 "added up") +
+         text::hanging(
+             "   ",
+             "success: realisations at or below the target, or within 0.1 % of the best known objective; evals: "
+             "median number of evaluations until success; ERT: evaluations spent for one success, failed "
+             "realisations included; total: all evaluations (their Jacobians are in ranking.csv); failed: "
+             "evaluations that failed; sec: seconds of all realisations together") +
          '\n';
 }
 
@@ -130,7 +133,7 @@ std::string other_intervals(const Estimate& estimate) {
 
 std::string quality_text(const Quality& quality) {
   const auto& measure = quality.agreement;
-  std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, unit_text(quality.unit));
+  std::string text = fmt::format("RMSE {:.4g}{}", measure.rmse, text::unit_suffix(quality.unit));
   text += measure.r2 ? fmt::format(", R² {:.5f}", *measure.r2) : std::string(", R² undefined (constant data)");
   if (measure.nmad) text += fmt::format(", NMAD {:.3g} %", *measure.nmad);
   return text;
@@ -139,7 +142,7 @@ std::string quality_text(const Quality& quality) {
 /// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.
 std::string spread_text(const RunSummary& run) {
   const auto one = [](const std::string& name, const SampleStatistics& sample, const std::string& unit) {
-    return fmt::format("{} {:.5g} ± {:.2g}{}", name, sample.mean, sample.sd.value_or(0), unit_text(unit));
+    return fmt::format("{} {:.5g} ± {:.2g}{}", name, sample.mean, sample.sd.value_or(0), text::unit_suffix(unit));
   };
   std::vector<std::string> parts{one("objective", run.objectives, "")};
   for (const auto& parameter : run.parameters)
@@ -150,76 +153,88 @@ std::string spread_text(const RunSummary& run) {
 /// What ended the run, and whether the search that found its best point had converged by then.
 std::string ending(const RunSummary& run) {
   const std::string reason = run.reason.empty() ? "" : ": " + run.reason;
-  if (run.stop_reason.empty()) return (run.converged ? "converged" : "not converged") + reason;
-  if (run.stop_reason == "target") return "ended at its target";
-  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_reason,
+  if (run.stopped_by == search::StopReason::none) return (run.converged ? "converged" : "not converged") + reason;
+  if (run.stopped_by == search::StopReason::target) return "ended at its target";
+  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_sentence,
                      run.converged ? "had" : "had not", reason);
 }
 
 /// A parameter with a longer name has it on a line of its own.
 constexpr std::size_t widest_name = 30;
 
-std::string run_lines(const RunSummary& run) {
-  const std::string how = ending(run);
-  std::string text = run.label;
-  if (run.realisations > 1) text += fmt::format(", best of {} realisations", run.realisations);
-  text = hanging(text + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n';
-  if (!run.has_result) return text + hanging("  no result: ", run.status.reason()) + '\n';
-  if (!run.certificate.verdict.empty()) text += hanging("  optimum: ", run.certificate.verdict) + '\n';
+text::StyledText parameter_lines(const RunSummary& run) {
   std::size_t width = 8;
-  for (const auto& parameter : run.parameters) width = std::max(width, columns(parameter.name));
+  for (const auto& parameter : run.parameters) width = std::max(width, text::columns(parameter.name));
   width = std::min(width, widest_name);
+  text::StyledText lines;
   for (const auto& parameter : run.parameters) {
-    const std::string value = value_text(parameter);
-    if (columns(parameter.name) <= width && 2 + width + 2 + columns(value) <= 80)
-      text += fmt::format("  {}  {}\n", pad(parameter.name, width), value);
-    else
-      text += fmt::format("  {}\n    {}\n", parameter.name, value);
+    const text::StyledText value = value_text(parameter);
+    const bool fits = text::columns(parameter.name) <= width && 2 + width + 2 + text::columns(value.plain()) <= 80;
+    lines += fits ? fmt::format("  {}  ", text::pad(parameter.name, width)) : fmt::format("  {}\n    ", parameter.name);
+    lines += value;
+    lines += "\n";
     if (const auto other = other_intervals(parameter); !other.empty())
-      text += hanging("  " + std::string(width + 2, ' '), other) + '\n';
+      lines += text::hanging("  " + std::string(width + 2, ' '), other) + '\n';
   }
-  if (run.objectives.count > 1) text += hanging("  over realisations: ", spread_text(run)) + '\n';
+  return lines;
+}
+
+text::StyledText run_lines(const RunSummary& run) {
+  const std::string how = ending(run);
+  std::string head = run.label;
+  if (run.realisations > 1) head += fmt::format(", best of {} realisations", run.realisations);
+  text::StyledText lines(text::hanging(head + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n');
+  if (!run.has_result) return lines += text::hanging("  no result: ", run.status.reason()) + '\n';
+  if (const auto& optimum = run.certificate.sentence; !optimum.empty())
+    lines += text::hanging("  optimum: ", optimum) + '\n';
+  lines += parameter_lines(run);
+  if (run.objectives.count > 1) lines += text::hanging("  over realisations: ", spread_text(run)) + '\n';
   const std::string side_by_side = hold_out_table(run.quality);
-  text += side_by_side;
+  lines += side_by_side;
   for (const auto& quality : run.quality) {
     if (!side_by_side.empty()) break;
-    text += hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
+    lines += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
   }
-  for (const auto& sentence : run.uncertainty) text += hanging("  - ", sentence) + '\n';
-  return text;
+  for (const auto& sentence : run.uncertainty) lines += text::hanging("  - ", sentence) + '\n';
+  return lines;
 }
 
 }  // namespace
 
-std::string value_text(const Estimate& estimate) {
-  std::string text = fmt::format("{:.5g}", estimate.value);
-  if (estimate.ci95) {
-    const double below = estimate.value - estimate.ci95->first, above = estimate.ci95->second - estimate.value;
-    if (std::abs(above - below) <= 0.02 * std::abs(above + below))
-      text += fmt::format(" ± {:.2g}{}", (above + below) / 2, unit_text(estimate.unit));
-    else
-      text +=
-          fmt::format("{} ({:.4g} … {:.4g})", unit_text(estimate.unit), estimate.ci95->first, estimate.ci95->second);
-  } else if (estimate.at_bound != Estimate::Bound::none) {
-    text += unit_text(estimate.unit);
+text::StyledText value_text(const Estimate& estimate) {
+  const std::string unit = text::unit_suffix(estimate.unit);
+  text::StyledText text(fmt::format("{:.5g}", estimate.value));
+  if (!estimate.ci95) {
+    text += unit;
   } else {
-    text += unit_text(estimate.unit);
-    const bool closed = estimate.profile && estimate.profile->lower && estimate.profile->upper;
-    if (estimate.assessed && !estimate.identified && !closed)
-      text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
+    const double below = estimate.value - estimate.ci95->first, above = estimate.ci95->second - estimate.value;
+    const bool symmetric = std::abs(above - below) <= 0.02 * std::abs(above + below);
+    text += symmetric ? fmt::format(" ± {:.2g}{}", (above + below) / 2, unit)
+                      : fmt::format("{} ({:.4g} … {:.4g})", unit, estimate.ci95->first, estimate.ci95->second);
   }
-  if (estimate.at_bound != Estimate::Bound::none)
-    text += fmt::format("  <- AT ITS {} BOUND", estimate.at_bound == Estimate::Bound::upper ? "UPPER" : "LOWER");
+  if (estimate.at_bound != Estimate::Bound::none) {
+    text += "  ";
+    const bool upper = estimate.at_bound == Estimate::Bound::upper;
+    text.add(upper ? "<- at its upper bound" : "<- at its lower bound", text::Emphasis::caution);
+    return text;
+  }
+  const bool closed = estimate.profile && estimate.profile->lower && estimate.profile->upper;
+  if (!estimate.ci95 && estimate.assessed && !estimate.identified && !closed)
+    text += estimate.held ? "  (held by a constraint)" : "  (not fixed by the data)";
   return text;
 }
 
-std::string ranking_table(const Summary& summary) {
-  std::string text = lines("WARNINGS", summary.warnings) + ranking_lines(summary);
-  if (const std::string stability = stability_table(summary); !stability.empty()) text += '\n' + stability;
-  for (const auto& entry : summary.ranking) text += '\n' + run_lines(summary.runs[entry.run]);
-  if (!summary.identifiability.empty()) text += "\nWhat the data fix, and what they do not\n";
-  for (const auto& sentence : summary.identifiability) text += hanging("  ", sentence) + '\n';
-  return text;
+text::StyledText ranking_table(const Summary& summary) {
+  text::StyledText table = warning_lines(summary.warnings);
+  table += ranking_lines(summary);
+  if (const std::string stability = stability_table(summary); !stability.empty()) table += '\n' + stability;
+  for (const auto& entry : summary.ranking) {
+    table += "\n";
+    table += run_lines(summary.runs[entry.run]);
+  }
+  if (!summary.identifiability.empty()) table += "\nWhat the data fix, and what they do not\n";
+  for (const auto& sentence : summary.identifiability) table += text::hanging("  ", sentence) + '\n';
+  return table;
 }
 
 }  // namespace tunica::comparison

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "comparison/hold_out.hpp"
 #include "comparison/stability_report.hpp"
 
 namespace tunica::comparison {
@@ -50,7 +51,8 @@ json certificate(const Certificate& certificate) {
       neighbours["lowest"] = {
           {"objective", around.lowest->objective}, {"along", around.lowest->along}, {"step", around.lowest->step}};
   }
-  return {{"verdict", certificate.verdict},
+  return {{"verdict", certificate.sentence},
+          {"verdict_code", text::code_of(certificate_codes, certificate.verdict)},
           {"fresh_process", std::move(fresh)},
           {"neighbours", std::move(neighbours)},
           {"realisations",
@@ -59,6 +61,18 @@ json certificate(const Certificate& certificate) {
           {"constraints",
            {{"count", certificate.fresh ? certificate.fresh->around.constraints : 0},
             {"active", certificate.fresh ? certificate.fresh->around.active_constraints : 0}}}};
+}
+
+json hold_out(const std::vector<Quality>& quality) {
+  json all = json::array();
+  for (const Transfer& transfer : transfers(quality))
+    all.push_back({{"channel", transfer.channel},
+                   {"unit", transfer.unit},
+                   {"in_sample", transfer.in_sample},
+                   {"held_out", transfer.held_out},
+                   {"worst", transfer.worst->test},
+                   {"verdict", text::code_of(hold_out_codes, transfer.verdict)}});
+  return all;
 }
 
 const char* word(Information::Noise noise) {
@@ -116,6 +130,7 @@ json best(const RunSummary& run) {
   result["bic"] = run.information ? json(run.information->bic) : json(nullptr);
   result["noise"] = run.information ? json(word(run.information->noise)) : json(nullptr);
   result["certificate"] = certificate(run.certificate);
+  result["hold_out"] = hold_out(run.quality);
   if (!run.uncertainty.empty()) result["uncertainty"] = run.uncertainty;
   if (run.bootstrap) result["bootstrap"] = {{"draws", run.bootstrap->made}, {"failed", run.bootstrap->failed}};
   return result;
@@ -138,25 +153,35 @@ json run_json(const RunSummary& run) {
   over_realisations["evaluations"] = statistics(run.evaluations_spent);
   over_realisations["seconds"] = statistics(run.seconds_spent);
   over_realisations["parameters"] = std::move(over_parameters);
-  return {{"run", run.label},
-          {"model", run.model},
-          {"optimizer", run.optimizer},
-          {"tests", run.tests},
-          {"realisations", run.realisations},
-          {"best", run.has_result ? best(run) : json(nullptr)},
-          {"fixed", std::move(fixed)},
-          {"statistics", std::move(over_realisations)},
-          {"evaluations", run.evaluations},
-          {"jacobians", run.jacobians},
-          {"failures", run.failures},
-          {"infeasible", run.infeasible},
-          {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
-          {"converged", run.converged},
-          {"ended_by", run.stop_reason.empty() ? run.reason : run.stop_reason},
-          {"seconds", run.seconds}};
+  return {
+      {"run", run.label},
+      {"model", run.model},
+      {"optimizer", run.optimizer},
+      {"tests", run.tests},
+      {"objective_type", run.objective_type},
+      {"realisations", run.realisations},
+      {"best", run.has_result ? best(run) : json(nullptr)},
+      {"fixed", std::move(fixed)},
+      {"statistics", std::move(over_realisations)},
+      {"evaluations", run.evaluations},
+      {"jacobians", run.jacobians},
+      {"failures", run.failures},
+      {"infeasible", run.infeasible},
+      {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
+      {"converged", run.converged},
+      {"ended_by", run.stop_sentence.empty() ? run.reason : run.stop_sentence},
+      {"stop_reason", run.stopped_by == search::StopReason::none ? json(nullptr) : json(search::code(run.stopped_by))},
+      {"seconds", run.seconds}};
 }
 
 }  // namespace
+
+json warning_json(const execution::Warning& warning) {
+  return {{"kind", execution::code(warning.kind)},
+          {"run", warning.run.empty() ? json(nullptr) : json(warning.run)},
+          {"subjects", warning.subjects},
+          {"sentence", warning.sentence}};
+}
 
 json provenance_json(const Provenance& provenance) {
   json libraries = json::object();
@@ -182,9 +207,15 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                        {"failures", run.failures},
                        {"reason", run.status.reason()}});
   }
+  json warnings = json::array(), details = json::array();
+  for (const auto& warning : summary.warnings) {
+    warnings.push_back(warning.text());
+    details.push_back(warning_json(warning));
+  }
   const json document = {{"format", 1},
                          {"name", summary.name},
-                         {"warnings", summary.warnings},
+                         {"warnings", std::move(warnings)},
+                         {"warning_details", std::move(details)},
                          {"ranking", std::move(ranking)},
                          {"identifiability", summary.identifiability},
                          {"runs", std::move(runs)},

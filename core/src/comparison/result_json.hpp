@@ -14,6 +14,9 @@ namespace tunica::comparison {
 /// not fix a parameter. Only seconds and date differ between two runs with the same input and seed.
 std::string result_json(const Summary& summary, const Provenance& provenance);
 
+/// One entry of `warning_details`.
+nlohmann::ordered_json warning_json(const execution::Warning& warning);
+
 /// `provenance` of result.json.
 nlohmann::ordered_json provenance_json(const Provenance& provenance);
 

@@ -8,13 +8,15 @@
 #include <boost/random/normal_distribution.hpp>
 #include <tuple>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "comparison/parameter_file.hpp"
 #include "data/dataset.hpp"
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
+#include "text/units.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -26,7 +28,10 @@ namespace {
 experiment::RunEntry all_tests_with(const experiment::Experiment& experiment, const std::string& model) {
   experiment::RunEntry run;
   bool needed = false;
-  for (const auto& test : experiment.tests) run.tests.push_back(test.name), needed = needed || test.layers.empty();
+  for (const auto& test : experiment.tests) {
+    run.tests.push_back(test.name);
+    needed = needed || test.layers.empty();
+  }
   const std::string of_layers = experiment.model_name(run);
   if (needed) run.model = model;
   std::vector<std::string> models;
@@ -76,24 +81,25 @@ Subject subject_of(const experiment::Experiment& experiment, const plugins::Cata
   const experiment::RunEntry run = all_tests_with(experiment, request.model);
   Subject subject;
   subject.model = experiment.model_name(run);
-  subject.assembly = std::make_unique<calibration::Assembly>(experiment, run, catalogue);
+  subject.assembly = std::make_unique<assembly::Assembly>(experiment, run, catalogue);
   if (!request.run.empty() && !request.parameters)
     throw InputError("--run names a run of a result.json: name that with --parameters FILE");
-  const auto& parameters = subject.assembly->parameters();
+  const auto& parameters = subject.assembly->layout().parameters;
   if (request.parameters)
-    std::tie(subject.free, subject.origin) =
+    std::tie(subject.free, subject.source) =
         read_parameters(*request.parameters, subject.model, request.run, *subject.assembly);
   else
     for (const auto& parameter : parameters) subject.free.push_back(parameter.initial);
-  if (!request.parameters) subject.origin = "initial values of the experiment";
+  if (!request.parameters) subject.source = "initial values of the experiment";
+  subject.origin = subject.source;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const auto& parameter = parameters[j];
-    const std::string unit = parameter.unit == "1" ? "" : ' ' + parameter.unit;
+    const std::string unit = text::unit_suffix(parameter.unit);
     subject.origin += fmt::format("{}{} = {:.6g}{}", j == 0 ? ": " : ", ", parameter.name, subject.free[j], unit);
     if (!parameter.declared.contains(subject.free[j]))
       subject.warnings.push_back(
-          fmt::format("{} = {:g}{} lies outside {:g} … {:g}, the range declared for it: what "
-                      "follows may mean nothing",
+          fmt::format("{} = {:g}{} lies outside {:g} … {:g}, the range declared for it; the "
+                      "predictions may mean nothing",
                       parameter.name, subject.free[j], unit, parameter.declared.min, parameter.declared.max));
   }
   return subject;
@@ -108,9 +114,9 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
                                      const SimulationRequest& request, const Subject& subject) {
   const auto& assembly = *subject.assembly;
   const auto& free = subject.free;
-  std::vector<double> predictions(assembly.prediction_count());
-  auto workspace = assembly.make_workspace();
-  const Status status = assembly.predict(free, predictions, {}, *workspace);
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  auto workspace = assembly.evaluator().make_workspace();
+  const Status status = assembly.evaluator().predict(free, predictions, {}, *workspace);
   if (!status.ok())
     throw InputError(fmt::format("the model cannot be evaluated at these parameters: {}; give others with --parameters",
                                  status.reason()));
@@ -133,9 +139,9 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
       const std::string unit = source_unit.empty() ? base : source_unit;
       std::vector<double> values;
       const auto channel =
-          std::find_if(assembly.channels().begin(), assembly.channels().end(),
+          std::find_if(assembly.layout().channels.begin(), assembly.layout().channels.end(),
                        [&, &name = observable](const auto& c) { return c.test == test.name && c.observable == name; });
-      if (channel != assembly.channels().end()) {
+      if (channel != assembly.layout().channels.end()) {
         const auto begin = predictions.begin() + static_cast<std::ptrdiff_t>(channel->offset);
         values.assign(begin, begin + static_cast<std::ptrdiff_t>(channel->count));
         add_noise(values, request.noise,
@@ -155,7 +161,7 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
 
 std::filesystem::path write_table(const std::filesystem::path& directory, const SimulatedTable& table) {
   std::string text;
-  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + execution::csv_cell(table.headers[c]);
+  for (std::size_t c = 0; c < table.headers.size(); ++c) text += (c ? "," : "") + text::csv_cell(table.headers[c]);
   text += '\n';
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   for (std::size_t row = 0; row < rows; ++row) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -26,9 +26,10 @@ struct SimulationRequest {
 /// The model of the request with every test of the experiment, and the values its free parameters take.
 struct Subject {
   std::string model;  ///< what results call it
-  std::unique_ptr<calibration::Assembly> assembly;
+  std::unique_ptr<assembly::Assembly> assembly;
   std::vector<double> free;
-  std::string origin;                 ///< "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"
+  std::string source;  ///< of the values: "run 'gho/lm' of out/result.json"
+  std::string origin;  ///< the same with the values: "run 'gho/lm' of out/result.json: mu = 18.7 kPa, …"
   std::vector<std::string> warnings;  ///< values outside the declared ranges
 };
 Subject subject_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,

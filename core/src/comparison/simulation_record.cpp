@@ -7,17 +7,41 @@
 
 namespace tunica::comparison {
 
+Simulation simulate_with_fields(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                                const SimulationRequest& request, const Subject& subject,
+                                const std::vector<std::string>& fields) {
+  Simulation simulation{simulate(experiment, catalogue, request, subject), {}};
+  for (const auto& text : fields) {
+    const auto asked = field_request(text);
+    simulation.fields.emplace_back(asked.test, take_snapshots(experiment, subject, asked));
+  }
+  return simulation;
+}
+
+std::vector<std::filesystem::path> write_simulation(const std::filesystem::path& directory,
+                                                    const experiment::Experiment& experiment,
+                                                    const SimulationRequest& request, const Subject& subject,
+                                                    const Simulation& simulation) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& table : simulation.tables) files.push_back(write_table(directory, table));
+  for (const auto& [test, snapshots] : simulation.fields)
+    for (const auto& path : write_snapshots(directory, test, snapshots)) files.push_back(path);
+  files.push_back(write_record(directory, experiment, request, subject));
+  return files;
+}
+
 std::filesystem::path write_record(const std::filesystem::path& directory, const experiment::Experiment& experiment,
                                    const SimulationRequest& request, const Subject& subject) {
   nlohmann::ordered_json record{
       {"name", experiment.name}, {"model", subject.model}, {"tests", nlohmann::ordered_json::array()}};
   for (const auto& test : experiment.tests) record["tests"].push_back(test.name);
   auto& parameters = record["parameters"] = nlohmann::ordered_json::object();
-  const auto& free = subject.assembly->parameters();
+  const auto& free = subject.assembly->layout().parameters;
   for (std::size_t j = 0; j < free.size(); ++j)
     parameters[free[j].name] = {{"value", subject.free[j]}, {"unit", free[j].unit}};
-  for (const auto& parameter : subject.assembly->fixed_parameters())
+  for (const auto& parameter : subject.assembly->layout().fixed_parameters)
     parameters[parameter.name] = {{"value", parameter.value}, {"unit", parameter.unit}};
+  record["source"] = subject.source;
   record["origin"] = subject.origin;
   record["noise"] = request.noise;
   record["seed"] = request.seed;

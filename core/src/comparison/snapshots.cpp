@@ -106,8 +106,8 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
   const auto test = std::ranges::find(experiment.tests, request.test, &experiment::TestEntry::name);
   if (test == experiment.tests.end())
     throw InputError(fmt::format("--fields {}: the experiment has no test of that name", request.test));
-  const auto& channels = subject.assembly->channels();
-  const auto channel = std::ranges::find(channels, request.test, &calibration::ChannelView::test);
+  const auto& channels = subject.assembly->layout().channels;
+  const auto channel = std::ranges::find(channels, request.test, &assembly::MeasuredChannel::test);
   const std::size_t count = channel == channels.end() ? 0 : channel->count;
   std::vector<std::size_t> rows = request.rows;
   if (rows.empty() && count > 0) rows = {0, count / 2, count - 1};
@@ -125,10 +125,10 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
   return snapshots;
 }
 
-Status take_snapshots(const calibration::Assembly& assembly, std::size_t test, const calibration::ChannelView& channel,
+Status take_snapshots(const assembly::Assembly& assembly, std::size_t test, const assembly::MeasuredChannel& channel,
                       std::span<const double> free, std::span<const std::size_t> rows,
                       std::vector<Snapshot>& snapshots) {
-  return assembly.ask(test, free, [&](const Test& asked, const TestInput& input) {
+  return assembly.evaluator().ask(test, free, [&](const Test& asked, const TestInput& input) {
     Status made = asked.snapshots(input, rows, snapshots);
     for (Snapshot& snapshot : snapshots) {
       add_ellipticity(input, snapshot);

@@ -25,7 +25,7 @@ std::vector<Snapshot> take_snapshots(const experiment::Experiment& experiment, c
 
 /// The same of one test of an assembly at any values of its free parameters, with the least wave stiffness where the
 /// snapshot tells the stretches, and behind the columns of the section what the row prescribes: `prescribed_pressure`.
-Status take_snapshots(const calibration::Assembly& assembly, std::size_t test, const calibration::ChannelView& channel,
+Status take_snapshots(const assembly::Assembly& assembly, std::size_t test, const assembly::MeasuredChannel& channel,
                       std::span<const double> free, std::span<const std::size_t> rows,
                       std::vector<Snapshot>& snapshots);
 

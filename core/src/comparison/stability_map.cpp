@@ -13,18 +13,19 @@
 #include "data/nearest.hpp"
 #include "execution/evaluation_table.hpp"
 #include "stability/transverse.hpp"
+#include "text/csv.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
 namespace {
 
-std::size_t index_of(const calibration::Assembly& assembly, const std::string& name) {
+std::size_t index_of(const assembly::Assembly& assembly, const std::string& name) {
   std::vector<std::string> known;
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
-    known.push_back(assembly.parameters()[j].name);
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
+    known.push_back(assembly.layout().parameters[j].name);
     if (known.back() == name) return j;
   }
-  for (const auto& fixed : assembly.fixed_parameters())
+  for (const auto& fixed : assembly.layout().fixed_parameters)
     if (fixed.name == name)
       throw InputError(
           fmt::format("stability map: '{}' is fixed at {:.6g}; free it, so that it has bounds to draw the map between",
@@ -41,12 +42,12 @@ struct Strips {
   double worst_slope = -std::numeric_limits<double>::infinity();
 };
 
-Strips judge_strips(const calibration::Assembly& assembly, std::span<const double> free, double limit) {
+Strips judge_strips(const assembly::Assembly& assembly, std::span<const double> free, double limit) {
   Strips worst;
-  for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-    const auto parameters = assembly.model_parameters(m, free);
+  for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+    const auto parameters = assembly.models().parameters(m, free);
     for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
-      const auto verdict = stability::judge_transverse(assembly.model(m), parameters, axis, {}, limit);
+      const auto verdict = stability::judge_transverse(assembly.models().model(m), parameters, axis, {}, limit);
       auto& first = worst.first_unstable[axis];
       if (verdict.first_unstable) first = std::min(first.value_or(*verdict.first_unstable), *verdict.first_unstable);
       worst.worst_slope = std::max(worst.worst_slope, verdict.worst_slope);
@@ -57,19 +58,19 @@ Strips judge_strips(const calibration::Assembly& assembly, std::span<const doubl
 
 }  // namespace
 
-std::string stability_map(const calibration::Assembly& assembly, std::span<const double> free,
+std::string stability_map(const assembly::Assembly& assembly, std::span<const double> free,
                           const std::array<std::string, 2>& names, std::size_t points, double limit) {
   const std::array<std::size_t, 2> index{index_of(assembly, names[0]), index_of(assembly, names[1])};
   if (index[0] == index[1])
     throw InputError(fmt::format("stability map: '{}' is named twice; a map has two parameters", names[0]));
   std::vector<double> unit(free.size());
-  assembly.to_unit(free, unit);
+  assembly.box().to_unit(free, unit);
   std::vector<std::string> rows(points * points);
   tbb::parallel_for(std::size_t{0}, points * points, [&](std::size_t at) {
     std::vector<double> x = unit, p(free.size());
     x[index[0]] = static_cast<double>(at / points) / static_cast<double>(points - 1);
     x[index[1]] = static_cast<double>(at % points) / static_cast<double>(points - 1);
-    assembly.from_unit(x, p);
+    assembly.box().from_unit(x, p);
     const Strips strips = judge_strips(assembly, p, limit);
     const auto first = [&](std::size_t axis) {
       return strips.first_unstable[axis] ? map_cell(*strips.first_unstable[axis]) : std::string();
@@ -79,7 +80,7 @@ std::string stability_map(const calibration::Assembly& assembly, std::span<const
                            map_cell(strips.worst_slope));
   });
   const auto header = [&](std::size_t k) {
-    return execution::csv_cell(fmt::format("{} [{}]", names[k], assembly.parameters()[index[k]].unit));
+    return text::csv_cell(fmt::format("{} [{}]", names[k], assembly.layout().parameters[index[k]].unit));
   };
   std::string text = fmt::format(
       "# Transverse stability of free strips from rest to stretch {:g}.\n{},{},stable,"

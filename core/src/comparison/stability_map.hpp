@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 
 namespace tunica::comparison {
 
@@ -16,7 +16,7 @@ namespace tunica::comparison {
 ///   <x> [unit], <y> [unit], stable (1 or 0), first_unstable_circumferential, first_unstable_axial, worst_slope
 ///
 /// worst_slope is the largest d ln λ3/d ln λ1; its zero is the border. Throws InputError where a name is not free.
-std::string stability_map(const calibration::Assembly& assembly, std::span<const double> free,
+std::string stability_map(const assembly::Assembly& assembly, std::span<const double> free,
                           const std::array<std::string, 2>& names, std::size_t points, double limit);
 
 }  // namespace tunica::comparison

@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "comparison/text.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -113,14 +113,33 @@ std::optional<bool> StabilitySummary::transversely_stable() const {
   return all.transversely_stable();
 }
 
-stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model) {
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model, std::optional<double> to) {
   stability::Domain domain;
-  for (const auto& strip : assembly.strips()) {
+  if (to) {
+    constexpr int points = 100;
+    domain.largest = *to;
+    for (auto& stretches : domain.asked)
+      for (int k = 1; k <= points; ++k) stretches.push_back(1 + (*to - 1) * k / points);
+    return domain;
+  }
+  for (const auto& strip : assembly.models().strips()) {
     if (strip.model != model) continue;
     domain.strips[strip.axis].insert(domain.strips[strip.axis].end(), strip.stretches.begin(), strip.stretches.end());
   }
-  if (assembly.largest_stretch() > 1) domain.largest = assembly.largest_stretch();
+  if (assembly.models().largest_stretch() > 1) domain.largest = assembly.models().largest_stretch();
   return domain;
+}
+
+StabilitySummary stability_of(const assembly::Assembly& assembly, std::span<const double> free,
+                              std::optional<double> to) {
+  StabilitySummary found;
+  const auto& models = assembly.models();
+  for (std::size_t m = 0; m < models.count(); ++m)
+    found.models.push_back(
+        {models.name(m),
+         stability::judge_admissibility(models.model(m), models.parameters(m, free), domain_of(assembly, m, to)),
+         {}});
+  return found;
 }
 
 void add_stability(const execution::Plan& plan, Summary& summary) {
@@ -130,14 +149,15 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     if (!entry.has_result) continue;
     const auto& assembly = *plan.runs[run].assembly;
     StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}};
-    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-      const auto parameters = assembly.model_parameters(m, values_of(entry));
+    for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+      const auto parameters = assembly.models().parameters(m, values_of(entry));
       auto domain = domain_of(assembly, m);
       add_asked(*plan.runs[run].entry, domain);
       domain.largest = plan.experiment->analysis.stability_to.value_or(domain.largest);
-      found.models.push_back(
-          {assembly.model_name(m), stability::judge_admissibility(assembly.model(m), parameters, domain), {}});
-      for (const auto& inequality : assembly.model(m).describe().admissible) {
+      found.models.push_back({assembly.models().name(m),
+                              stability::judge_admissibility(assembly.models().model(m), parameters, domain),
+                              {}});
+      for (const auto& inequality : assembly.models().model(m).describe().admissible) {
         const double value = inequality.value(parameters);
         if (value < -1e-9)
           found.models.back().inadmissible.push_back(fmt::format("{} = {:.4g}", inequality.name, value));
@@ -156,13 +176,13 @@ std::string stability_table(const Summary& summary) {
   std::size_t width = 5;
   bool any = false;
   for (const auto& run : summary.runs)
-    if (run.stability) any = true, width = std::max(width, columns(run.label));
+    if (run.stability) any = true, width = std::max(width, text::columns(run.label));
   if (!any) return {};
   constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
   width = std::min(width, widest_label);
   std::string text = "Transverse stability (λ3 falls as the strip is pulled)\n";
-  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", pad("run", width), "imposed", "objective",
-                      "x free", "stable");
+  text += fmt::format("  {}  {:<10} {:>12} {:>7}  {:<6} λ3 grows from\n", text::pad("run", width), "imposed",
+                      "objective", "x free", "stable");
   for (const auto& run : summary.runs) {
     if (!run.stability) continue;
     const auto& found = *run.stability;
@@ -174,24 +194,24 @@ std::string stability_table(const Summary& summary) {
                                       found.models.size() > 1 ? " (" + model.name + ')' : ""));
     const std::optional<bool> stable = found.transversely_stable();
     std::string label = run.label, imposed = found.imposed.empty() ? "-" : found.imposed;
-    if (columns(label) > width || columns(imposed) > widest_constraint) {
-      const bool with_constraint = columns(imposed) > widest_constraint;
-      text += hanging(fmt::format("  {}{}", execution::shortened(label, 77), with_constraint ? ": " : ""),
-                      with_constraint ? imposed : "") +
+    if (text::columns(label) > width || text::columns(imposed) > widest_constraint) {
+      const bool with_constraint = text::columns(imposed) > widest_constraint;
+      text += text::hanging(fmt::format("  {}{}", text::shortened(label, 77), with_constraint ? ": " : ""),
+                            with_constraint ? imposed : "") +
               '\n';
       label.clear();
       if (with_constraint) imposed.clear();
     }
     const std::string row =
-        fmt::format("  {}  {} {:>#12.6g} {:>7}  {:<6}", pad(label, width), pad(imposed, widest_constraint),
+        fmt::format("  {}  {} {:>#12.6g} {:>7}  {:<6}", text::pad(label, width), text::pad(imposed, widest_constraint),
                     run.objective, found.ratio_to_free ? fmt::format("{:.3g}", *found.ratio_to_free) : "",
                     !stable   ? "-"
                     : *stable ? "yes"
                               : "NO");
     // The list is wrapped in its own column, which begins beyond the middle of the line.
-    const std::size_t begins = columns(row) + 1;
+    const std::size_t begins = text::columns(row) + 1;
     const std::string list =
-        hanging("", fmt::format("{}", fmt::join(where, ", ")), 80 - std::min<std::size_t>(begins, 79));
+        text::hanging("", fmt::format("{}", fmt::join(where, ", ")), 80 - std::min<std::size_t>(begins, 79));
     text += row;
     for (std::size_t from = 0; from < list.size();) {
       const std::size_t end = std::min(list.find('\n', from), list.size());
@@ -204,9 +224,9 @@ std::string stability_table(const Summary& summary) {
   const bool any_ratio = std::any_of(
       runs.begin(), runs.end(), [](const RunSummary& run) { return run.stability && run.stability->ratio_to_free; });
   if (any_ratio)
-    text +=
-        hanging("   ", "x free: objective over that of the best run of the same model and tests without constraints") +
-        '\n';
+    text += text::hanging(
+                "   ", "x free: objective over that of the best run of the same model and tests without constraints") +
+            '\n';
   return text;
 }
 

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "comparison/simulation.hpp"
 #include "comparison/summary.hpp"
 
 namespace tunica::comparison {
@@ -32,13 +35,22 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
 /// The same for parameter sets that no run has found.
 struct StabilitySubject {
   std::string label;
-  const calibration::Assembly* assembly;
+  const assembly::Assembly* assembly;
   std::vector<double> free;
   double limit;  ///< stretch
 };
 void write_stability_tables(const std::filesystem::path& directory, const std::vector<StabilitySubject>& subjects);
 
-/// The stretches of the strips that are made of a model, and the largest that the tests of the assembly reach.
-stability::Domain domain_of(const calibration::Assembly& assembly, std::size_t model);
+/// The stretches of the strips that are made of a model, and the largest that the tests of the assembly reach; or, with
+/// `to`, all stretches up to that one.
+stability::Domain domain_of(const assembly::Assembly& assembly, std::size_t model, std::optional<double> to = {});
+
+/// Of every model at these parameters, over domain_of().
+StabilitySummary stability_of(const assembly::Assembly& assembly, std::span<const double> free,
+                              std::optional<double> to);
+
+/// Writes the tables of a subject, and the text of a map where there is one; returns the files.
+std::vector<std::filesystem::path> write_stability(const std::filesystem::path& directory, const Subject& subject,
+                                                   std::optional<double> to, const std::string& map);
 
 }  // namespace tunica::comparison

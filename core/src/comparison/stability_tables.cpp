@@ -9,6 +9,7 @@
 #include "comparison/stability_report.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 namespace {
@@ -61,17 +62,28 @@ void write_stability_tables(const std::filesystem::path& directory, const std::v
       "stretches.\nrun,circumferential_stretch [1],axial_stretch [1],energy [kPa]\n";
   for (const StabilitySubject& subject : subjects) {
     const auto& assembly = *subject.assembly;
-    for (std::size_t m = 0; m < assembly.model_count(); ++m) {
-      const auto parameters = assembly.model_parameters(m, subject.free);
-      const std::string label = execution::csv_cell(
-          assembly.model_count() > 1 ? subject.label + ' ' + assembly.model_name(m) : subject.label);
+    for (std::size_t m = 0; m < assembly.models().count(); ++m) {
+      const auto parameters = assembly.models().parameters(m, subject.free);
+      const std::string label = text::csv_cell(
+          assembly.models().count() > 1 ? subject.label + ' ' + assembly.models().name(m) : subject.label);
       for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
-        append_strip(strips, label, assembly.model(m), parameters, axis, subject.limit);
-      append_energy(energies, label, assembly.model(m), parameters, subject.limit);
+        append_strip(strips, label, assembly.models().model(m), parameters, axis, subject.limit);
+      append_energy(energies, label, assembly.models().model(m), parameters, subject.limit);
     }
   }
   execution::write_atomically(directory / "stability.csv", strips);
   execution::write_atomically(directory / "energy.csv", energies);
+}
+
+std::vector<std::filesystem::path> write_stability(const std::filesystem::path& directory, const Subject& subject,
+                                                   std::optional<double> to, const std::string& map) {
+  const double limit = domain_of(*subject.assembly, 0, to).largest;
+  write_stability_tables(directory, {{subject.model, subject.assembly.get(), subject.free, limit}});
+  std::vector<std::filesystem::path> files{directory / "stability.csv", directory / "energy.csv"};
+  if (map.empty()) return files;
+  files.push_back(directory / "stability_map.csv");
+  execution::write_atomically(files.back(), map);
+  return files;
 }
 
 void write_stability_tables(const std::filesystem::path& directory, const execution::Plan& plan,
@@ -88,7 +100,7 @@ void write_stability_tables(const std::filesystem::path& directory, const execut
   write_stability_tables(directory, subjects);
   const auto& analysis = plan.experiment->analysis;
   for (std::size_t k = 0; k < subjects.size() && !analysis.stability_map.empty(); ++k) {
-    const auto& free = subjects[k].assembly->parameters();
+    const auto& free = subjects[k].assembly->layout().parameters;
     const bool searched =
         std::all_of(analysis.stability_map.begin(), analysis.stability_map.end(), [&](const auto& name) {
           return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });

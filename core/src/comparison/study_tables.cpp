@@ -13,16 +13,22 @@
 #include "comparison/success.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
-using execution::csv_cell;
+using text::csv_cell;
 
 template <class Number>
 std::string cell(const std::optional<Number>& number) {
   return number ? fmt::format("{}", *number) : "";
+}
+
+/// Empty where the optimiser came back by itself.
+std::string_view stop_code(search::StopReason reason) {
+  return reason == search::StopReason::none ? std::string_view() : search::code(reason);
 }
 
 std::string line(const std::vector<std::string>& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
@@ -125,20 +131,19 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
 std::string realisations_csv(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
                              const Summary& summary) {
   std::vector<std::string> columns;
-  const auto column = [](const calibration::FreeParameter& p) {
-    return csv_cell(fmt::format("{} [{}]", p.name, p.unit));
-  };
+  const auto column = [](const assembly::FreeParameter& p) { return csv_cell(fmt::format("{} [{}]", p.name, p.unit)); };
   for (const auto& run : plan.runs)
-    for (const auto& parameter : run.assembly->parameters())
+    for (const auto& parameter : run.assembly->layout().parameters)
       if (std::find(columns.begin(), columns.end(), column(parameter)) == columns.end())
         columns.push_back(column(parameter));
   std::vector<std::string> header{"run", "realisation", "objective"};
   header.insert(header.end(), columns.begin(), columns.end());
-  for (const char* name : {"evaluations", "evaluations_to_target", "status", "ended_by", "seconds [s]", "success"})
+  for (const char* name :
+       {"evaluations", "evaluations_to_target", "status", "ended_by", "seconds [s]", "success", "stop_reason"})
     header.emplace_back(name);
   std::string text = line(header);
   for (std::size_t run = 0; run < plan.runs.size(); ++run) {
-    const auto& parameters = plan.runs[run].assembly->parameters();
+    const auto& parameters = plan.runs[run].assembly->layout().parameters;
     for (const auto& realisation : results[run].realisations) {
       const auto& best = realisation.best;
       std::vector<std::string> cells{csv_cell(summary.runs[run].label), fmt::format("{}", realisation.realisation),
@@ -154,9 +159,10 @@ std::string realisations_csv(const execution::Plan& plan, const std::vector<exec
       cells.push_back(fmt::format("{}", realisation.tally.evaluations));
       cells.push_back(cell(reached));
       cells.emplace_back(best.feasible() ? "ok" : best.found() ? "infeasible" : "failed");
-      cells.push_back(csv_cell(realisation.stop_reason.empty() ? realisation.reason : realisation.stop_reason));
+      cells.push_back(csv_cell(realisation.stop_sentence.empty() ? realisation.reason : realisation.stop_sentence));
       cells.push_back(fmt::format("{}", realisation.seconds));
       cells.emplace_back(reached ? "1" : "0");
+      cells.emplace_back(stop_code(realisation.stopped_by));
       text += line(cells);
     }
   }

@@ -35,20 +35,28 @@ bool one_course(const execution::RunResult& result) {
          });
 }
 
+/// The failure policy ended it.
+bool gave_up(search::StopReason reason) {
+  return reason == search::StopReason::failure || reason == search::StopReason::failure_rate;
+}
+
 void add_counts(const execution::RunResult& result, RunSummary& summary) {
   std::vector<double> objectives;
-  calibration::Tally total;
+  search::Tally total;
   for (const auto& realisation : result.realisations) {
     total.add(realisation.tally);
     summary.seconds += realisation.seconds;
-    const bool fault = realisation.stop_reason == execution::optimizer_failure;
-    if (fault && summary.faults++ == 0) summary.first_fault = realisation.reason;
-    summary.given_up += !fault && realisation.stop_reason.starts_with("failure");
+    if (realisation.stopped_by == search::StopReason::optimizer_failure && summary.faults++ == 0)
+      summary.first_fault = realisation.reason;
+    summary.given_up += gave_up(realisation.stopped_by);
     if (realisation.best.feasible()) objectives.push_back(realisation.best.objective);
   }
-  summary.evaluations = total.evaluations, summary.jacobians = total.jacobians;
-  summary.failures = total.failures, summary.infeasible = total.infeasible;
-  summary.first_failure = total.first_failure, summary.failure_reasons = total.reasons;
+  summary.evaluations = total.evaluations;
+  summary.jacobians = total.jacobians;
+  summary.failures = total.failures;
+  summary.infeasible = total.infeasible;
+  summary.first_failure = total.first_failure;
+  summary.failure_reasons = total.reasons;
   std::stable_sort(summary.failure_reasons.begin(), summary.failure_reasons.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
   summary.realisations = result.realisations.size();
@@ -57,22 +65,24 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
 }
 
 RunSummary summarise_run(const experiment::Experiment& experiment, const execution::PlannedRun& run,
-                         const execution::RunResult& result, std::vector<std::string>& warnings) {
+                         const execution::RunResult& result, std::vector<execution::Warning>& warnings) {
   RunSummary summary;
   summary.label = run.label;
   summary.model = experiment.model_name(*run.entry);
   summary.optimizer = run.entry->optimizer;
   summary.tests = run.entry->tests;
+  summary.objective_type = name_of(run.entry->objective);
   summary.group = group_of(*run.entry);
   summary.target = run.entry->stop.target;
-  summary.fixed = run.assembly->fixed_parameters();
+  summary.fixed = run.assembly->layout().fixed_parameters;
   add_counts(result, summary);
   const auto* best = best_of(result);
   const auto* told = best ? best : result.realisations.empty() ? nullptr : &result.realisations.front();
   if (told) {
     summary.converged = told->converged;
     summary.reason = told->reason;
-    summary.stop_reason = told->stop_reason;
+    summary.stopped_by = told->stopped_by;
+    summary.stop_sentence = told->stop_sentence;
   }
   if (!best) {
     summary.status = Status::failed(summary.first_failure.empty() ? "nothing was evaluated" : summary.first_failure);
@@ -86,7 +96,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
   if (best->best.feasible())
     add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);
-  summary.certificate.ended_at_target = best->stop_reason == "target";
+  summary.certificate.ended_at_target = best->stopped_by == search::StopReason::target;
   for (const auto& parameter : summary.parameters)
     if (parameter.at_bound != Estimate::Bound::none) summary.certificate.at_bounds.push_back(parameter.name);
   return summary;
@@ -112,10 +122,10 @@ std::vector<std::string> merge_sentences(const std::vector<RunSummary>& runs) {
 }  // namespace
 
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  const std::vector<std::string>& warnings) {
+                  const std::vector<std::string>& refusals) {
   Summary summary;
   summary.name = plan.experiment->name;
-  std::vector<std::string> mismatches;
+  std::vector<execution::Warning> mismatches;
   for (std::size_t run = 0; run < plan.runs.size(); ++run)
     summary.runs.push_back(summarise_run(*plan.experiment, plan.runs[run], results[run], mismatches));
   count_successes(plan, results, summary.runs);
@@ -123,16 +133,17 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   compare_information(summary.runs, summary.ranking);
   add_stability(plan, summary);
   summary.identifiability = merge_sentences(summary.runs);
-  const auto add = [&](const std::string& warning) {
+  const auto add = [&](const execution::Warning& warning) {
     auto& all = summary.warnings;
-    if (std::find(all.begin(), all.end(), warning) == all.end()) all.push_back(warning);
+    const auto same = [&](const auto& other) { return other.text() == warning.text(); };
+    if (std::none_of(all.begin(), all.end(), same)) all.push_back(warning);
   };
   for (const auto& warning : mismatches) add(warning);
   for (const auto& warning : warnings_of(plan, summary.runs)) add(warning);
-  for (const auto& warning : warnings) add(warning);
+  for (const auto& refusal : refusals) add({execution::WarningKind::plugin_refused, refusal});
   for (const auto& warning : plan.warnings) add(warning);
   for (const auto& run : plan.runs)
-    for (const auto& warning : run.assembly->warnings()) add(warning);
+    for (const auto& warning : run.assembly->layout().warnings) add({execution::WarningKind::set_up, warning});
   return summary;
 }
 

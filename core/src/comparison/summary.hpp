@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/calibration_problem.hpp"
-#include "calibration/quality.hpp"
+#include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/information.hpp"
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
 #include "execution/results.hpp"
+#include "execution/warning.hpp"
+#include "search/calibration_problem.hpp"
 #include "stability/admissibility.hpp"
 
 namespace tunica::comparison {
@@ -31,7 +32,7 @@ struct Estimate {
   std::optional<Interval> ci95;            ///< from the noise of the data; none where they do not fix it
   std::optional<ProfileInterval> profile;  ///< where it was asked for
   std::optional<Interval> bootstrap;
-  bool straight = true;     ///< ci95 can be believed, see calibration/straightness.hpp
+  bool straight = true;     ///< ci95 can be believed, see uncertainty/straightness.hpp
   bool identified = false;  ///< the data fix it, apart from a bound
   bool held = false;        ///< a constraint fixes it
   bool assessed = false;    ///< the point is a fit and was linearised, so that `identified` means something
@@ -43,7 +44,7 @@ struct Estimate {
 struct Quality {
   std::string test, channel, unit;
   bool held_out = false;
-  calibration::Agreement agreement;
+  assembly::Agreement agreement;
 };
 
 /// Whether the best point behaves as a material, see stability_report.hpp.
@@ -64,6 +65,7 @@ struct StabilitySummary {
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
+  std::string objective_type;         ///< "least_squares"
   std::string group;                  ///< runs of one group have the same objective on the same tests and can be ranked
   bool has_result = false;            ///< some evaluation succeeded
   std::optional<double> target = {};  ///< of the objective, where the run has one
@@ -71,7 +73,7 @@ struct RunSummary {
   double objective = 0;  ///< of the best evaluated point
   std::vector<double> per_test;
   std::vector<Estimate> parameters;
-  std::vector<calibration::FixedParameter> fixed;
+  std::vector<assembly::FixedParameter> fixed;
   std::vector<Quality> quality;
   /// Of all predictions of the best point, by Assembly::channels(): half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
@@ -98,13 +100,14 @@ struct RunSummary {
   std::string first_failure;
   std::uint64_t faults = 0;  ///< realisations that ended because the optimiser threw
   std::string first_fault;
-  bool one_course = false;                                ///< all of several realisations improved by the same steps
-  std::vector<calibration::FailureKind> failure_reasons;  ///< most frequent first
-  std::uint64_t given_up = 0;                             ///< realisations that the failure policy ended
-  bool converged = false;  ///< the search that found the best point had, in the optimiser's own word; what ended
-                           ///< the whole stands in stop_reason
-  std::string reason, stop_reason;
-  double seconds = 0;  ///< Σ over realisations
+  bool one_course = false;                           ///< all of several realisations improved by the same steps
+  std::vector<search::FailureKind> failure_reasons;  ///< most frequent first
+  std::uint64_t given_up = 0;                        ///< realisations that the failure policy ended
+  bool converged = false;  ///< the search that found the best point had, in the optimiser's own word
+  std::string reason;      ///< its own reason for coming back
+  search::StopReason stopped_by = search::StopReason::none;  ///< what ended the whole
+  std::string stop_sentence;                                 ///< the same in words; empty for none
+  double seconds = 0;                                        ///< Σ over realisations
 };
 
 struct Ranked {
@@ -118,13 +121,13 @@ struct Summary {
   std::string name;
   std::vector<RunSummary> runs;
   std::vector<Ranked> ranking;  ///< group after group; runs without a result last in theirs, never left out
-  std::vector<std::string> warnings;
+  std::vector<execution::Warning> warnings;
   std::vector<std::string> identifiability;
 };
 
-/// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `warnings` come
-/// from outside (refused plugins) and go before those of the plan and the data.
+/// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `refusals`: why
+/// plugins were refused; they go before the warnings of the plan and the data.
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  const std::vector<std::string>& warnings);
+                  const std::vector<std::string>& refusals);
 
 }  // namespace tunica::comparison

@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/bootstrap.hpp"
-#include "calibration/profile.hpp"
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/profile.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
-calibration::LocalOptimizer local_optimizer(const experiment::Experiment& experiment,
+uncertainty::LocalOptimizer local_optimizer(const experiment::Experiment& experiment,
                                             const plugins::Catalogue& catalogue) {
   const std::string& named = experiment.analysis.optimizer;
   const std::string type = named.empty() ? "ceres_lm" : experiment.optimizer(named).type;
@@ -36,21 +36,21 @@ calibration::LocalOptimizer local_optimizer(const experiment::Experiment& experi
   return {&found->second, std::move(options)};
 }
 
-std::vector<std::size_t> wanted(const experiment::Analysis& analysis, const calibration::Assembly& assembly) {
+std::vector<std::size_t> wanted(const experiment::Analysis& analysis, const assembly::Assembly& assembly) {
   std::vector<std::size_t> indices;
-  for (std::size_t j = 0; j < assembly.parameters().size(); ++j) {
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
     const auto& names = analysis.profiles;
-    const bool named = std::find(names.begin(), names.end(), assembly.parameters()[j].name) != names.end();
+    const bool named = std::find(names.begin(), names.end(), assembly.layout().parameters[j].name) != names.end();
     if (analysis.all_profiles || named) indices.push_back(j);
   }
   return indices;
 }
 
-void keep(const std::vector<calibration::Profile>& made, RunSummary& summary) {
+void keep(const std::vector<uncertainty::Profile>& made, RunSummary& summary) {
   for (const auto& profile : made) {
     auto& estimate = summary.parameters[profile.parameter];
-    const auto end = [](const calibration::Profile::End& side) {
-      return side.kind == calibration::Profile::End::Kind::crossed ? std::optional(side.value) : std::nullopt;
+    const auto end = [](const uncertainty::Profile::End& side) {
+      return side.kind == uncertainty::Profile::End::Kind::crossed ? std::optional(side.value) : std::nullopt;
     };
     estimate.profile = ProfileInterval{end(profile.lower), end(profile.upper)};
   }
@@ -62,7 +62,7 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
   const auto& analysis = plan.experiment->analysis;
   std::vector<std::string> known;
   for (const auto& run : plan.runs)
-    for (const auto& parameter : run.assembly->parameters())
+    for (const auto& parameter : run.assembly->layout().parameters)
       if (std::find(known.begin(), known.end(), parameter.name) == known.end()) known.push_back(parameter.name);
   for (const auto& name : analysis.profiles)
     if (std::find(known.begin(), known.end(), name) == known.end())
@@ -77,7 +77,7 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
       throw InputError(fmt::format("{}: '{}' is named twice in the stability map; a map has two parameters",
                                    analysis.map_places.at(map[0]), map[0]));
     const bool possible = std::any_of(plan.runs.begin(), plan.runs.end(), [&](const auto& run) {
-      const auto& free = run.assembly->parameters();
+      const auto& free = run.assembly->layout().parameters;
       return std::all_of(map.begin(), map.end(), [&](const auto& name) {
         return std::any_of(free.begin(), free.end(), [&](const auto& parameter) { return parameter.name == name; });
       });
@@ -93,39 +93,43 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
              const std::function<bool()>& interrupted, Summary& summary) {
   const auto& analysis = plan.experiment->analysis;
-  if (!analysis.wanted()) return;
+  if (!analysis.wanted()) {
+    for (auto& run : summary.runs) add_linearised_words(run);
+    return;
+  }
   const auto optimizer = local_optimizer(*plan.experiment, catalogue);
   std::vector<RunProfiles> profiled;
   std::vector<RunDraws> drawn;
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const auto& run = plan.runs[k];
     auto& own = summary.runs[k];
-    if (!own.has_result || !own.status.ok()) continue;
+    if (!own.has_result || !own.status.ok()) {
+      add_linearised_words(own);
+      continue;
+    }
     const auto& assembly = *run.assembly;
     std::vector<double> best;
     for (const auto& parameter : own.parameters) best.push_back(parameter.value);
     const std::uint64_t seed = derive_seed(run.seed, "analysis");
     if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
-      const auto likelihood = calibration::likelihood_at(assembly, best, optimizer, seed);
+      const auto likelihood = uncertainty::likelihood_at(assembly, best, optimizer, seed);
       if (!likelihood.centre.status.ok()) {
         own.uncertainty.push_back(
             fmt::format("no profiles: the best point cannot be refitted: {}", likelihood.centre.status.reason()));
       } else {
-        auto made = calibration::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
+        auto made = uncertainty::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
         keep(made, own);
-        for (auto& sentence : own.uncertainty)  // of the linearised intervals: what it advises is done
-          if (const auto advice = sentence.find("; --profiles "); advice != std::string::npos && analysis.all_profiles)
-            sentence = sentence.substr(0, advice) + "; take the profile";
         add_profile_words(assembly, run.entry->objective, made, own);
         profiled.push_back({&assembly, own.label, std::move(made)});
       }
     }
     if (analysis.bootstrap_draws > 0) {
-      auto made = calibration::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
+      auto made = uncertainty::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
       for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
       add_bootstrap_words(assembly, made, own);
       drawn.push_back({&assembly, own.label, std::move(made)});
     }
+    add_linearised_words(own);
     if (interrupted && interrupted()) return;
   }
   write_profiles(directory, profiled);

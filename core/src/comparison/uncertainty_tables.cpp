@@ -9,13 +9,14 @@
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
 namespace {
 
-std::string column(const calibration::FreeParameter& parameter) {
-  return execution::csv_cell(fmt::format("{} [{}]", parameter.name, parameter.unit));
+std::string column(const assembly::FreeParameter& parameter) {
+  return text::csv_cell(fmt::format("{} [{}]", parameter.name, parameter.unit));
 }
 
 /// Columns of all these runs, each once.
@@ -23,20 +24,20 @@ template <class Run>
 std::vector<std::string> columns_of(const std::vector<Run>& runs) {
   std::vector<std::string> columns;
   for (const auto& run : runs)
-    for (const auto& parameter : run.assembly->parameters())
+    for (const auto& parameter : run.assembly->layout().parameters)
       if (std::find(columns.begin(), columns.end(), column(parameter)) == columns.end())
         columns.push_back(column(parameter));
   return columns;
 }
 
 /// The values of one run in these columns; empty cells where it has none.
-std::string cells(const calibration::Assembly& assembly, const std::vector<double>& free,
+std::string cells(const assembly::Assembly& assembly, const std::vector<double>& free,
                   const std::vector<std::string>& columns) {
   std::string text;
   for (const auto& wanted : columns) {
     text += ',';
     for (std::size_t j = 0; j < free.size(); ++j)
-      if (column(assembly.parameters()[j]) == wanted) text += fmt::format("{}", free[j]);
+      if (column(assembly.layout().parameters[j]) == wanted) text += fmt::format("{}", free[j]);
   }
   return text;
 }
@@ -55,7 +56,7 @@ void write_profiles(const std::filesystem::path& directory, const std::vector<Ru
   std::map<std::string, std::string> files;  // by parameter
   for (const auto& run : runs)
     for (const auto& profile : run.profiles) {
-      const auto& parameter = run.assembly->parameters()[profile.parameter];
+      const auto& parameter = run.assembly->layout().parameters[profile.parameter];
       auto& text = files[parameter.name];
       if (text.empty())
         text = fmt::format(
@@ -65,8 +66,8 @@ void write_profiles(const std::filesystem::path& directory, const std::vector<Ru
             "run,value [{}],delta,threshold,{}\n",
             parameter.name, parameter.unit, fmt::join(columns, ","));
       for (const auto& point : profile.points)
-        text += fmt::format("{},{},{},{}{}\n", execution::csv_cell(run.label), point.value, point.delta,
-                            profile.threshold, cells(*run.assembly, point.free, columns));
+        text += fmt::format("{},{},{},{}{}\n", text::csv_cell(run.label), point.value, point.delta, profile.threshold,
+                            cells(*run.assembly, point.free, columns));
     }
   for (const auto& [parameter, text] : files) execution::write_atomically(directory / file_name(parameter), text);
 }
@@ -78,7 +79,7 @@ void write_bootstrap(const std::filesystem::path& directory, const std::vector<R
   for (const auto& run : runs)
     for (std::size_t k = 0; k < run.bootstrap.draws.size(); ++k) {
       const auto& draw = run.bootstrap.draws[k];
-      text += fmt::format("{},{},{},{},{}{}\n", execution::csv_cell(run.label), k + 1, name(draw.status.kind()),
+      text += fmt::format("{},{},{},{},{}{}\n", text::csv_cell(run.label), k + 1, name(draw.status.kind()),
                           draw.converged ? 1 : 0, draw.free.empty() ? "" : fmt::format("{}", draw.objective),
                           cells(*run.assembly, draw.free, columns));
     }

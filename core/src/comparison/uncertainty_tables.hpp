@@ -5,21 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "calibration/bootstrap.hpp"
-#include "calibration/profile.hpp"
+#include "uncertainty/bootstrap.hpp"
+#include "uncertainty/profile.hpp"
 
 namespace tunica::comparison {
 
 struct RunProfiles {
-  const calibration::Assembly* assembly;
+  const assembly::Assembly* assembly;
   std::string label;
-  std::vector<calibration::Profile> profiles;
+  std::vector<uncertainty::Profile> profiles;
 };
 
 struct RunDraws {
-  const calibration::Assembly* assembly;
+  const assembly::Assembly* assembly;
   std::string label;
-  calibration::Bootstrap bootstrap;
+  uncertainty::Bootstrap bootstrap;
 };
 
 /// profile_<parameter>.csv, one file a parameter for all runs that have it.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "comparison/ranking.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::comparison {
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double disagreement = 0.25;  ///< of the linearised half width
 
-using calibration::Profile;
+using uncertainty::Profile;
 using Kind = Profile::End::Kind;
 
 std::string end_text(const Profile::End& end) {
@@ -35,21 +36,42 @@ bool at(const Estimate& estimate, Estimate::Bound bound) { return estimate.at_bo
 
 }  // namespace
 
-void add_profile_words(const calibration::Assembly& assembly, experiment::ObjectiveType objective,
+void add_linearised_words(RunSummary& summary) {
+  std::vector<std::string> names;
+  bool profiled = true;
+  for (const auto& estimate : summary.parameters) {
+    if (!estimate.ci95 || estimate.straight) continue;
+    names.push_back(estimate.name);
+    profiled = profiled && estimate.profile.has_value();
+  }
+  if (names.empty()) return;
+  const bool one = names.size() == 1;
+  std::string sentence = fmt::format(
+      "the linearised {} of {} may be far off: the likelihood is not quadratic over {}, or a bound cuts {} "
+      "off; ",
+      one ? "interval" : "intervals", text::joined(names), one ? "this interval" : "these intervals",
+      one ? "it" : "them");
+  sentence += profiled
+                  ? "take the profile"
+                  : fmt::format("--profiles {} gives {}", fmt::join(names, ","), one ? "a better one" : "better ones");
+  summary.uncertainty.insert(summary.uncertainty.begin(), std::move(sentence));
+}
+
+void add_profile_words(const assembly::Assembly& assembly, experiment::ObjectiveType objective,
                        const std::vector<Profile>& profiles, RunSummary& summary) {
   if (objective != experiment::ObjectiveType::least_squares)
     summary.uncertainty.push_back(
-        fmt::format("profiles are of the likelihood of normal noise; the run minimised {}, whose optimum may differ "
-                    "from theirs",
+        fmt::format("profiles use the likelihood of normal noise; the run minimised {}, whose optimum may differ from "
+                    "theirs",
                     name_of(objective)));
   for (const Profile& profile : profiles) {
     const auto& estimate = summary.parameters[profile.parameter];
-    const std::string& name = assembly.parameters()[profile.parameter].name;
+    const std::string& name = assembly.layout().parameters[profile.parameter].name;
     if (!at(estimate, Estimate::Bound::lower)) add_open_end(name, profile.lower, "lower", summary);
     if (!at(estimate, Estimate::Bound::upper)) add_open_end(name, profile.upper, "upper", summary);
     if (profile.lowest < -1e-2 * profile.threshold)
       summary.uncertainty.push_back(
-          fmt::format("the profile of {} came to a MORE LIKELY point (-2 ln L lower by {:.3g}): the best point is not "
+          fmt::format("the profile of {} found a more likely point (-2 ln L lower by {:.3g}), so the best point is not "
                       "the optimum of the likelihood; search longer or from more starts",
                       name, -profile.lowest));
     if (!estimate.ci95) continue;
@@ -62,16 +84,16 @@ void add_profile_words(const calibration::Assembly& assembly, experiment::Object
     if (differs(profile.lower, estimate.ci95->first, estimate.min) ||
         differs(profile.upper, estimate.ci95->second, estimate.max))
       summary.uncertainty.push_back(fmt::format(
-          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) DISAGREE: {}", name,
+          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) disagree: {}", name,
           end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second,
           objective == experiment::ObjectiveType::least_squares
-              ? "the likelihood is not parabolic there; take the profile"
-              : "the likelihood is not parabolic there, or has its optimum elsewhere than the objective that was "
-                "minimised and fixes the parameter better; minimise least_squares, or take the bootstrap"));
+              ? "the likelihood is not quadratic there; take the profile"
+              : "the likelihood is not quadratic there, or its optimum is elsewhere than that of the minimised "
+                "objective; minimise least_squares, or take the bootstrap"));
   }
 }
 
-void add_bootstrap_words(const calibration::Assembly& assembly, const calibration::Bootstrap& bootstrap,
+void add_bootstrap_words(const assembly::Assembly& assembly, const uncertainty::Bootstrap& bootstrap,
                          RunSummary& summary) {
   summary.bootstrap = {bootstrap.draws.size(), bootstrap.failures};
   if (bootstrap.draws.empty()) {
@@ -82,16 +104,16 @@ void add_bootstrap_words(const calibration::Assembly& assembly, const calibratio
     summary.uncertainty.push_back(fmt::format("{} of {} bootstrap draws could not be fitted and are left out",
                                               bootstrap.failures, bootstrap.draws.size()));
   std::size_t channel = 0;
-  for (const auto& view : assembly.channels()) {
+  for (const auto& view : assembly.layout().channels) {
     const bool counted =
         view.weight > 0 && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end();
     if (!counted || channel >= bootstrap.blocks.size()) continue;
     const std::size_t length = bootstrap.blocks[channel];
     if (length > 1)
-      summary.uncertainty.push_back(
-          fmt::format("neighbouring residuals of {}, {} are correlated ({:.2f}): the bootstrap drew blocks of {} rows; "
-                      "intervals that take rows for independent are too narrow",
-                      view.test, view.observable, bootstrap.correlation[channel], length));
+      summary.uncertainty.push_back(fmt::format(
+          "neighbouring residuals of {}, {} are correlated ({:.2f}), so the bootstrap drew blocks of {} rows; "
+          "intervals that treat rows as independent are too narrow",
+          view.test, view.observable, bootstrap.correlation[channel], length));
     ++channel;
   }
 }

@@ -11,6 +11,7 @@
 #include "comparison/snapshots.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::comparison {
 
@@ -47,7 +48,7 @@ std::string table_of(const std::string& run, const std::vector<Snapshot>& snapsh
       text += '\n';
     }
     for (std::size_t i = 0; i < snapshot.section.front().values.size(); ++i) {
-      text += fmt::format("{},{}", execution::csv_cell(run), snapshot.row + 1);
+      text += fmt::format("{},{}", text::csv_cell(run), snapshot.row + 1);
       for (const auto& column : snapshot.section)
         text += std::isfinite(column.values[i]) ? fmt::format(",{}", column.values[i]) : ",";
       text += '\n';
@@ -65,9 +66,9 @@ void write_wall_tables(const std::filesystem::path& directory, const execution::
     const auto& assembly = *plan.runs[run].assembly;
     const auto& tests = plan.runs[run].entry->tests;
     const auto position = static_cast<std::size_t>(std::find(tests.begin(), tests.end(), test.name) - tests.begin());
-    const auto channel = std::find_if(assembly.channels().begin(), assembly.channels().end(),
+    const auto channel = std::find_if(assembly.layout().channels.begin(), assembly.layout().channels.end(),
                                       [&](const auto& one) { return one.test == test.name; });
-    if (channel == assembly.channels().end()) continue;
+    if (channel == assembly.layout().channels.end()) continue;
     std::vector<double> free;
     for (const auto& parameter : summary.runs[run].parameters) free.push_back(parameter.value);
     std::vector<Snapshot> snapshots;

@@ -6,69 +6,98 @@
 #include <algorithm>
 #include <set>
 
+#include "text/lists.hpp"
+#include "text/units.hpp"
+
 namespace tunica::comparison {
 
 namespace {
 
-void warn_of_bounds(const RunSummary& run, std::vector<std::string>& warnings) {
+using execution::WarningKind;
+using Warnings = std::vector<execution::Warning>;
+
+void warn_of_missing_result(const RunSummary& run, const std::string& reasons, Warnings& warnings) {
+  const std::string why = run.evaluations == 0 ? std::string("nothing was evaluated")
+                                               : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons);
+  warnings.push_back({WarningKind::no_result, "no result: " + why, run.label});
+}
+
+void warn_of_broken_constraints(const RunSummary& run, Warnings& warnings) {
+  warnings.push_back(
+      {WarningKind::no_feasible_point,
+       fmt::format("no feasible point was found in {} evaluations. The point with the least violation, {:.3g}, is "
+                   "shown; it is not a fit. Its worst constraint is {}. Widen the bounds, or relax the constraints",
+                   run.evaluations, run.status.violation(), run.status.reason()),
+       run.label});
+}
+
+void warn_of_bounds(const RunSummary& run, Warnings& warnings) {
   for (const auto& parameter : run.parameters) {
     if (parameter.at_bound == Estimate::Bound::none) continue;
     const bool upper = parameter.at_bound == Estimate::Bound::upper;
-    const std::string unit = parameter.unit == "1" ? "" : ' ' + parameter.unit;
-    warnings.push_back(
-        fmt::format("{}: {} = {:.6g}{} IS AT ITS {} BOUND ({:.6g}{}): the best value may lie beyond it; "
-                    "widen the bound if physics allows it, else doubt the model",
-                    run.label, parameter.name, parameter.value, unit, upper ? "UPPER" : "LOWER",
-                    upper ? parameter.max : parameter.min, unit));
+    const std::string unit = text::unit_suffix(parameter.unit);
+    warnings.push_back({WarningKind::at_bound,
+                        fmt::format("{} = {:.6g}{} lies at its {} bound ({:.6g}{}); the best value may lie beyond it. "
+                                    "Widen the bound if physics allows it, otherwise doubt the model",
+                                    parameter.name, parameter.value, unit, upper ? "upper" : "lower",
+                                    upper ? parameter.max : parameter.min, unit),
+                        run.label,
+                        {parameter.name}});
   }
 }
 
-void warn_of_loose_parameters(const RunSummary& run, std::vector<std::string>& warnings) {
+void warn_of_loose_parameters(const RunSummary& run, Warnings& warnings) {
   std::vector<std::string> names;
   for (const auto& parameter : run.parameters)
     if (parameter.assessed && !parameter.identified && !parameter.held && parameter.at_bound == Estimate::Bound::none)
       names.push_back(parameter.name);
-  if (!names.empty())
-    warnings.push_back(fmt::format("{}: the data do not fix {}{}; what they do fix is said below", run.label,
-                                   fmt::join(names, ", "), names.size() > 1 ? " one by one" : ""));
+  if (names.empty()) return;
+  warnings.push_back({WarningKind::not_fixed_by_data,
+                      fmt::format("the data do not fix {}{}; see below what they do fix", text::joined(names),
+                                  names.size() > 1 ? " one by one" : ""),
+                      run.label, names});
 }
 
-/// `who`: the run, and the model where it has several.
-void warn_of_instability(const std::string& who, const StabilitySummary::OfModel& model,
-                         std::vector<std::string>& warnings) {
+/// `of_model`: "model 'media': " where the run has several, else empty.
+void warn_of_instability(const RunSummary& run, const std::string& of_model, const StabilitySummary::OfModel& model,
+                         Warnings& warnings) {
   const auto& verdict = model.verdict;
+  const auto warn = [&](WarningKind kind, const std::string& sentence) {
+    warnings.push_back({kind, of_model + sentence, run.label, {model.name}});
+  };
   for (const auto& strip : verdict.transverse)
     if (strip.stable == false) {
       const bool pulled = strip.first_unstable && *strip.first_unstable < strip.judged_to;
       const auto& from = pulled ? strip.first_unstable : strip.first_unstable_pressed;
-      warnings.push_back(fmt::format(
-          "{}: UNSTABLE: {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to {:.4g}); impose the "
-          "constraint transverse_stability, or take a model with dispersed fibres",
-          who, pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
-          from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
-          strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
+      warn(WarningKind::unstable,
+           fmt::format(
+               "unstable: when the strip is {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to "
+               "{:.4g}); impose the constraint transverse_stability, or take a model with dispersed fibres",
+               pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
+               from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
+               strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
     }
   if (verdict.ellipticity.first_lost)
-    warnings.push_back(
-        fmt::format("{}: ELLIPTICITY IS LOST at stretch {:.4g} in {}, within the measured domain: finite "
-                    "elements will localise there",
-                    who, *verdict.ellipticity.first_lost, verdict.ellipticity.path));
+    warn(WarningKind::ellipticity_lost,
+         fmt::format("ellipticity is lost at stretch {:.4g} in {}, within the measured domain; finite elements will "
+                     "localise there",
+                     *verdict.ellipticity.first_lost, verdict.ellipticity.path));
   if (verdict.drucker && verdict.drucker->first_lost)
-    warnings.push_back(
-        fmt::format("{}: DRUCKER'S CONDITION IS LOST at stretch {:.4g} in {}, within the measured domain", who,
-                    *verdict.drucker->first_lost, verdict.drucker->path));
+    warn(WarningKind::drucker_lost,
+         fmt::format("Drucker's condition is lost at stretch {:.4g} in {}, within the measured domain",
+                     *verdict.drucker->first_lost, verdict.drucker->path));
   if (!model.inadmissible.empty())
-    warnings.push_back(
-        fmt::format("{}: the parameters are NOT ADMISSIBLE: {} must not be negative; impose the constraint "
-                    "admissible_parameters",
-                    who, fmt::join(model.inadmissible, ", ")));
+    warn(WarningKind::inadmissible_parameters,
+         fmt::format("the parameters are not admissible: {} must not be negative; impose the constraint "
+                     "admissible_parameters",
+                     text::joined(model.inadmissible)));
 }
 
-void warn_of_instability(const RunSummary& run, std::vector<std::string>& warnings) {
+void warn_of_instability(const RunSummary& run, Warnings& warnings) {
   if (!run.stability) return;
   const auto& models = run.stability->models;
   for (const auto& model : models)
-    warn_of_instability(models.size() > 1 ? fmt::format("{}, model '{}'", run.label, model.name) : run.label, model,
+    warn_of_instability(run, models.size() > 1 ? fmt::format("model '{}': ", model.name) : std::string(), model,
                         warnings);
 }
 
@@ -79,77 +108,83 @@ std::string reasons_text(const RunSummary& run) {
   if (kinds.size() < 2) return "the first: " + run.first_failure;
   std::string text;
   for (std::size_t k = 0; k < std::min(told, kinds.size()); ++k)
-    text += fmt::format("{}{} times: {}", k == 0 ? "" : "; ", kinds[k].count, kinds[k].example);
+    text +=
+        fmt::format("{}{}: {}", k == 0 ? "" : "; ", text::counted(kinds[k].count, "time", "times"), kinds[k].example);
   return kinds.size() > told ? text + "; and other reasons" : text;
 }
 
-void warn_of_failures(const RunSummary& run, std::vector<std::string>& warnings) {
+void warn_of_failures(const RunSummary& run, Warnings& warnings) {
   if (run.failures == 0 || !run.has_result) return;
   const double share =
       100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
-  warnings.push_back(fmt::format("{}: {} of {} evaluations failed ({:.3g} %); {}", run.label, run.failures,
-                                 run.evaluations, share, reasons_text(run)));
+  warnings.push_back({WarningKind::failed_evaluations,
+                      fmt::format("{} of {} evaluations failed ({:.3g} %); {}", run.failures, run.evaluations, share,
+                                  reasons_text(run)),
+                      run.label});
   if (run.faults > 0)
-    warnings.push_back(fmt::format("{}: {} of {} realisations ENDED BY AN ERROR of the optimiser: {}", run.label,
-                                   run.faults, run.realisations, run.first_fault));
+    warnings.push_back({WarningKind::optimizer_failure,
+                        fmt::format("an error of the optimiser ended {} of {} realisations: {}", run.faults,
+                                    run.realisations, run.first_fault),
+                        run.label});
   if (run.one_course)
-    warnings.push_back(fmt::format(
-        "{}: all {} realisations improved by the same steps, for they begin at the same initial values: this is one "
-        "search, counted {} times. For a statistic over starting points set \"initial\": \"random\"",
-        run.label, run.realisations, run.realisations));
-  if (run.given_up > 0)
     warnings.push_back(
-        fmt::format("{}: {} of {} realisations were GIVEN UP by on_failure before their budget was spent", run.label,
-                    run.given_up, run.realisations));
+        {WarningKind::same_course,
+         fmt::format("all {0} realisations improved by the same steps, because they begin at the same initial values. "
+                     "This is one search, counted {0} times. Set \"initial\": \"random\" for statistics over starting "
+                     "points",
+                     run.realisations),
+         run.label});
+  if (run.given_up > 0)
+    warnings.push_back({WarningKind::given_up,
+                        fmt::format("on_failure gave up {} of {} realisations before their budget was spent",
+                                    run.given_up, run.realisations),
+                        run.label});
+}
+
+void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run, Warnings& warnings) {
+  if (planned.entry->stop.max_time)
+    warnings.push_back({WarningKind::depends_on_time,
+                        "max_time is set. Where it ends a search, the result depends on the speed of the machine, and "
+                        "a repetition may differ",
+                        run.label});
+  const auto& parameters = planned.assembly->layout().parameters;
+  const auto priors =
+      std::count_if(parameters.begin(), parameters.end(), [](const auto& one) { return one.prior.has_value(); });
+  if (priors > 0)
+    warnings.push_back({WarningKind::prior,
+                        fmt::format("{} of its parameters {} a prior, which is part of the objective", priors,
+                                    text::agreeing(static_cast<std::size_t>(priors), "has", "have")),
+                        run.label});
 }
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
-  std::vector<std::string> warnings;
+std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
+  Warnings warnings;
   for (const auto& run : runs)
-    if (!run.has_result)
-      warnings.push_back(fmt::format(
-          "{}: NO RESULT: {}", run.label,
-          run.evaluations == 0 ? "nothing was evaluated"
-                               : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons_text(run))));
+    if (!run.has_result) warn_of_missing_result(run, reasons_text(run), warnings);
   for (const auto& run : runs)
-    if (run.has_result && run.status.kind() == Status::Kind::infeasible)
-      warnings.push_back(
-          fmt::format("{}: NO FEASIBLE POINT WAS FOUND in {} evaluations: shown is the least violation, {:.3g}, not a "
-                      "fit; its worst "
-                      "is {}. Widen the bounds, or ask for less",
-                      run.label, run.evaluations, run.status.violation(), run.status.reason()));
+    if (run.has_result && run.status.kind() == Status::Kind::infeasible) warn_of_broken_constraints(run, warnings);
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
   for (const auto& run : runs) warn_of_bounds(run, warnings);
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_loose_parameters(run, warnings);
   for (const auto& run : runs) warn_of_failures(run, warnings);
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    const auto& entry = *plan.runs[run].entry;
-    if (entry.stop.max_time)
-      warnings.push_back(
-          fmt::format("{}: max_time is set: where it ends a search the result depends on the speed of the "
-                      "machine, and a repetition may differ",
-                      runs[run].label));
-    const auto& parameters = plan.runs[run].assembly->parameters();
-    const auto priors =
-        std::count_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.prior.has_value(); });
-    if (priors > 0)
-      warnings.push_back(fmt::format("{}: {} of its parameters have a prior, which is part of the objective",
-                                     runs[run].label, priors));
-  }
+  for (std::size_t run = 0; run < runs.size(); ++run) warn_of_set_up(plan.runs[run], runs[run], warnings);
   for (const auto& test : plan.experiment->tests)
     if (test.hold_out.all || test.hold_out.rows)
-      warnings.push_back(fmt::format("test {}: {} held out: predicted and scored, never fitted", test.name,
-                                     test.hold_out.all ? "all rows are" : "some rows are"));
+      warnings.push_back({WarningKind::held_out,
+                          fmt::format("test {}: {} held out: predicted and scored, never fitted", test.name,
+                                      test.hold_out.all ? "all rows are" : "some rows are"),
+                          "",
+                          {test.name}});
   std::set<std::string> groups;
   for (const auto& run : runs) groups.insert(run.group);
   if (groups.size() > 1)
-    warnings.push_back(
-        "the runs differ in objective or tests, so that their objectives cannot be compared; they are ranked "
-        "within groups");
+    warnings.push_back({WarningKind::not_comparable,
+                        "the runs differ in objective or tests, so their objectives cannot be compared; they are "
+                        "ranked within groups"});
   return warnings;
 }
 

@@ -2,13 +2,13 @@
 // Tests and models as an experiment has them.
 #include <algorithm>
 
-#include "calibration/composition.hpp"
+#include "assembly/composition.hpp"
 #include "conformance/test_cases.hpp"
 
 namespace tunica::conformance {
 namespace {
 
-std::vector<double> values_of(const std::vector<calibration::Slot>& slots, const std::vector<double>& otherwise) {
+std::vector<double> values_of(const std::vector<assembly::Slot>& slots, const std::vector<double>& otherwise) {
   std::vector<double> values = otherwise;
   for (std::size_t k = 0; k < slots.size() && k < values.size(); ++k) {
     const experiment::ParameterSetting* setting = slots[k].setting;
@@ -24,7 +24,7 @@ std::vector<double> values_of(const std::vector<calibration::Slot>& slots, const
 }
 
 Material composed(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue) {
-  calibration::ComposedModel made = calibration::compose_model(entry, catalogue, "");
+  assembly::ComposedModel made = assembly::compose_model(entry, catalogue, "");
   std::vector<double> values = values_of(made.slots, initial_values(made.model->describe().parameters));
   return {entry.name, std::move(made.model), std::move(values)};
 }
@@ -49,7 +49,7 @@ std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment,
   std::vector<TestCase> all;
   for (const experiment::TestEntry& entry : experiment.tests) {
     if (std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
-    calibration::ComposedTest made = calibration::compose_test(entry, catalogue);
+    assembly::ComposedTest made = assembly::compose_test(entry, catalogue);
     TestCase test_case{entry.name, std::move(made.test), {}, {}, {}, {}};
     test_case.own = values_of(made.slots, own_values(test_case.test->describe()));
     if (entry.layers.empty()) {

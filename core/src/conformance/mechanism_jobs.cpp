@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/composition.hpp"
+#include "assembly/composition.hpp"
 #include "conformance/declarations.hpp"
 #include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
@@ -70,7 +70,7 @@ WrappedModel around_some_model(const Entry& entry, const CheckContext& context) 
 
 /// A test of the experiment once more: one that is wrapped is owned.
 std::unique_ptr<Test> composed_test(const std::string& name, const CheckContext& context) {
-  return calibration::compose_test(context.settings.experiment->test(name), context.catalogue).test;
+  return assembly::compose_test(context.settings.experiment->test(name), context.catalogue).test;
 }
 
 WrappedTest around_test(const Entry& entry, const std::string& type, const CheckContext& context) {

@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 2;
+constexpr int checkpoint_format = 3;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
@@ -45,7 +45,8 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
           {"reason", result.reason},
-          {"stop_reason", result.stop_reason},
+          {"stop_reason", search::code(result.stopped_by)},
+          {"stop_sentence", result.stop_sentence},
           {"seconds", result.seconds}};
 }
 
@@ -69,9 +70,28 @@ RealisationResult from_json(const json& entry) {
     result.tally.reasons.push_back({kind.at("example"), kind.at("count")});
   result.converged = entry.at("converged");
   result.reason = entry.at("reason");
-  result.stop_reason = entry.at("stop_reason");
+  const std::string code = entry.at("stop_reason");
+  const auto stopped_by = search::stop_reason_from_code(code);
+  if (!stopped_by)
+    throw InputError(
+        fmt::format("checkpoint.json: the stop reason '{}' is not known; start anew with another -o", code));
+  result.stopped_by = *stopped_by;
+  result.stop_sentence = entry.at("stop_sentence");
   result.seconds = entry.at("seconds");
   return result;
+}
+
+json to_json(const Facts& facts) {
+  return {{"experiment", facts.experiment},
+          {"seed", facts.seed},
+          {"data", facts.data},
+          {"plugins", facts.plugins},
+          {"plugin_interface", facts.plugin_interface}};
+}
+
+Facts facts_from(const json& entry) {
+  return {entry.at("experiment"), entry.at("seed"), entry.at("data").get<std::map<std::string, std::string>>(),
+          entry.at("plugins"), entry.at("plugin_interface")};
 }
 
 /// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
@@ -107,19 +127,19 @@ std::string without_analysis(const std::string& input_json) {
 Facts facts_of(const Plan& plan) {
   Facts facts;
   const auto& experiment = *plan.experiment;
-  facts["the experiment file"] = data::sha256(without_analysis(experiment.input_json));
-  facts["the seed"] = fmt::format("{}", experiment.seed);
+  facts.experiment = data::sha256(without_analysis(experiment.input_json));
+  facts.seed = fmt::format("{}", experiment.seed);
   for (const auto& run : plan.runs) {
-    for (const auto& hash : run.assembly->data_hashes()) {
+    for (const auto& hash : run.assembly->layout().data_hashes) {
       const auto space = hash.rfind(' ');
-      auto& known = facts["the data " + hash.substr(0, space)];
+      auto& known = facts.data[hash.substr(0, space)];
       const std::string digest = space == std::string::npos ? hash : hash.substr(space + 1);
       // Files of one name in several folders share the entry.
       if (known.find(digest) == std::string::npos) known += known.empty() ? digest : ' ' + digest;
     }
   }
-  facts["the plugins"] = fmt::format("{}", fmt::join(plan.plugins, ", "));
-  facts["the plugin interface of tunica"] = fmt::format("{}", TUNICA_PLUGIN_API);
+  facts.plugins = fmt::format("{}", fmt::join(plan.plugins, ", "));
+  facts.plugin_interface = fmt::format("{}", TUNICA_PLUGIN_API);
   return facts;
 }
 
@@ -130,7 +150,7 @@ std::string checkpoint_entry(std::size_t task, const RealisationResult& result) 
 void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
                       const std::map<std::size_t, std::string>& entries) {
   std::string text = fmt::format("{{\n\"format\": {},\n\"facts\": {},\n\"finished\": [", checkpoint_format,
-                                 json(facts).dump(1, ' ', false, json::error_handler_t::replace));
+                                 to_json(facts).dump(1, ' ', false, json::error_handler_t::replace));
   for (const auto& [task, entry] : entries) text.append(text.back() == '[' ? "\n" : ",\n").append(entry);
   write_atomically(checkpoint_file(directory), text + "\n]\n}\n");
 }
@@ -155,7 +175,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
           fmt::format("{}: format {}, this version of tunica reads {}; resume with the version that wrote it",
                       file.string(), document.at("format").dump(), checkpoint_format));
     Checkpoint checkpoint;
-    checkpoint.facts = document.at("facts").get<Facts>();
+    checkpoint.facts = facts_from(document.at("facts"));
     for (const auto& entry : document.at("finished"))
       checkpoint.finished.emplace_back(entry.at("task").get<std::size_t>(), from_json(entry));
     return checkpoint;
@@ -168,20 +188,27 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
 void refuse_changes(const std::filesystem::path& directory, const Facts& then, const Facts& now,
                     const std::string& input_json) {
   std::vector<std::string> changes;
-  for (const auto& [what, value] : now) {
-    const auto before = then.find(what);
-    if (before == then.end())
-      changes.push_back(what + " is new");
-    else if (before->second != value && what != "the experiment file")
-      changes.push_back(fmt::format("{} changed (was {}, is {})", what, before->second, value));
-    else if (before->second != value)
-      changes.push_back(fmt::format("{} changed: {}", what, fmt::join(changed_keys(directory, input_json), ", ")));
+  const auto compare = [&](const std::string& what, const std::string& was, const std::string& is) {
+    if (was != is) changes.push_back(fmt::format("{} changed (was {}, is {})", what, was, is));
+  };
+  if (then.experiment != now.experiment)
+    changes.push_back(
+        fmt::format("the experiment file changed: {}", fmt::join(changed_keys(directory, input_json), ", ")));
+  compare("the seed", then.seed, now.seed);
+  for (const auto& [file, hash] : now.data) {
+    const auto before = then.data.find(file);
+    if (before == then.data.end())
+      changes.push_back(fmt::format("the data {} are new", file));
+    else
+      compare("the data " + file, before->second, hash);
   }
-  for (const auto& [what, value] : then)
-    if (now.find(what) == now.end()) changes.push_back(what + " is gone");
+  for (const auto& [file, hash] : then.data)
+    if (!now.data.contains(file)) changes.push_back(fmt::format("the data {} are gone", file));
+  compare("the plugins", then.plugins, now.plugins);
+  compare("the plugin interface of tunica", then.plugin_interface, now.plugin_interface);
   if (changes.empty()) return;
   throw InputError(
-      fmt::format("{}: cannot be resumed, because the run began with something else:\n  {}\n"
+      fmt::format("{}: cannot be resumed, because something changed since the run began:\n  {}\n"
                   "Put it back as it was, or start anew: leave out --resume and name another folder with -o",
                   directory.string(), fmt::join(changes, "\n  ")));
 }

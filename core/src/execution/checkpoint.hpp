@@ -12,9 +12,16 @@
 
 namespace tunica::execution {
 
-/// What must be the same for a run to be resumed, by the words a person knows it by: "seed" → "7",
-/// "the data circ.csv" → its hash, "the plugins" → "es 0.1.0, gho 0.1.0".
-using Facts = std::map<std::string, std::string>;
+/// What must be the same for a run to be resumed.
+struct Facts {
+  std::string experiment = {};                   ///< hash of the file without its analysis
+  std::string seed = {};                         ///< "7"
+  std::map<std::string, std::string> data = {};  ///< hashes by the name of the file
+  std::string plugins = {};                      ///< "es 0.1.0, gho 0.1.0"
+  std::string plugin_interface = {};             ///< TUNICA_PLUGIN_API
+
+  bool operator==(const Facts&) const = default;
+};
 
 /// checkpoint.json: the facts, and the realisations that are finished. Those are not run again; the others are
 /// replayed from the journal (journal.hpp), which needs nothing but the evaluations themselves.

@@ -9,9 +9,12 @@
 #include <iterator>
 #include <limits>
 
+#include "text/csv.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::execution {
+
+using text::csv_cell;
 
 namespace {
 
@@ -76,15 +79,6 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
 
 }  // namespace
 
-std::string csv_cell(std::string_view text) {
-  std::string cell;
-  for (const char character : text) {
-    cell += character == '\n' || character == '\r' ? ' ' : character;
-    if (character == '"') cell += '"';
-  }
-  return text.find_first_of(",\"") == std::string_view::npos ? cell : '"' + cell + '"';
-}
-
 EvaluationTable::EvaluationTable(std::vector<RunColumns> runs) : runs_(std::move(runs)) {
   std::vector<std::vector<std::string>> parameters, costs;
   for (const auto& run : runs_) {
@@ -106,7 +100,7 @@ std::string EvaluationTable::header() const {
 }
 
 void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
-                                 const calibration::Record& record) const {
+                                 const search::Record& record) const {
   const std::string reason = record.status.reason().empty() ? std::string() : csv_cell(record.status.reason());
   const std::size_t numbers = parameter_columns_.size() + cost_columns_.size() + fixed_before + fixed_after;
   // Room for the longest line at once, then plain pointers: a fifth faster than appending piece by piece.
@@ -152,7 +146,7 @@ void EvaluationTable::parse(std::string_view line, Row& row) const {
   row.index = id - 1;
 }
 
-void EvaluationTable::values(const Row& row, calibration::Replayed& entry) const {
+void EvaluationTable::values(const Row& row, search::JournalEntry& entry) const {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto& run = runs_[row.run];
   entry.parameters.assign(run.parameters.size(), none);

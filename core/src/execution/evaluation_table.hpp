@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/calibration_problem.hpp"
+#include "search/calibration_problem.hpp"
 
 namespace tunica::execution {
 
@@ -36,7 +36,7 @@ class EvaluationTable {
 
   /// Appends one line. Well under a microsecond; allocates only when the buffer grows.
   void append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
-                  const calibration::Record& record) const;
+                  const search::Record& record) const;
 
   struct Row {
     std::size_t run = 0;
@@ -46,7 +46,7 @@ class EvaluationTable {
   /// Splits a line and reads which evaluation it is; throws InputError on a line that this layout cannot have
   /// written. `values` then reads the rest.
   void parse(std::string_view line, Row& row) const;
-  void values(const Row& row, calibration::Replayed& entry) const;
+  void values(const Row& row, search::JournalEntry& entry) const;
 
  private:
   std::vector<RunColumns> runs_;
@@ -54,8 +54,5 @@ class EvaluationTable {
   std::vector<std::string> parameter_columns_, cost_columns_;
   std::vector<std::vector<int>> parameter_slots_, cost_slots_;  ///< run → column → own index, or -1
 };
-
-/// A cell as RFC 4180 wants it, on one line.
-std::string csv_cell(std::string_view text);
 
 }  // namespace tunica::execution

@@ -48,7 +48,7 @@ std::string Journal::failure() const {
   return failure_;
 }
 
-void Journal::record(std::size_t task, const calibration::Record& record) {
+void Journal::record(std::size_t task, const search::Record& record) {
   Sink& sink = *sinks_[task];
   const std::lock_guard lock(sink.mutex);
   if (record.index < sink.next || failed()) return;

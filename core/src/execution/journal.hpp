@@ -46,7 +46,7 @@ class Journal {
   ~Journal();
 
   /// Appends a row; rows that are stored already are passed over.
-  void record(std::size_t task, const calibration::Record& record);
+  void record(std::size_t task, const search::Record& record);
   void finish(std::size_t task);
   /// Writes what is buffered; `durable` waits until it is on the disk.
   void flush(bool durable = false);

@@ -42,7 +42,7 @@ std::vector<PlannedStage> plan_stages(const experiment::Experiment& experiment, 
 
 /// Constraints need an optimiser that meets them, and one that follows derivatives needs theirs, at the start at least.
 void check_constraints(const PlannedRun& run, const PlannedStage& stage, const Optimizer::Needs& needs) {
-  const std::size_t count = run.assembly->constraint_count();
+  const std::size_t count = run.assembly->constraints().count();
   if (count == 0) return;
   if (!needs.constraints)
     throw InputError(
@@ -50,12 +50,12 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
                     "does (docs/optimizers.md), or set \"constraints\": [] in the run",
                     run.label, stage.entry->name, stage.entry->type));
   if (!needs.gradient) return;
-  const std::vector<double> x = run.assembly->initial_unit();
+  const std::vector<double> x = run.assembly->box().initial();
   std::vector<double> free(x.size()), values(count), jacobian(count * x.size());
-  run.assembly->from_unit(x, free);
+  run.assembly->box().from_unit(x, free);
   // Where the values cannot be had either, the initial parameters are to blame, which other starts may not be.
-  if (run.assembly->constraints(free, values, {}).kind() == Status::Kind::failed) return;
-  const Status status = run.assembly->constraints(free, values, jacobian);
+  if (run.assembly->constraints().evaluate(free, values, {}).kind() == Status::Kind::failed) return;
+  const Status status = run.assembly->constraints().evaluate(free, values, jacobian);
   const bool finite = std::all_of(jacobian.begin(), jacobian.end(), [](double entry) { return std::isfinite(entry); });
   if (status.kind() == Status::Kind::failed || !finite)
     throw InputError(fmt::format(
@@ -65,8 +65,8 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
 }
 
 /// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
-void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
-  if (run.assembly->parameters().empty())
+void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
+  if (run.assembly->layout().parameters.empty())
     throw InputError(
         fmt::format("run {}: every parameter is fixed, there is nothing to fit; free one, or use "
                     "`tunica simulate` to see the predictions",
@@ -76,30 +76,34 @@ void check_needs(const PlannedRun& run, std::vector<std::string>& warnings) {
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
     const auto& needs = optimizer->needs();
     random = random || needs.random;
-    if (needs.residuals && run.assembly->blocks().empty())
+    if (needs.residuals && run.assembly->layout().blocks.empty())
       throw InputError(
           fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
                       "row is held out. Set hold_out to false in a test, or take out the run",
                       run.label, stage.entry->name, stage.entry->type));
-    if (run.assembly->parameters().size() > needs.most_parameters)
-      throw InputError(fmt::format(
-          "run {}: the optimiser '{}' ({}) can search {} parameters at most with the population it is "
-          "given, and {} are free; enlarge it, or leave it out for a default that fits",
-          run.label, stage.entry->name, stage.entry->type, needs.most_parameters, run.assembly->parameters().size()));
+    if (run.assembly->layout().parameters.size() > needs.most_parameters)
+      throw InputError(
+          fmt::format("run {}: the optimiser '{}' ({}) can search {} parameters at most with the population it is "
+                      "given, and {} are free; enlarge it, or leave it out for a default that fits",
+                      run.label, stage.entry->name, stage.entry->type, needs.most_parameters,
+                      run.assembly->layout().parameters.size()));
     check_constraints(run, stage, needs);
-    if (needs.gradient && !run.assembly->jacobian_is_exact())
-      warnings.push_back(
-          fmt::format("run {}: derivatives for '{}' are differences of whole predictions, because model "
-                      "or test has no exact ones",
-                      run.label, stage.entry->name));
+    if (needs.gradient && !run.assembly->layout().jacobian_is_exact)
+      warnings.push_back({WarningKind::differenced_derivatives,
+                          fmt::format("derivatives for '{}' are differences of whole predictions, because the model or "
+                                      "a test has no exact ones",
+                                      stage.entry->name),
+                          run.label,
+                          {stage.entry->name}});
   }
-  if (run.assembly->blocks().empty())
+  if (run.assembly->layout().blocks.empty())
     throw InputError(fmt::format(
         "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
   if (!random && !run.entry->random_start && run.entry->realisations > 1)
-    warnings.push_back(
-        fmt::format("run {}: the optimiser uses no random numbers, so its {} realisations are all the same", run.label,
-                    run.entry->realisations));
+    warnings.push_back({WarningKind::equal_realisations,
+                        fmt::format("the optimiser uses no random numbers, so its {} realisations are all the same",
+                                    run.entry->realisations),
+                        run.label});
 }
 
 /// The plugins behind every model, test, mechanism and optimiser of the experiment.
@@ -127,7 +131,7 @@ EvaluationTable Plan::table() const {
   for (const auto& run : runs) {
     auto& column = columns.emplace_back();
     column.label = run.label;
-    for (const auto& parameter : run.assembly->parameters())
+    for (const auto& parameter : run.assembly->layout().parameters)
       column.parameters.emplace_back(parameter.name, parameter.unit);
     column.tests = run.entry->tests;
   }
@@ -147,7 +151,7 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
     run.entry = &entry;
     run.seed = derive_seed(experiment.seed, fmt::format("run {}#{}", pair, occurrence));
     run.stages = plan_stages(experiment, entry, catalogue);
-    run.assembly = std::make_unique<calibration::Assembly>(experiment, entry, catalogue);
+    run.assembly = std::make_unique<assembly::Assembly>(experiment, entry, catalogue);
     check_needs(run, plan.warnings);
     for (std::uint64_t realisation = 1; realisation <= entry.realisations; ++realisation)
       plan.tasks.push_back({plan.runs.size() - 1, realisation});

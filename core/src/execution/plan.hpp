@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "calibration/assembly.hpp"
+#include "assembly/assembly.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/journal.hpp"
+#include "execution/warning.hpp"
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
 
@@ -25,7 +26,7 @@ struct PlannedStage {
 struct PlannedRun {
   std::string label;  ///< "gho/es"; a second run of the same pair is "gho/es#2"
   const experiment::RunEntry* entry = nullptr;
-  std::unique_ptr<calibration::Assembly> assembly;
+  std::unique_ptr<assembly::Assembly> assembly;
   std::vector<PlannedStage> stages;
   std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
 };
@@ -36,7 +37,7 @@ struct Plan {
   const experiment::Experiment* experiment = nullptr;
   std::vector<PlannedRun> runs;
   std::vector<Task> tasks;  ///< in the order of evaluations.csv
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 
   std::vector<std::string> plugins;  ///< every one the results depend on, "gho 0.1.0", sorted
 

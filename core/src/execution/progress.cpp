@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "text/wrapping.hpp"
+
 namespace tunica::execution {
 
 namespace {
@@ -26,22 +28,18 @@ std::string rate_text(double rate) {
 
 Meter::Meter() : best(std::numeric_limits<double>::infinity()) {}
 
-void Meter::count(const calibration::Record& record) {
+void Meter::count(const search::Record& record) {
   evaluations.store(record.index + 1, std::memory_order_relaxed);
   if (record.status.ok() && record.objective < best.load(std::memory_order_relaxed))
     best.store(record.objective, std::memory_order_relaxed);
 }
 
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+Progress::Style Progress::style_of_stderr() {
+  return text::Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines;
 }
 
-Progress::Style Progress::style_of_stderr() { return Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines; }
-
 Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters)
-    : style_(style), line_(Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}
+    : style_(style), line_(text::Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}
 
 std::string Progress::text(double seconds, std::size_t columns) const {
   std::uint64_t evaluations = 0, budget = 0;
@@ -69,13 +67,13 @@ std::string Progress::text(double seconds, std::size_t columns) const {
     value = std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
   }
   // The budget is an upper bound, for a search may converge before it is spent; so is the time.
-  if (rate > 0) left = fmt::format("  max {} left", clock_text(static_cast<double>(budget - evaluations) / rate));
+  if (rate > 0) left = fmt::format("  max {} left", text::clock_text(static_cast<double>(budget - evaluations) / rate));
   if (value.empty()) return head + left;
   // The name of the run gives way to the figures.
   constexpr std::size_t shortest_label = 4;
-  const std::size_t figures = shown_columns(head + value + left) + 4;
+  const std::size_t figures = text::columns(head + value + left) + 4;
   const std::size_t room = columns > figures ? columns - figures : 0;
-  label = room >= shortest_label ? shortened(label, room) + ": " : std::string();
+  label = room >= shortest_label ? text::shortened(label, room) + ": " : std::string();
   return fmt::format("{}  {}{}{}", head, label, value, left);
 }
 

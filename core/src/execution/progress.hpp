@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "execution/plan.hpp"
-#include "execution/terminal.hpp"
+#include "text/terminal.hpp"
 
 namespace tunica::execution {
 
@@ -18,7 +18,7 @@ struct alignas(64) Meter {
   std::atomic<double> best;  ///< infinity until something succeeded
   std::atomic<bool> running = false, finished = false;
   Meter();
-  void count(const calibration::Record& record);
+  void count(const search::Record& record);
 };
 
 /// What is shown on stderr while a run is under way: on a terminal one line that is redrawn, elsewhere a plain line
@@ -38,14 +38,11 @@ class Progress {
 
  private:
   Style style_;
-  StatusLine line_;
+  text::StatusLine line_;
   const Plan& plan_;
   const std::vector<Meter>& meters_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double drawn_ = 0;  ///< s since the beginning
 };
-
-/// "0:07", "12:30", "3:05:00"
-std::string clock_text(double seconds);
 
 }  // namespace tunica::execution

@@ -40,6 +40,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Whether what stopped a stage is a limit of the whole; otherwise the next stage begins.
+bool ends_all(const RealisationResult& result, const experiment::Stop& shared) {
+  switch (result.stopped_by) {
+    case search::StopReason::none:
+    case search::StopReason::stall:
+      return false;
+    case search::StopReason::target:
+      return shared.target && result.best.feasible() && result.best.objective <= *shared.target;
+    case search::StopReason::max_evaluations:
+      return result.tally.evaluations >= shared.max_evaluations;
+    case search::StopReason::max_time:
+      return shared.max_time && result.seconds >= *shared.max_time;
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisation,
@@ -48,7 +65,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
   result.realisation = realisation;
   const std::uint64_t seed = derive_seed(run.seed, fmt::format("realisation {}", realisation));
   const auto& shared = run.entry->stop;
-  const auto record = [&](const calibration::Record& entry) {
+  const auto record = [&](const search::Record& entry) {
     result.seconds = std::max(result.seconds, entry.seconds);
     if (entry.status.ok() && (result.trace.empty() || entry.objective < result.trace.back().objective))
       result.trace.push_back({entry.index + 1, entry.objective});
@@ -56,7 +73,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
   };
   for (std::size_t s = 0; s < run.stages.size(); ++s) {
     const auto& stage = run.stages[s];
-    calibration::CalibrationProblem::Settings settings;
+    search::CalibrationProblem::Settings settings;
     settings.stop = stage_stop(shared, stage.own_stop, result.tally.evaluations, result.seconds);
     settings.on_failure = experiment.on_failure;
     settings.max_failure_rate = experiment.max_failure_rate;
@@ -67,14 +84,14 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     settings.interrupted = surroundings.interrupted;
     settings.first_index = result.tally.evaluations;
     settings.elapsed_before = result.seconds;
-    if (run.entry->random_start) settings.start = random_start(seed, run.assembly->parameters().size());
+    if (run.entry->random_start) settings.start = random_start(seed, run.assembly->layout().parameters.size());
     if (!result.best.parameters.empty()) {
       settings.start.resize(result.best.parameters.size());
-      run.assembly->to_unit(result.best.parameters, settings.start);
+      run.assembly->box().to_unit(result.best.parameters, settings.start);
     }
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
     settings.skip_costly = !optimizer->needs().infeasible;
-    calibration::CalibrationProblem problem(*run.assembly, std::move(settings));
+    search::CalibrationProblem problem(*run.assembly, std::move(settings));
     Optimizer::Outcome outcome;
     std::string fault;
     try {
@@ -92,20 +109,15 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     if (best.better_than(result.best)) result.best = best;
     result.converged = outcome.converged;
     result.reason = one_line(outcome.reason);
-    result.stop_reason = one_line(problem.stop_reason());
+    result.stopped_by = problem.stop_reason();
+    result.stop_sentence = one_line(problem.stop_sentence());
     if (!fault.empty()) {  // of this realisation; what it has found stays, and the others go on
       result.reason = one_line(fault);
-      result.stop_reason = optimizer_failure;
+      result.stopped_by = search::StopReason::optimizer_failure;
+      result.stop_sentence = "failure of the optimiser";
       break;
     }
-    const bool spent = result.tally.evaluations >= shared.max_evaluations;
-    const bool stage_ended =
-        result.stop_reason.empty() || result.stop_reason == "stall" ||
-        (result.stop_reason == "target" &&
-         !(shared.target && result.best.feasible() && result.best.objective <= *shared.target)) ||
-        (result.stop_reason == "max_evaluations" && !spent) ||
-        (result.stop_reason == "max_time" && !(shared.max_time && result.seconds >= *shared.max_time));
-    if (!stage_ended) break;
+    if (ends_all(result, shared)) break;
   }
   result.tally.first_failure = one_line(result.tally.first_failure);
   for (auto& kind : result.tally.reasons) kind.example = one_line(kind.example);

@@ -10,8 +10,8 @@ namespace tunica::execution {
 
 /// What a realisation is given from outside.
 struct Surroundings {
-  std::function<void(const calibration::Record&)> record;
-  calibration::Replay replay;
+  std::function<void(const search::Record&)> record;
+  search::Replay replay;
   std::function<bool()> interrupted;
 };
 

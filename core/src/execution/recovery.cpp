@@ -11,7 +11,7 @@
 
 namespace tunica::execution {
 
-void StoredEvaluations::add(const calibration::Replayed& entry) {
+void StoredEvaluations::add(const search::JournalEntry& entry) {
   parameters_ = entry.parameters.size();
   tests_ = entry.per_test.size();
   numbers_.insert(numbers_.end(), entry.parameters.begin(), entry.parameters.end());
@@ -21,7 +21,7 @@ void StoredEvaluations::add(const calibration::Replayed& entry) {
   ++size_;
 }
 
-bool StoredEvaluations::get(std::uint64_t index, calibration::Replayed& entry) const {
+bool StoredEvaluations::get(std::uint64_t index, search::JournalEntry& entry) const {
   if (index >= size_) return false;
   const double* numbers = numbers_.data() + index * (parameters_ + tests_ + 2);
   entry.parameters.assign(numbers, numbers + parameters_);
@@ -90,7 +90,7 @@ class Reader {
   const std::vector<bool>& wanted_;
   std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> index_;
   EvaluationTable::Row row_;
-  calibration::Replayed entry_;
+  search::JournalEntry entry_;
   Recovered result_;
   std::size_t last_ = 0;
 };

@@ -13,9 +13,9 @@ namespace tunica::execution {
 /// The evaluations of one realisation, read back: what its optimiser was answered so far.
 class StoredEvaluations {
  public:
-  void add(const calibration::Replayed& entry);
-  /// False when there is none at this index; see calibration::Replay.
-  bool get(std::uint64_t index, calibration::Replayed& entry) const;
+  void add(const search::JournalEntry& entry);
+  /// False when there is none at this index; see search::Replay.
+  bool get(std::uint64_t index, search::JournalEntry& entry) const;
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_problem.hpp"
+#include "search/calibration_problem.hpp"
 
 namespace tunica::execution {
 
@@ -15,19 +15,18 @@ struct Improvement {
   double objective;
 };
 
-/// RealisationResult::stop_reason where the optimiser threw; `reason` says what.
-constexpr const char* optimizer_failure = "failure of the optimiser";
-
 /// How one realisation of one run ended.
 struct RealisationResult {
   std::uint64_t realisation = 1;
   bool finished = false;           ///< false: interrupted
-  calibration::Best best;          ///< parameters are empty when no evaluation succeeded
+  search::Best best;               ///< parameters are empty when no evaluation succeeded
   std::vector<Improvement> trace;  ///< every improvement, in order; the convergence of this realisation
-  calibration::Tally tally;
-  bool converged = false;   ///< the optimiser's own word
-  std::string reason;       ///< the optimiser's reason for coming back
-  std::string stop_reason;  ///< what of the stop block or the failure policy ended it, or empty
+  search::Tally tally;
+  bool converged = false;  ///< the optimiser's own word
+  std::string reason;      ///< the optimiser's reason for coming back
+  search::StopReason stopped_by =
+      search::StopReason::none;  ///< of optimizer_failure `reason` says what the optimiser threw
+  std::string stop_sentence;     ///< the same in words; empty for none
   double seconds = 0;
 };
 

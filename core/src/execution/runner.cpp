@@ -103,7 +103,7 @@ void Run::open() {
     log_->info("experiment '{}', seed {}, {} threads", plan_.experiment->name, plan_.experiment->seed,
                settings_.threads);
   }
-  for (const auto& warning : plan_.warnings) log_->warn("{}", warning);
+  for (const auto& warning : plan_.warnings) log_->warn("{}", warning.text());
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
   for (const auto& [task, entry] : finished_) {
     const auto& result = results_[task];
@@ -137,11 +137,11 @@ void Run::run_task(std::size_t task) {
   meter.running = true;
   log_->info("{}, realisation {}: begins", run.label, realisation);
   Surroundings surroundings;
-  surroundings.record = [&](const calibration::Record& record) {
+  surroundings.record = [&](const search::Record& record) {
     journal_->record(task, record);
     meter.count(record);
   };
-  surroundings.replay = [&](std::uint64_t index, calibration::Replayed& entry) {
+  surroundings.replay = [&](std::uint64_t index, search::JournalEntry& entry) {
     return stored_[task].get(index, entry);
   };
   surroundings.interrupted = [this] { return stopping(); };
@@ -151,7 +151,7 @@ void Run::run_task(std::size_t task) {
   log_->info("{}, realisation {}: {} after {} evaluations ({} failed), {:.3f} s, best {}{}{}", run.label, realisation,
              result.finished ? "ends" : "interrupted", result.tally.evaluations, result.tally.failures, result.seconds,
              result.best.parameters.empty() ? "none" : fmt::format("{}", result.best.objective),
-             result.stop_reason.empty() ? "" : ", stopped by " + result.stop_reason,
+             result.stop_sentence.empty() ? "" : ", stopped by " + result.stop_sentence,
              result.reason.empty() ? "" : ": " + result.reason);
   if (result.tally.failures > 0)
     log_->warn("{}, realisation {}: first failure: {}", run.label, realisation, result.tally.first_failure);

@@ -6,6 +6,7 @@
 
 #include "report/diagnosis_pieces.hpp"
 #include "report/thinning.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -56,7 +57,7 @@ Chart before_and_after(const Table& table, const Json& diagnosis, const Residual
   chart.title = fmt::format("{}: {}", curve.test, curve.channel);
   chart.about = "Data, the model as given, and the model with the cause added";
   chart.x.title = curve.abscissa;
-  chart.y.title = titled(curve.channel, curve.unit);
+  chart.y.title = text::titled(curve.channel, curve.unit);
   chart.files = {table.file_name()};
   chart.note = long_curve_note(curve);
   mark_misfit(chart, diagnosis, curve);
@@ -117,7 +118,7 @@ std::vector<ResidualCurve> residual_curves(const Table& table) {
     if (at == curves.end())
       at = curves.insert(curves.end(), {test,
                                         channel,
-                                        titled(table.text(row, abscissa_name), table.text(row, "abscissa_unit")),
+                                        text::titled(table.text(row, abscissa_name), table.text(row, "abscissa_unit")),
                                         table.text(row, "unit"),
                                         {}});
     at->rows.push_back(row);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "report/diagnosis_pieces.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -35,7 +37,7 @@ Chart ranking_chart(const Json& diagnosis) {
   chart.bars = true;
   chart.id = "scores";
   chart.title = "What each candidate explains";
-  chart.about = "Fall of the sum of squares that each candidate brings, the largest first";
+  chart.about = "How much each candidate lowers the sum of squares, the largest first";
   chart.note =
       "Gain: by fitting the cause. Score: what it promises to first order; only the promising ones are fitted.";
   chart.x = {"fall of the sum of squares over the noise", false, {0}, {}};
@@ -95,7 +97,7 @@ void add_shifts(Page& page, const Json& diagnosis) {
   for (const Json& cause : list(diagnosis, "causes"))
     for (const Json& shift : list(cause, "parameter_shifts")) {
       const double before = number(shift, "without"), after = number(shift, "with");
-      std::vector<Cell> cells{{titled(word(shift, "parameter"), word(shift, "unit"))},
+      std::vector<Cell> cells{{text::titled(word(shift, "parameter"), word(shift, "unit"))},
                               {figure(before), true},
                               {figure(after), true},
                               {change_words(before, after), true}};
@@ -111,7 +113,7 @@ void add_shifts(Page& page, const Json& diagnosis) {
   if (shifts.empty()) return;
   std::vector<std::vector<Cell>> rows;
   for (const Shift& one : shifts) {
-    auto& row = rows.emplace_back(std::vector<Cell>{{joined(one.causes)}});
+    auto& row = rows.emplace_back(std::vector<Cell>{{text::joined(one.causes)}});
     row.insert(row.end(), one.cells.begin(), one.cells.end());
   }
   page.heading("How the parameters shift");
@@ -124,7 +126,7 @@ Chart gain_chart(const Json& gain) {
   chart.id = "gain_held_out";
   chart.title = "Gain on blocks that were held out";
   chart.about = "Root mean square of the residuals over the noise on each held-out block, without and with the cause";
-  chart.note = "Each block is predicted by fits that have not seen it; 1 is what noise alone leaves.";
+  chart.note = "Fits that have not seen a block predict it. 1 is what noise alone leaves.";
   chart.x = {"root mean square of residual / noise", false, {1}, {}};
   chart.rule(1, "noise", 'x');
   chart.files = {"result.json"};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/diagnosis_pieces.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
@@ -21,18 +22,18 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
 
 std::string verdict_words(const Json& diagnosis) {
   const std::string verdict = word(diagnosis, "verdict");
-  const std::string reasons = joined(words(list(diagnosis, "reasons")));
+  const std::string reasons = text::joined(words(list(diagnosis, "reasons")));
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
-    return fmt::format("Named: the misfit is consistent with {}.", joined(named_causes(diagnosis)));
+    return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));
   const bool unlisted = member(diagnosis, "unlisted") == true;
   if (verdict == "indistinguishable" && unlisted && list(diagnosis, "explanations").size() < 2)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
-                       joined(named_causes(diagnosis)), reasons);
+                       text::joined(named_causes(diagnosis)), reasons);
   if (verdict == "indistinguishable") {
     const char* const said = list(diagnosis, "explanations").empty() ? "ambiguity_set" : "explanations";
     return fmt::format("Indistinguishable: {} explain the misfit about as well as each other{}.",
-                       joined(words(list(diagnosis, said))),
+                       text::joined(words(list(diagnosis, said))),
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
@@ -49,7 +50,7 @@ std::string cause_words(const Json& cause) {
   if (const Json& interval = member(amplitude, "ci95"); interval.is_array() && interval.size() == 2)
     text += fmt::format(" ({} … {})", figure(interval[0].is_number() ? interval[0].get<double>() : NAN),
                         figure(interval[1].is_number() ? interval[1].get<double>() : NAN));
-  if (member(amplitude, "plausible") == false) text += ", which is beyond what is plausible";
+  if (member(amplitude, "plausible") == false) text += ", which is implausible";
   return text + fmt::format(", probability {}", share(number(cause, "probability")));
 }
 
@@ -64,7 +65,7 @@ std::string fitted_words(const Json& result, const Json& diagnosis) {
   if (values.empty()) return "";
   const double rows = number(base, "rows"), squares = number(base, "squares");
   return fmt::format("{} to {}, {} values, seed {}: {}. Root mean square of residual over noise: {}.",
-                     word(base, "model"), tests.empty() ? "the data" : joined(tests), figure(rows),
+                     word(base, "model"), tests.empty() ? "the data" : text::joined(tests), figure(rows),
                      figure(number(member(result, "provenance"), "seed")), fmt::join(values, ", "),
                      figure(std::sqrt(squares / rows)));
 }
@@ -79,13 +80,11 @@ std::string gain_words(const Json& diagnosis) {
   const Json& blocks = list(gain, "held_out");
   for (const Json& block : blocks) better += number(block, "after") < number(block, "before") ? 1 : 0;
   if (!blocks.empty()) text += fmt::format("; better on {} of {} blocks that were held out", better, blocks.size());
-  // Far off is no contradiction where the other rows leave the parameters open: the p-value knows of that.
-  constexpr double near = 2, contradicts = 0.05;  // σ, p
   std::vector<std::string> missed;
   for (const Json& block : blocks)
-    if (number(block, "after") >= near && number(block, "p_value") < contradicts)
+    if (word(block, "verdict") == "not_predicted")
       missed.push_back(fmt::format("{} ({} σ)", word(block, "block"), figure(number(block, "after"))));
-  if (!missed.empty()) text += "; not predicted: " + joined(missed);
+  if (!missed.empty()) text += "; not predicted: " + text::joined(missed);
   return text + '.';
 }
 
@@ -96,13 +95,13 @@ std::vector<std::string> next_words(const Json& diagnosis) {
   if (std::string text = word(next, "description"); !text.empty()) {
     if (const double repeats = number(next, "repeats"); repeats > 1)
       text += fmt::format(" Repeats: {}.", figure(repeats));
-    lines.push_back(capitalised(std::move(text)));
+    lines.push_back(text::capitalised(std::move(text)));
   }
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
     lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
   if (lines.empty() && verdict == "nothing_detected")
     lines.emplace_back(
-        "The fitted parameters can be used; what could still hide below the noise is listed under Reach.");
+        "The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
 }
 
@@ -112,7 +111,7 @@ std::string place_words(const Json& target) {
   if (!target.is_object()) return "";
   std::vector<std::string> tests = words(list(target, "tests"));
   if (tests.empty() && !word(target, "test").empty()) tests.push_back(word(target, "test"));
-  std::string text = tests.empty() ? "" : " in " + joined(tests);
+  std::string text = tests.empty() ? "" : " in " + text::joined(tests);
   if (const std::string model = word(target, "model"); !model.empty()) text += " in " + model;
   if (const std::string channel = word(target, "channel"); !channel.empty()) text += ", " + channel;
   if (const double row = number(target, "row"); std::isfinite(row)) text += fmt::format(", row {:.0f}", row);
@@ -130,13 +129,16 @@ void add_verdict(Page& page, const Folder& folder) {
     where.push_back(fmt::format("{}, {}: {}", word(misfit, "test"), word(misfit, "channel"), word(misfit, "where")));
   for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
   const double p = number(diagnosis, "p_value");
-  std::vector<std::string> sure{fmt::format("Noise alone would do this with {}; below {} counts as detected.",
+  std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
                                             chance(p), figure(number(diagnosis, "alpha")))};
-  // What a verdict calls clean (diagnosis/groups.hpp): one rest in a hundred looks worse by chance.
-  constexpr double clean_above = 0.01;
-  if (const double after = number(diagnosis, "p_after"); std::isfinite(after))
-    sure.push_back(fmt::format("With the cause added, noise alone would leave what is left with {}: {}.", chance(after),
-                               after > clean_above ? "nothing is left to explain" : "something is left still"));
+  if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
+    const std::string remainder = word(diagnosis, "remainder");
+    sure.push_back(
+        fmt::format("With the cause added, the remaining misfit would be noise with {}{}.", chance(after),
+                    remainder == "clean"       ? "; nothing is left to explain"
+                    : remainder == "not_clean" ? "; something is still left to explain"
+                                               : ""));
+  }
   const auto one = [](std::string text) {
     return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
   };

@@ -7,6 +7,8 @@
 
 #include "report/sections.hpp"
 #include "report/thinning.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -53,21 +55,22 @@ void add_table(Page& page, const Order::Run& run) {
   for (const auto& [name, estimate] : parameters.items()) {
     const std::string bound = word(estimate, "at_bound");
     auto& row = rows.emplace_back(
-        std::vector<Cell>{{titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}});
+        std::vector<Cell>{{text::titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}});
     for (const Kind& kind : made) row.push_back({interval_words(estimate, kind)});
     row.push_back({fmt::format("{} … {}", figure(number(estimate, "min")), figure(number(estimate, "max")))});
     row.push_back({bound.empty() ? "" : "at its " + bound + " bound", false, true});
   }
   for (const auto& [name, estimate] : member(*run.run, "fixed").items()) {
     auto& row = rows.emplace_back(std::vector<Cell>{
-        {titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}});
+        {text::titled(name, word(estimate, "unit"))}, {figure(number(estimate, "value")), true}, {"fixed"}});
     row.resize(head.size());
   }
   if (rows.empty()) return;
   page.heading(run.label);
   page.html(table_html(head, rows));
   std::vector<std::string> sentences;
-  for (const std::string& sentence : words(list(best, "uncertainty"))) sentences.push_back(capitalised(sentence) + '.');
+  for (const std::string& sentence : words(list(best, "uncertainty")))
+    sentences.push_back(text::capitalised(sentence) + '.');
   if (!sentences.empty()) page.box("", "What to make of the intervals", sentences, 3);
 }
 
@@ -83,7 +86,7 @@ Chart across_runs(const std::string& name, const std::vector<const Order::Run*>&
   for (const Order::Run* run : runs) {
     const Json& estimate = member(member(member(*run->run, "best"), "parameters"), name);
     chart.labels.push_back(run->label);
-    chart.x.title = titled(name, word(estimate, "unit"));
+    chart.x.title = text::titled(name, word(estimate, "unit"));
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto [low, high] = interval(estimate, kinds[k].key);
       used[k] = used[k] || std::isfinite(low) || std::isfinite(high);
@@ -113,7 +116,7 @@ void add_profiles(Page& page, const Folder& folder, const Order& order) {
     chart.id = "profile_" + name;
     chart.title = "Profile of " + name;
     chart.about = "Loss of likelihood over the value of " + name;
-    chart.x.title = titled(name, table->columns()[*value].unit.value_or(""));
+    chart.x.title = text::titled(name, table->columns()[*value].unit.value_or(""));
     chart.y = {"2 Δ ln L", false, {0}, {}};
     chart.files = {file};
     double threshold = NAN;

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "text/lists.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -50,26 +52,10 @@ std::string figure(double value) {
 std::string share(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "< 0.0001" : fmt::format("{:.3g}", p); }
 
 std::string amount(double value, const std::string& unit) {
-  return unit.empty() || unit == "1" || !std::isfinite(value) ? figure(value) : figure(value) + ' ' + unit;
-}
-
-std::string titled(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+  return std::isfinite(value) ? figure(value) + text::unit_suffix(unit) : figure(value);
 }
 
 std::string chance(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
-
-std::string joined(const std::vector<std::string>& items) {
-  std::string text;
-  for (std::size_t k = 0; k < items.size(); ++k)
-    text += (k == 0 ? "" : k + 1 < items.size() ? ", " : " and ") + items[k];
-  return text;
-}
-
-std::string capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
   return count == 1 ? "one " + one : fmt::format("{} {}", count, many);
@@ -100,7 +86,10 @@ std::size_t Order::place(const std::string& label) const {
   for (std::size_t k = 0; k < runs_.size(); ++k) {
     const std::string& known = runs_[k].label;
     if (label == known) return k;
-    if (label.starts_with(known + ' ') && known.size() > length) found = k, length = known.size();
+    if (label.starts_with(known + ' ') && known.size() > length) {
+      found = k;
+      length = known.size();
+    }
   }
   return found;
 }
@@ -114,8 +103,8 @@ std::vector<std::string> Order::groups() const {
 
 std::string Order::title(const std::string& group) const {
   const auto at = std::find_if(runs_.begin(), runs_.end(), [&](const Run& run) { return run.group == group; });
-  const auto on = group.find(" on ");
-  if (at == runs_.end() || on == group.npos) return group;
+  const std::string objective = at == runs_.end() ? "" : word(*at->run, "objective_type");
+  if (objective.empty()) return group;  // older than the key
   std::vector<std::string> fitted;
   std::size_t held_out = 0;
   for (const std::string& test : words(list(*at->run, "tests"))) {
@@ -127,8 +116,7 @@ std::string Order::title(const std::string& group) const {
     if (!held) fitted.push_back(test);
   }
   if (held_out == 0 || fitted.empty()) return group;
-  return fmt::format("{} on {} ({} held out)", group.substr(0, on), joined(fitted),
-                     count_of(held_out, "test", "tests"));
+  return fmt::format("{} on {} ({} held out)", objective, text::joined(fitted), count_of(held_out, "test", "tests"));
 }
 
 bool Order::shown(std::size_t place) const {

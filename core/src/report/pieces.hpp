@@ -27,14 +27,8 @@ std::string figure(double value);
 std::string share(double p);
 /// "3.2 kPa"; nothing after numbers of unit 1.
 std::string amount(double value, const std::string& unit);
-/// "mu [kPa]"; just the name for unit 1.
-std::string titled(const std::string& name, const std::string& unit);
 /// "p = 0.03", "p < 0.0001".
 std::string chance(double p);
-/// "a, b and c".
-std::string joined(const std::vector<std::string>& items);
-/// With a large first letter, where it is a Latin one.
-std::string capitalised(std::string text);
 /// "one run", "3 runs".
 std::string count_of(std::size_t count, const std::string& one, const std::string& many);
 

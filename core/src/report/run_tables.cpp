@@ -6,38 +6,37 @@
 #include <cmath>
 
 #include "report/sections.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
 namespace {
 
-/// Warnings that are said of several runs: once, with the runs.
+/// Warnings that concern several runs stand once, with the runs. A result that is older than `warning_details` has
+/// sentences only.
 std::vector<std::string> merged(const Json& result) {
-  struct Said {
+  struct Merged {
     std::vector<std::string> runs;
-    std::string what;
+    std::string sentence;
   };
-  std::vector<Said> all;
-  for (const std::string& warning : words(list(result, "warnings"))) {
-    std::string run;
-    for (const Json& one : list(result, "runs"))
-      if (const std::string label = word(one, "run"); !label.empty() && warning.starts_with(label + ": ")) run = label;
-    const std::string what = run.empty() ? warning : warning.substr(run.size() + 2);
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const Said& said) { return !said.runs.empty() && said.what == what; });
-    if (run.empty())
-      all.push_back({{}, what});
-    else if (same == all.end())
-      all.push_back({{run}, what});
-    else
+  std::vector<Merged> all;
+  for (const Json& warning : list(result, "warning_details")) {
+    const std::string run = word(warning, "run"), sentence = word(warning, "sentence");
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Merged& one) {
+      return !run.empty() && !one.runs.empty() && one.sentence == sentence;
+    });
+    if (same != all.end())
       same->runs.push_back(run);
+    else
+      all.push_back({run.empty() ? std::vector<std::string>{} : std::vector{run}, sentence});
   }
+  if (all.empty()) return words(list(result, "warnings"));
   std::vector<std::string> lines;
   constexpr std::size_t named = 3;
-  for (Said& said : all) {
-    if (said.runs.size() > named + 1)
-      said.runs = {said.runs[0], said.runs[1], said.runs[2], fmt::format("{} more runs", said.runs.size() - named)};
-    lines.push_back(said.runs.empty() ? said.what : joined(said.runs) + ": " + said.what);
+  for (Merged& one : all) {
+    if (one.runs.size() > named + 1)
+      one.runs = {one.runs[0], one.runs[1], one.runs[2], fmt::format("{} more runs", one.runs.size() - named)};
+    lines.push_back(one.runs.empty() ? one.sentence : text::joined(one.runs) + ": " + one.sentence);
   }
   return lines;
 }

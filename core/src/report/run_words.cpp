@@ -7,6 +7,7 @@
 #include <set>
 
 #include "report/sections.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
@@ -26,7 +27,7 @@ std::string scored_words(std::vector<Scored> all) {
     return fmt::format("{} curves, the worst {}, the best {}", all.size(), low->text, high->text);
   }
   for (Scored& one : all) parts.push_back(std::move(one.text));
-  return joined(parts);
+  return text::joined(parts);
 }
 
 /// What was fitted, and apart from it what was held out.
@@ -58,21 +59,22 @@ std::string what_was_fitted(const Json& result, const Order& order) {
   }
   const auto named = [](const std::set<std::string>& names, const char* one, const char* many) {
     if (names.size() > 6) return fmt::format("{} {}", names.size(), many);
-    return fmt::format("{} {}", names.size() == 1 ? one : many, joined({names.begin(), names.end()}));
+    return fmt::format("{} {}", names.size() == 1 ? one : many,
+                       text::joined(std::vector<std::string>(names.begin(), names.end())));
   };
   return fmt::format("{} calibrated to {} with {}: {}, {}, {:.0f} evaluations, seed {}.",
-                     capitalised(named(models, "model", "models")), named(tests, "test", "tests"),
-                     named(optimizers, "optimizer", "optimizers"), count_of(order.runs().size(), "run", "runs"),
+                     text::capitalised(named(models, "model", "models")), named(tests, "test", "tests"),
+                     named(optimizers, "optimiser", "optimisers"), count_of(order.runs().size(), "run", "runs"),
                      count_of(static_cast<std::size_t>(realisations), "realisation", "realisations"), evaluations,
                      figure(number(member(result, "provenance"), "seed")));
 }
 
 /// What stands against the best run, and what to do about each.
 struct Doubts {
-  std::vector<std::string> wrong, next;
+  std::vector<std::string> wrong, next;  ///< clauses; sentences
   void add(std::string what, std::string remedy) {
     wrong.push_back(std::move(what));
-    if (!remedy.empty() && std::find(next.begin(), next.end(), remedy) == next.end()) next.push_back(std::move(remedy));
+    if (std::find(next.begin(), next.end(), remedy) == next.end()) next.push_back(std::move(remedy));
   }
 };
 
@@ -92,52 +94,58 @@ void parameters_in_doubt(const Json& best, Doubts& doubts) {
       unreliable.push_back(name);
   }
   if (!bound.empty())
-    doubts.add(fmt::format("{} at a bound", joined(bound)),
-               "widen the bounds where physics allows, else doubt the model");
+    doubts.add(fmt::format("{} {} at a bound", text::joined(bound), text::agreeing(bound.size(), "lies", "lie")),
+               "Widen the bounds where physics allows it, otherwise doubt the model.");
   if (!loose.empty())
-    doubts.add(fmt::format("no interval for {}", joined(loose)),
-               "read what the data fix under Parameters, and add the test it names");
+    doubts.add(fmt::format("{} {} no interval", text::joined(loose), text::agreeing(loose.size(), "has", "have")),
+               "Read under Parameters what the data fix, and add the test that is named there.");
   if (!one_sided.empty())
-    doubts.add(fmt::format("{} limited on one side only", joined(one_sided)),
-               "read what the data fix under Parameters, and add the test it names");
+    doubts.add(fmt::format("the data limit {} on one side only", text::joined(one_sided)),
+               "Read under Parameters what the data fix, and add the test that is named there.");
   if (!unreliable.empty())
-    doubts.add(fmt::format("rough intervals of {}", joined(unreliable)),
-               fmt::format("tunica run EXPERIMENT --profiles {}", fmt::format("{}", fmt::join(unreliable, ","))));
+    doubts.add(fmt::format("the {} of {} {} rough", text::agreeing(unreliable.size(), "interval", "intervals"),
+                           text::joined(unreliable), text::agreeing(unreliable.size(), "is", "are")),
+               fmt::format("Run tunica run EXPERIMENT --profiles {}.", fmt::join(unreliable, ",")));
 }
 
-Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
+/// By its code; a result that is older than the codes has the figures it follows from.
+bool is_no_optimum(const Json& certificate) {
+  if (const Json& verdict = member(certificate, "verdict_code"); verdict.is_string())
+    return verdict == "not_an_optimum";
+  constexpr double success = 1e-3;  // relative
+  const Json& neighbours = member(certificate, "neighbours");
+  const double here = number(member(certificate, "fresh_process"), "objective"),
+               lowest = number(member(neighbours, "lowest"), "objective");
+  return member(neighbours, "better") == true && here - lowest > success * std::abs(here);
+}
+
+bool predicts_worse(const Json& best) {
+  const Json& channels = list(best, "hold_out");
+  return std::any_of(channels.begin(), channels.end(),
+                     [](const Json& channel) { return word(channel, "verdict") == "worse_than_fitted"; });
+}
+
+Doubts doubts_of(const Json& best) {
   Doubts doubts;
-  for (const std::string& warning : words(list(result, "warnings")))
-    if (warning.starts_with(run + ": FITS BETTER THAN IT PREDICTS"))
-      doubts.add("it fits better than it predicts what was held out",
-                 "fit more of the tests together, or take a model with fewer parameters");
+  if (predicts_worse(best))
+    doubts.add("the run fits better than it predicts what was held out",
+               "Fit more of the tests together, or take a model with fewer parameters.");
   if (word(best, "status") == "infeasible")
-    doubts.add("the best point breaks its constraints", "relax the constraints");
+    doubts.add("the best point breaks its constraints", "Relax the constraints.");
   if (member(best, "stable") == false)
     doubts.add("the material is unstable within the measured range",
-               "impose the constraint transverse_stability, or take a model with dispersed fibres");
+               "Impose the constraint transverse_stability, or take a model with dispersed fibres.");
   const Json& certificate = member(best, "certificate");
-  const std::string verdict = word(certificate, "verdict");
-  if (verdict.find("NOT AN OPTIMUM") != std::string::npos)
-    doubts.add("a neighbouring point is better: this is no optimum",
-               "give the optimizer more evaluations, or refine with lm");
+  if (is_no_optimum(certificate))
+    doubts.add("a neighbouring point is better, so this is not an optimum",
+               "Give the optimiser more evaluations, or refine with lm.");
   const Json& agreement = member(certificate, "realisations");
   const double agree = number(agreement, "agree"), of = number(agreement, "of");
   if (of > 1 && agree < 0.5 * of)
-    doubts.add(fmt::format("only {:.0f} of {:.0f} realisations came to the best objective", agree, of),
-               "more realisations, or a larger budget");
+    doubts.add(fmt::format("only {:.0f} of {:.0f} realisations reached the best objective", agree, of),
+               "Take more realisations, or a larger budget.");
   parameters_in_doubt(best, doubts);
   return doubts;
-}
-
-std::string next_steps(const std::vector<std::string>& steps) {
-  if (steps.empty()) return "Use it: tunica simulate EXPERIMENT --parameters result.json";
-  std::string text;
-  for (const std::string& step : steps) {
-    const bool command = step.starts_with("tunica ");
-    text += (text.empty() ? "" : " ") + (command ? "Run " + step : capitalised(step)) + '.';
-  }
-  return text;
 }
 
 }  // namespace
@@ -154,7 +162,7 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
     if (groups.size() > 1) page.heading(fmt::format("Best of {}", order.title(group)));
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
-    const Doubts doubts = doubts_of(result, first->label, best);
+    const Doubts doubts = doubts_of(best);
     page.word_lists(
         {{"Best run",
           {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
@@ -162,12 +170,14 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
          {"How well", fit_words(best)},
          {"What is wrong",
           {doubts.wrong.empty() ? "Nothing was found."
-                                : capitalised(fmt::format("{}", fmt::join(doubts.wrong, "; "))) + '.'}},
-         {"What to do next", {next_steps(doubts.next)}}});
+                                : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")))}},
+         {"What to do next",
+          {doubts.next.empty() ? "Use it: tunica simulate EXPERIMENT --parameters result.json"
+                               : fmt::format("{}", fmt::join(doubts.next, " "))}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))
     page.box("bad", "No run has a result.",
-             {"tunica check EXPERIMENT evaluates the initial point and shows what fails"});
+             {"tunica check EXPERIMENT evaluates the initial point and shows what fails."});
 }
 
 }  // namespace tunica::report

@@ -7,6 +7,8 @@
 
 #include "report/sections.hpp"
 #include "report/thinning.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
 
 namespace tunica::report {
 
@@ -23,9 +25,9 @@ std::vector<std::pair<std::string, std::string>> column_of(const Folder& folder)
     lines.emplace_back("verdict", word(diagnosis, "verdict"));
     std::vector<std::string> causes;
     for (const Json& cause : list(diagnosis, "causes")) causes.push_back(word(cause, "id"));
-    lines.emplace_back("causes", joined(causes));
+    lines.emplace_back("causes", text::joined(causes));
     for (const auto& [name, estimate] : member(member(diagnosis, "base"), "parameters").items())
-      lines.emplace_back(titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
+      lines.emplace_back(text::titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
     return lines;
   }
   lines.emplace_back("kind", "run");
@@ -42,7 +44,7 @@ std::vector<std::pair<std::string, std::string>> column_of(const Folder& folder)
     for (const Json& channel : list(fit, "channels"))
       lines.emplace_back(fmt::format("R², {} {}", test, word(channel, "channel")), figure(number(channel, "r2")));
   for (const auto& [name, estimate] : member(best, "parameters").items())
-    lines.emplace_back(titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
+    lines.emplace_back(text::titled(name, word(estimate, "unit")), figure(number(estimate, "value")));
   return lines;
 }
 

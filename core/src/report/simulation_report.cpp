@@ -5,6 +5,7 @@
 
 #include "report/sections.hpp"
 #include "report/thinning.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
@@ -22,12 +23,12 @@ void add_words(Page& page, const Folder& folder) {
   for (const auto& [name, estimate] : member(said, "parameters").items())
     if (name.find('.') == name.npos || number(estimate, "value") != 0)
       values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
-  const std::string origin = word(said, "origin");
+  const std::string source = word(said, "source");
   const double noise = number(said, "noise");
   page.words(
-      {{"What was simulated", fmt::format("{} in {}", word(said, "model"), joined(words(list(said, "tests"))))},
-       {"Parameters", joined(values)},
-       {"Where from", origin.substr(0, origin.find(": "))},
+      {{"What was simulated", fmt::format("{} in {}", word(said, "model"), text::joined(words(list(said, "tests"))))},
+       {"Parameters", text::joined(values)},
+       {"Where from", source.empty() ? word(said, "origin") : source},
        {"Noise", noise > 0 ? fmt::format("{:.3g} % of every value, seed {}", 100 * noise, figure(number(said, "seed")))
                            : "none"},
        {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "report/sections.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::report {
 
@@ -187,7 +188,7 @@ void add_stability(Page& page, const Folder& folder, const Order& order) {
     const Json& stability = member(member(*run.run, "best"), "stability");
     std::string said = fmt::format("{}", fmt::join(words(list(stability, "sentences")), "; "));
     for (const auto& [model, one] : member(stability, "models").items())
-      said += fmt::format("{}: {}. ", model, joined(words(list(one, "sentences"))));
+      said += fmt::format("{}: {}. ", model, text::joined(words(list(one, "sentences"))));
     if (!said.empty()) lines.emplace_back(run.label, said);
   }
   page.words(lines);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/table.hpp"
+#include "text/units.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -64,7 +65,7 @@ double Table::number(std::size_t row, std::string_view column) const {
 
 std::string Table::title(std::size_t column) const {
   const auto& header = csv_.columns[column];
-  return header.unit && *header.unit == "1" ? header.name : header.text;
+  return header.unit && text::is_dimensionless(*header.unit) ? header.name : header.text;
 }
 
 std::vector<std::pair<std::string, std::vector<std::size_t>>> Table::groups(std::string_view column) const {

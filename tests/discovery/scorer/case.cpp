@@ -87,7 +87,7 @@ Cause read_cause(const Json& from) {
     cause.low = ci[0];
     cause.high = ci[1];
   }
-  cause.hedged = word(from, "explanation").find("consistent with") != std::string::npos;
+  cause.hedged = word(from, "claim") == "consistent_with";
   return cause;
 }
 

@@ -48,7 +48,7 @@ struct Cause {
   std::string id;
   Target target;
   std::optional<double> probability, amplitude, low, high;
-  bool hedged = false;  ///< marked as "consistent with"
+  bool hedged = false;  ///< claimed as "consistent_with"
 };
 
 struct Verdict {

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/builder.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "assembly/channels.hpp"
+#include "assembly/noise.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::assembly {
+namespace {
+
+/// The model's combinations as functions of the free values; one without a free argument says nothing.
+void add_combinations(const RunModel& model, bool several, std::vector<Combination>& found) {
+  for (const Combination& combination : model.model->describe().combinations) {
+    const std::string name = several ? fmt::format("{} ({})", model.name, combination.name) : combination.name;
+    Combination free{name, combination.unit, {}, {}, combination.remedy};
+    for (const Link& link : model.parameters.links) {
+      const auto& arguments = combination.arguments;
+      if (std::find(arguments.begin(), arguments.end(), link.position) == arguments.end()) continue;
+      if (std::find(free.arguments.begin(), free.arguments.end(), link.index) == free.arguments.end()) {
+        free.arguments.push_back(link.index);
+      }
+    }
+    if (free.arguments.empty()) continue;
+    free.value = [value = combination.value, vector = model.parameters](std::span<const double> values) {
+      return value(vector.at(values));
+    };
+    found.push_back(std::move(free));
+  }
+}
+
+/// Names of several models and of tests begin the names of parameters.
+void refuse_one_name_for_two(const std::vector<std::string>& models, const std::vector<std::string>& tests) {
+  if (models.size() < 2) return;
+  for (const std::string& model : models)
+    if (std::find(tests.begin(), tests.end(), model) != tests.end())
+      throw InputError(fmt::format(
+          "a model and a test are both called '{}'; in a run with several models '{}.…' would name parameters of both. "
+          "Rename one of them",
+          model, model));
+}
+
+/// Notes the strips and the largest stretch that a test prescribes.
+void add_stretches(const Test& test, const std::vector<Observable>& observables, const std::string& name,
+                   std::vector<Strip>& strips, double& largest) {
+  for (const TestRows::Column& column : test.rows().abscissae) {
+    const auto observable = std::find_if(observables.begin(), observables.end(), [&](const Observable& candidate) {
+      return candidate.name == column.observable;
+    });
+    if (observable == observables.end() || observable->kind != Observable::Kind::stretch) continue;
+    for (const double stretch : column.values) largest = std::max(largest, stretch);
+    if (test.describe().free_strip_axis && column.observable == "stretch")
+      strips.push_back({name,
+                        0,
+                        std::min<std::size_t>(*test.describe().free_strip_axis, 1),
+                        {column.values.begin(), column.values.end()}});
+  }
+}
+
+/// Bounds, and values that are held, outside of what the model or test declares. On a logarithmic scale an upper bound
+/// is a habit of its tissue, which others may exceed; a sign is not.
+std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
+                                      const std::vector<FixedParameter>& fixed) {
+  std::vector<std::string> warnings;
+  const auto unit = [](const std::string& name) { return name == "1" ? "" : ' ' + name; };
+  for (const FreeParameter& p : free) {
+    const bool sign = p.min < 0 && p.declared.min >= 0;
+    if (!sign && (p.scale == Scale::log || (p.declared.contains(p.min) && p.declared.contains(p.max)))) continue;
+    warnings.push_back(
+        fmt::format("parameter '{}': its bounds {:g} … {:g}{} go beyond {:g} … {:g}, the declared range; values "
+                    "outside may be meaningless",
+                    p.name, p.min, p.max, unit(p.unit), p.declared.min, p.declared.max));
+  }
+  for (const FixedParameter& p : fixed)
+    if (p.value != 0 && !p.declared.contains(p.value))  // 0 switches a part of a model off
+      warnings.push_back(fmt::format("parameter '{}': held at {:g}{}, outside {:g} … {:g}, the declared range", p.name,
+                                     p.value, unit(p.unit), p.declared.min, p.declared.max));
+  return warnings;
+}
+
+}  // namespace
+
+Parts Builder::build() {
+  compose();
+  bind();
+  for (std::size_t t = 0; t < composed_.size(); ++t) add_test(t);
+  add_priors();
+  add_constraints();
+  Layout& layout = parts_.layout;
+  layout.test_count = parts_.tests.size();
+  layout.jacobian_is_exact =
+      std::none_of(parts_.tests.begin(), parts_.tests.end(), [](const RunTest& test) { return test.differenced; });
+  layout.has_costly_tests =
+      std::any_of(parts_.fitted.begin(), parts_.fitted.end(),
+                  [this](const ChannelObjective& channel) { return parts_.tests[channel.test].costly; });
+  return std::move(parts_);
+}
+
+void Builder::compose() {
+  const std::vector<std::string> names = experiment_.models_of(run_);
+  refuse_one_name_for_two(names, run_.tests);
+  for (const std::string& name : names) {
+    const std::string prefix = names.size() > 1 ? name + "." : "";
+    ComposedModel model = compose_model(experiment_.model(name), catalogue_, prefix);
+    parts_.models.push_back({name, std::move(model.plugin), std::move(model.model), {}});
+    slots_.push_back(std::move(model.slots));
+  }
+  for (const std::string& name : run_.tests) {
+    composed_.push_back(compose_test(experiment_.test(name), catalogue_));
+    slots_.push_back(composed_.back().slots);
+  }
+}
+
+void Builder::bind() {
+  Binding binding = bind_parameters(slots_);
+  vectors_ = std::move(binding.owners);
+  for (std::size_t m = 0; m < parts_.models.size(); ++m) parts_.models[m].parameters = std::move(vectors_[m]);
+  Layout& layout = parts_.layout;
+  layout.parameters = std::move(binding.free);
+  layout.fixed_parameters = std::move(binding.fixed);
+  layout.warnings = out_of_range(layout.parameters, layout.fixed_parameters);
+  for (const RunModel& model : parts_.models) add_combinations(model, parts_.models.size() > 1, layout.combinations);
+}
+
+void Builder::add_test(std::size_t number) {
+  Layout& layout = parts_.layout;
+  const experiment::TestEntry& entry = experiment_.test(run_.tests[number]);
+  ComposedTest& composed = composed_[number];
+  const data::Dataset& dataset = composed.dataset;
+  RunTest test;
+  test.name = entry.name;
+  test.plugin = std::move(composed.plugin);
+  test.test = std::move(composed.test);
+  test.rows = dataset.count;
+  test.channels = dataset.channels.size();
+  test.offset = layout.prediction_count;
+  test.own = std::move(vectors_[parts_.models.size() + number]);
+  test.costly = test.test->describe().costly;
+  assign_models(test, entry, parts_.models);
+  chain_parameters(test, layout.parameters.size());
+  const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
+  add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
+  for (const std::string& warning : dataset.warnings)
+    layout.warnings.push_back(fmt::format("test '{}': {}", entry.name, warning));
+  for (std::size_t k = 0; k < dataset.sha256.size(); ++k) {
+    const std::string file = k < entry.data.files.size() ? entry.data.files[k].filename().string() : entry.name;
+    layout.data_hashes.push_back(fmt::format("{} sha256:{}", file, dataset.sha256[k]));
+  }
+  auto channels = measured_channels(entry, dataset, observables, test.offset);
+  add_blocks(number, dataset, channels);
+  layout.prediction_count += test.size();
+  std::move(channels.begin(), channels.end(), std::back_inserter(layout.channels));
+  parts_.tests.push_back(std::move(test));
+}
+
+void Builder::add_blocks(std::size_t number, const data::Dataset& dataset,
+                         const std::vector<MeasuredChannel>& channels) {
+  Layout& layout = parts_.layout;
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    const MeasuredChannel& channel = channels[k];
+    ChannelObjective fitted{number, {layout.residual_count, 0, 1, {}}, {}, {}, {}, {}};
+    for (std::size_t row = 0; row < channel.count; ++row) {
+      if (!channel.fitted[row]) continue;
+      fitted.rows.push_back(channel.offset + row);
+      fitted.measured.push_back(channel.measured[row]);
+    }
+    if (fitted.rows.empty()) continue;
+    fitted.block.size = fitted.rows.size();
+    const std::string where = fmt::format("test '{}', channel '{}'", channel.test, channel.observable);
+    NoiseModel noise;
+    if (run_.objective == experiment::ObjectiveType::least_squares)
+      noise = noise_model(dataset.channels[k], channel.abscissa, channel.fitted, where, layout.warnings);
+    scale_residuals(fitted, run_.objective, channel.weight, &noise, where);
+    layout.residual_count += fitted.block.size;
+    layout.blocks.push_back(fitted.block);
+    parts_.fitted.push_back(std::move(fitted));
+  }
+}
+
+void Builder::add_priors() {
+  Layout& layout = parts_.layout;
+  for (std::size_t index = 0; index < layout.parameters.size(); ++index) {
+    const FreeParameter& free = layout.parameters[index];
+    if (!free.prior) continue;
+    if (run_.objective == experiment::ObjectiveType::least_squares) {
+      parts_.priors.push_back({index, free.prior->mean, free.prior->sd});
+    } else {
+      layout.warnings.push_back(
+          fmt::format("the prior of '{}' is not used: a prior can be added only to 'least_squares', "
+                      "which weighs data by their noise",
+                      free.name));
+    }
+  }
+  if (parts_.priors.empty()) return;
+  layout.blocks.push_back({layout.residual_count, parts_.priors.size(), 1, ResidualBlock::Loss::quadratic});
+  layout.residual_count += parts_.priors.size();
+}
+
+void Builder::add_constraints() {
+  std::vector<const Model*> models;
+  for (const RunModel& model : parts_.models) models.push_back(model.model.get());
+  parts_.constraints = make_constraints(run_.constraints, models, parts_.strips);
+  parts_.largest_stretch = std::max(parts_.largest_stretch, stated_range(run_.constraints));
+}
+
+}  // namespace tunica::assembly

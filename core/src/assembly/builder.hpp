@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/binding.hpp"
+#include "assembly/composition.hpp"
+#include "assembly/constraint.hpp"
+#include "assembly/layout.hpp"
+#include "assembly/models.hpp"
+#include "assembly/objective.hpp"
+#include "assembly/run_test.hpp"
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+namespace tunica::assembly {
+
+/// What an Assembly is made of.
+struct Parts {
+  Layout layout;
+  std::vector<RunModel> models;
+  std::vector<Strip> strips;
+  double largest_stretch = 1;
+  std::vector<ModelConstraint> constraints;
+  std::vector<RunTest> tests;
+  std::vector<ChannelObjective> fitted;
+  std::vector<PriorRow> priors;
+};
+
+/// Makes the parts of one run, step by step: models and tests are composed, their parameters bound, then every test
+/// and its channels laid out one behind the other.
+class Builder {
+ public:
+  Builder(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+          const plugins::Catalogue& catalogue)
+      : experiment_(experiment), run_(run), catalogue_(catalogue) {}
+
+  Parts build();
+
+ private:
+  void compose();
+  void bind();
+  void add_test(std::size_t number);
+  /// The fitted rows of the channels of a test as blocks of the objective.
+  void add_blocks(std::size_t number, const data::Dataset& dataset, const std::vector<MeasuredChannel>& channels);
+  void add_priors();
+  void add_constraints();
+
+  const experiment::Experiment& experiment_;
+  const experiment::RunEntry& run_;
+  const plugins::Catalogue& catalogue_;
+  Parts parts_;
+  std::vector<std::vector<Slot>> slots_;  ///< of the models, then of the tests
+  std::vector<ComposedTest> composed_;
+  std::vector<ParameterVector> vectors_;  ///< as the slots
+};
+
+}  // namespace tunica::assembly

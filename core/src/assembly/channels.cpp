@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "tunica/error.hpp"
+
+namespace tunica::assembly {
+namespace {
+
+std::string unit_of(const std::string& name, const std::vector<Observable>& observables) {
+  const auto found = std::find_if(observables.begin(), observables.end(),
+                                  [&name](const Observable& candidate) { return candidate.name == name; });
+  return found == observables.end() ? std::string() : found->unit;
+}
+
+}  // namespace
+
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count) {
+  std::vector<bool> fitted(count, !entry.hold_out.all);
+  if (entry.hold_out.all || !entry.hold_out.rows) return fitted;
+  const data::RowRange& range = *entry.hold_out.rows;
+  if (range.first >= count) {
+    throw InputError(
+        fmt::format("test '{}': hold_out starts at row {}, but only rows 0 … {} are used; choose rows among them",
+                    entry.name, range.first, static_cast<std::ptrdiff_t>(count) - 1));
+  }
+  const std::size_t last = std::min(range.last.value_or(count), count);
+  for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
+  return fitted;
+}
+
+std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                                               const std::vector<Observable>& observables, std::size_t offset) {
+  std::vector<MeasuredChannel> found;
+  if (!entry.weights.empty() && entry.weights.size() != dataset.channels.size()) {
+    throw InputError(
+        fmt::format("test '{}': {} weights for {} fitted channels; give one number, or one for each channel",
+                    entry.name, entry.weights.size(), dataset.channels.size()));
+  }
+  for (std::size_t k = 0; k < dataset.channels.size(); ++k) {
+    const data::Channel& channel = dataset.channels[k];
+    MeasuredChannel measured;
+    measured.test = entry.name;
+    measured.observable = channel.observable;
+    measured.unit = channel.unit;
+    measured.offset = offset + k * dataset.count;
+    measured.count = dataset.count;
+    measured.measured = channel.values;
+    measured.noise = channel.noise;
+    if (measured.noise && channel.replicates.size() > 1) {
+      const double root = std::sqrt(static_cast<double>(channel.replicates.size()));
+      measured.noise->absolute /= root;
+      measured.noise->relative /= root;
+    }
+    measured.fitted = fitted_rows(entry, dataset.count);
+    if (!entry.weights.empty()) measured.weight = entry.weights[k];
+    if (!dataset.abscissae.empty()) {
+      const auto& [name, values] = dataset.abscissae.front();
+      measured.abscissa_name = name;
+      measured.abscissa = values;
+      measured.abscissa_unit = unit_of(name, observables);
+      for (std::size_t other = 1; other < dataset.abscissae.size(); ++other) {
+        const auto& [label, column] = dataset.abscissae[other];
+        measured.other_abscissae.emplace_back(fmt::format("{} [{}]", label, unit_of(label, observables)), column);
+      }
+    } else {
+      measured.abscissa_name = "row";
+      measured.abscissa_unit = "1";
+      for (std::size_t row = 0; row < dataset.count; ++row) measured.abscissa.push_back(static_cast<double>(row));
+    }
+    found.push_back(std::move(measured));
+  }
+  return found;
+}
+
+}  // namespace tunica::assembly

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/binding.hpp"
+#include "data/dataset.hpp"
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+#include "tunica/model.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::assembly {
+
+/// A model inside its mechanisms, in the canonical order of Stage whatever the file says (several of one stage in
+/// the file's order); a mechanism's parameters stand behind those of what it wraps.
+struct ComposedModel {
+  std::unique_ptr<Model> model;
+  std::string plugin;       ///< "gho 0.1.0"
+  std::vector<Slot> slots;  ///< one per parameter of the outermost description
+};
+/// `prefix` stands before the outside names of its parameters.
+ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::Catalogue& catalogue,
+                            const std::string& prefix);
+
+/// A test bound to its data, inside its mechanisms; outside names carry the test's name.
+struct ComposedTest {
+  std::unique_ptr<Test> test;
+  std::string plugin;
+  std::vector<Slot> slots;
+  data::Dataset dataset;
+};
+ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::assembly

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/constraints.hpp"
+#include "assembly/models.hpp"
+#include "assembly/objective.hpp"
+#include "assembly/run_test.hpp"
+#include "assembly/workspace.hpp"
+
+namespace tunica::assembly {
+namespace {
+
+/// Position of the first number that is not finite, or the size. 0·v is NaN exactly for those; eight sums side by side
+/// keep the check far below the cost of what it checks.
+std::size_t first_not_finite(std::span<const double> values) {
+  constexpr std::size_t lanes = 8;
+  double sums[lanes] = {};
+  std::size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += 0 * values[i + lane];
+  }
+  for (; i < values.size(); ++i) sums[0] += 0 * values[i];
+  double sum = 0;
+  for (const double part : sums) sum += part;
+  if (sum == 0) return values.size();
+  const auto found = std::find_if_not(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return static_cast<std::size_t>(found - values.begin());
+}
+
+/// Rows of the residuals' Jacobian of one channel, column by column; `out` is its first row, n free parameters long.
+void write_rows(const ChannelObjective& channel, const RunTest& test, const double* by_slot, double* out,
+                std::size_t n) {
+  const std::size_t count = channel.rows.size();
+  const std::size_t* const rows = channel.rows.data();
+  const double* const own = channel.own.data();
+  for (const auto& [free, slot] : test.columns) {
+    const double* const values = by_slot + slot * test.size();
+    for (std::size_t k = 0; k < count; ++k) out[k * n + free] = own[k] * values[rows[k] - test.offset];
+    if (channel.previous.empty()) continue;
+    for (std::size_t k = 1; k < count; ++k) {
+      out[k * n + free] -= channel.previous[k] * values[rows[k - 1] - test.offset];
+    }
+  }
+  for (const std::size_t free : test.untouched) {
+    for (std::size_t k = 0; k < count; ++k) out[k * n + free] = 0;
+  }
+}
+
+}  // namespace
+
+void WorkspaceDeleter::operator()(Workspace* workspace) const { delete workspace; }
+
+Evaluator::Evaluator(const Layout& layout, const Models& models, const Constraints& constraints,
+                     std::vector<RunTest> tests, std::vector<ChannelObjective> fitted, std::vector<PriorRow> priors)
+    : layout_(layout),
+      models_(models),
+      constraints_(constraints),
+      tests_(std::move(tests)),
+      fitted_(std::move(fitted)),
+      priors_(std::move(priors)) {}
+
+Evaluator::~Evaluator() = default;
+
+WorkspacePointer Evaluator::make_workspace() const {
+  WorkspacePointer workspace(new Workspace);
+  const std::size_t n = layout_.parameters.size();
+  for (std::size_t m = 0; m < models_.count(); ++m) workspace->model_parameters.push_back(models_.vector(m).values);
+  std::size_t largest = 0, jacobian_size = 0;
+  for (const RunTest& test : tests_) {
+    workspace->materials.push_back(test.materials.values);
+    workspace->own.push_back(test.own.values);
+    largest = std::max(largest, test.size());
+    jacobian_size = std::max(jacobian_size, test.size() * std::max(test.slots(), n));
+  }
+  workspace->predictions.resize(layout_.prediction_count);
+  workspace->jacobian.resize(jacobian_size);
+  workspace->ahead.resize(largest);
+  workspace->behind.resize(largest);
+  workspace->shifted.resize(n);
+  workspace->constraints.resize(constraints_.count());
+  return workspace;
+}
+
+std::string Evaluator::place(const RunTest& test, std::size_t position) const {
+  const std::size_t channel = position / test.rows, row = position % test.rows;
+  const auto view = std::find_if(
+      layout_.channels.begin(), layout_.channels.end(),
+      [&](const MeasuredChannel& candidate) { return candidate.offset == test.offset + channel * test.rows; });
+  return fmt::format("channel '{}', row {} ({} {:.6g})", view->observable, row, view->abscissa_name,
+                     view->abscissa[row]);
+}
+
+TestInput Evaluator::input(const RunTest& test, std::span<const double> at, Workspace& workspace) const {
+  const auto number = static_cast<std::size_t>(&test - tests_.data());
+  std::vector<double>& materials = workspace.materials[number];
+  std::vector<double>& own = workspace.own[number];
+  for (const Link& link : test.materials.links) materials[link.position] = at[link.index];
+  for (const Link& link : test.own.links) own[link.position] = at[link.index];
+  return {*test.model, materials, own, {}, test.layers};
+}
+
+Status Evaluator::call(const RunTest& test, std::span<const double> at, std::span<double> values,
+                       std::span<double> jacobian, Workspace& workspace) const {
+  try {
+    if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok()) {
+      return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
+    }
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("test '{}': plugin '{}' with model plugin '{}' threw: {}", test.name, test.plugin,
+                                      test.model_plugins, problem.what()));
+  } catch (...) {
+    return Status::failed(
+        fmt::format("test '{}': plugin '{}' with model plugin '{}' threw something that is no "
+                    "std::exception",
+                    test.name, test.plugin, test.model_plugins));
+  }
+  if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
+    return Status::failed(
+        fmt::format("test '{}': the prediction is {} in {}", test.name, values[bad], place(test, bad)));
+  }
+  return {};
+}
+
+Status Evaluator::predict_test(const RunTest& test, std::span<const double> at, std::span<double> values, bool jacobian,
+                               Workspace& workspace) const {
+  const std::size_t size = test.size();
+  if (!jacobian || test.differenced) {
+    if (Status status = call(test, at, values, {}, workspace); !status.ok() || !jacobian) return status;
+    return difference(test, at, values, workspace);
+  }
+  const std::span<double> by_slot(workspace.jacobian.data(), test.slots() * size);
+  if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) return status;
+  for (const auto& [into, from] : test.sums) {
+    for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
+  }
+  // Derivatives by held parameters are nobody's business: only those that count are checked.
+  for (const auto& [index, slot] : test.columns) {
+    const auto column = by_slot.subspan(slot * size, size);
+    if (const std::size_t bad = first_not_finite(column); bad < size) {
+      return Status::failed(fmt::format("test '{}': the derivative by '{}' is {} in {}", test.name,
+                                        layout_.parameters[index].name, column[bad], place(test, bad)));
+    }
+  }
+  return {};
+}
+
+Status Evaluator::predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
+                          Workspace& workspace) const {
+  const std::size_t n = free.size();
+  for (const RunTest& test : tests_) {
+    const auto values = predictions.subspan(test.offset, test.size());
+    if (Status status = predict_test(test, free, values, !jacobian.empty(), workspace); !status.ok()) return status;
+    if (jacobian.empty()) continue;
+    double* const out = &jacobian[test.offset * n];
+    for (const auto& [index, slot] : test.columns) {
+      const double* const column = workspace.jacobian.data() + slot * test.size();
+      for (std::size_t i = 0; i < test.size(); ++i) out[i * n + index] = column[i];
+    }
+    for (const std::size_t index : test.untouched) {
+      for (std::size_t i = 0; i < test.size(); ++i) out[i * n + index] = 0;
+    }
+  }
+  return {};
+}
+
+Status Evaluator::add_costs(bool costly, std::span<const double> at, double& total, const Wanted& wanted,
+                            Workspace& workspace) const {
+  const std::size_t n = layout_.parameters.size();
+  auto channel = fitted_.begin();  // sorted by test
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    const RunTest& test = tests_[t];
+    const auto behind =
+        std::find_if(channel, fitted_.end(), [t](const ChannelObjective& candidate) { return candidate.test != t; });
+    if (test.costly != costly) {
+      channel = behind;
+      continue;
+    }
+    double cost = 0;
+    if (channel != behind) {
+      const auto values = std::span(workspace.predictions).subspan(test.offset, test.size());
+      if (Status status = predict_test(test, at, values, !wanted.jacobian.empty(), workspace); !status.ok())
+        return status;
+    }
+    for (; channel != behind; ++channel) {
+      const auto number = static_cast<std::size_t>(channel - fitted_.begin());
+      cost += channel_cost(*channel, workspace.measured.empty() ? channel->measured : workspace.measured[number],
+                           workspace.predictions, wanted.residuals);
+      if (wanted.jacobian.empty()) continue;
+      write_rows(*channel, test, workspace.jacobian.data(), &wanted.jacobian[channel->block.offset * n], n);
+    }
+    if (!wanted.per_test.empty()) wanted.per_test[t] = cost;
+    total += cost;
+  }
+  return {};
+}
+
+void Evaluator::add_priors(std::span<const double> at, double& total, const Wanted& wanted) const {
+  const std::size_t n = layout_.parameters.size();
+  std::size_t row = layout_.residual_count - priors_.size();
+  for (const PriorRow& prior : priors_) {
+    const double residual = (at[prior.index] - prior.mean) / prior.sd;
+    total += residual * residual;
+    if (!wanted.residuals.empty()) wanted.residuals[row] = residual;
+    if (!wanted.jacobian.empty()) {
+      std::fill_n(&wanted.jacobian[row * n], n, 0.0);
+      wanted.jacobian[row * n + prior.index] = 1 / prior.sd;
+    }
+    ++row;
+  }
+}
+
+Status Evaluator::evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
+                           std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
+                           bool skip_costly) const {
+  const Wanted wanted{per_test, residuals, jacobian};
+  double total = 0;
+  if (Status status = add_costs(false, free, total, wanted, workspace); !status.ok()) return status;
+  Status verdict = constraints_.feasibility(free, workspace);
+  if (verdict.kind() == Status::Kind::failed) return verdict;
+  if (verdict.ok() || !skip_costly || !residuals.empty()) {
+    if (Status status = add_costs(true, free, total, wanted, workspace); !status.ok()) return status;
+  } else if (!per_test.empty()) {
+    for (std::size_t t = 0; t < tests_.size(); ++t)
+      if (tests_[t].costly) per_test[t] = std::numeric_limits<double>::quiet_NaN();
+  }
+  add_priors(free, total, wanted);
+  if (!std::isfinite(total))
+    return Status::failed("the objective overflows: predictions are finite, their squares are not");
+  objective = total;
+  return verdict;
+}
+
+void Evaluator::measure(std::span<const double> values, Workspace& workspace) const {
+  workspace.measured.clear();
+  if (values.empty()) return;
+  for (const ChannelObjective& channel : fitted_) {
+    auto& measured = workspace.measured.emplace_back();
+    for (const std::size_t row : channel.rows) measured.push_back(values[row]);
+  }
+}
+
+void Evaluator::transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const {
+  std::fill(by_prediction.begin(), by_prediction.end(), 0.0);
+  for (const ChannelObjective& channel : fitted_)
+    for (std::size_t k = 0; k < channel.rows.size(); ++k) {
+      const double value = by_residual[channel.block.offset + k];
+      by_prediction[channel.rows[k]] += channel.own[k] * value;
+      if (k > 0 && !channel.previous.empty()) by_prediction[channel.rows[k - 1]] -= channel.previous[k] * value;
+    }
+}
+
+Status Evaluator::ask(std::size_t number, std::span<const double> free,
+                      const std::function<Status(const Test&, const TestInput&)>& question) const {
+  const RunTest& test = tests_.at(number);
+  const WorkspacePointer workspace = make_workspace();
+  try {
+    return question(*test.test, input(test, free, *workspace));
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
+  } catch (...) {
+    return Status::failed(
+        fmt::format("test '{}': plugin '{}' threw something that is no std::exception", test.name, test.plugin));
+  }
+}
+
+Status Evaluator::diagnostics(std::size_t number, std::span<const double> free,
+                              std::vector<std::pair<std::string, std::vector<double>>>& rows) const {
+  const RunTest& test = tests_.at(number);
+  const auto& names = test.test->describe().diagnostics;
+  std::vector<double> predictions(test.size()), values(names.size() * test.rows);
+  const Status status = ask(number, free, [&](const Test& asked, const TestInput& input) {
+    return asked.predict(input, {predictions, {}, {}, values});
+  });
+  if (!status.ok()) return status;
+  rows.clear();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(k * test.rows);
+    rows.emplace_back(names[k], std::vector<double>(first, first + static_cast<std::ptrdiff_t>(test.rows)));
+  }
+  return {};
+}
+
+}  // namespace tunica::assembly

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assembly/layout.hpp"
+#include "tunica/status.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::assembly {
+
+class Constraints;
+class Models;
+struct ChannelObjective;
+struct PriorRow;
+struct RunTest;
+
+class Workspace;  ///< scratch of one thread
+struct WorkspaceDeleter {
+  void operator()(Workspace* workspace) const;
+};
+using WorkspacePointer = std::unique_ptr<Workspace, WorkspaceDeleter>;
+
+/// From free parameter values, in base units, to predictions, residuals and objective of a run. Const and thread-safe;
+/// each thread brings a workspace, and evaluation allocates nothing. Refers to what it was made with.
+class Evaluator {
+ public:
+  Evaluator(const Layout& layout, const Models& models, const Constraints& constraints, std::vector<RunTest> tests,
+            std::vector<ChannelObjective> fitted, std::vector<PriorRow> priors);
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
+  ~Evaluator();
+
+  [[nodiscard]] WorkspacePointer make_workspace() const;
+
+  /// All predictions (prediction_count) and, unless empty, their Jacobian by the free parameters, row-major
+  /// [i·n + j]. Exact where the model has parameter derivatives; else central differences of whole predictions,
+  /// one-sided (second order) at bounds, step ε^(1/3)·|p| (linear scale: of at least a hundredth of the range).
+  Status predict(std::span<const double> free, std::span<double> predictions, std::span<double> jacobian,
+                 Workspace& workspace) const;
+  /// Objective, per-test cost (one per test of the run, holding out excluded) and, unless empty, residuals and their
+  /// Jacobian by the free parameters, row-major. Never NaN under ok. Infeasible, with all of these set, where a
+  /// constraint exceeds Problem::constraint_tolerance; the reason names the one that is broken most.
+  ///
+  /// Cheap tests come first, then the constraints, costly tests last (Canales et al. 2023, Figure 7). With
+  /// `skip_costly` and no residuals asked for, an infeasible point is not simulated in costly tests: their per_test is
+  /// NaN and the objective that of the others.
+  Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
+                  std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
+                  bool skip_costly = false) const;
+
+  /// From now on evaluate() in this workspace compares with these values, in the layout of the predictions, instead of
+  /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.
+  void measure(std::span<const double> values, Workspace& workspace) const;
+
+  /// A residual row is r = own e_k − previous e_{k−1}, e = prediction − measured: the transpose of that map, from one
+  /// value a residual (priors left out) to one a prediction.
+  void transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const;
+
+  /// Puts a question to one test at these parameters; what it throws becomes a failure.
+  Status ask(std::size_t test, std::span<const double> free,
+             const std::function<Status(const Test&, const TestInput&)>& question) const;
+  /// Diagnostics of one test at these parameters, name → row values (transverse stretch, iterations).
+  Status diagnostics(std::size_t test, std::span<const double> free,
+                     std::vector<std::pair<std::string, std::vector<double>>>& rows) const;
+
+ private:
+  /// Predictions of one test into `values` and, if wanted, its Jacobian by slots into the workspace, sums done.
+  Status predict_test(const RunTest& test, std::span<const double> at, std::span<double> values, bool jacobian,
+                      Workspace& workspace) const;
+  /// The call into the plugin: parameters filled in, exceptions and non-finite numbers turned into a status.
+  Status call(const RunTest& test, std::span<const double> at, std::span<double> values, std::span<double> jacobian,
+              Workspace& workspace) const;
+  /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
+  Status difference(const RunTest& test, std::span<const double> at, std::span<const double> values,
+                    Workspace& workspace) const;
+  /// Where one evaluation writes; empty = not wanted.
+  struct Wanted {
+    std::span<double> per_test, residuals, jacobian;
+  };
+  /// Adds what the tests cost that are costly, or those that are not, one after the other.
+  Status add_costs(bool costly, std::span<const double> at, double& total, const Wanted& wanted,
+                   Workspace& workspace) const;
+  void add_priors(std::span<const double> at, double& total, const Wanted& wanted) const;
+  /// The parameters of a test at these free ones, in the workspace.
+  TestInput input(const RunTest& test, std::span<const double> at, Workspace& workspace) const;
+  /// Where among a test's values something lies: "channel 'stress', row 12 (stretch 1.8)".
+  [[nodiscard]] std::string place(const RunTest& test, std::size_t position) const;
+
+  const Layout& layout_;
+  const Models& models_;
+  const Constraints& constraints_;
+  std::vector<RunTest> tests_;
+  std::vector<ChannelObjective> fitted_;  ///< sorted by test
+  std::vector<PriorRow> priors_;
+};
+
+}  // namespace tunica::assembly

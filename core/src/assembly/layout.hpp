@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/dataset.hpp"
+#include "experiment/experiment.hpp"
+#include "tunica/model.hpp"
+#include "tunica/optimizer.hpp"
+#include "tunica/parameter.hpp"
+
+namespace tunica::assembly {
+
+/// Bounds that the owner of a parameter declares: outside of them it may mean nothing.
+struct DeclaredRange {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool contains(double value) const { return value >= min && value <= max; }
+};
+
+/// A parameter the run searches for, with its name as the outside sees it: "mu", "viscoelasticity.tau",
+/// "circumferential_strip.force_offset.value"; base units.
+struct FreeParameter {
+  std::string name, unit;
+  double min, max, initial;
+  Scale scale;
+  std::optional<experiment::Prior> prior;
+  DeclaredRange declared = {};
+};
+
+struct FixedParameter {
+  std::string name, unit;
+  double value;
+  DeclaredRange declared = {};
+};
+
+/// One channel of one test: what was measured, and where its rows lie in the vector of all predictions.
+struct MeasuredChannel {
+  std::string test, observable, unit;
+  std::size_t offset = 0, count = 0;  ///< rows [offset, offset + count) of the predictions
+  std::vector<double> measured;       ///< count
+  std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
+  std::string abscissa_name, abscissa_unit;
+  /// "name [unit]" → count values
+  std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
+  std::vector<bool> fitted;  ///< count; false = held out
+  double weight = 1;
+  std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
+};
+
+/// What a run consists of; nothing in it depends on parameter values.
+struct Layout {
+  std::vector<FreeParameter> parameters;
+  std::vector<FixedParameter> fixed_parameters;
+  std::vector<MeasuredChannel> channels;
+  std::vector<ResidualBlock> blocks;  ///< one a fitted channel, one more for priors
+  /// Known invariances of the models, arguments as indices into `parameters`; value() takes the free values.
+  std::vector<Combination> combinations;
+  std::vector<std::string> warnings;
+  std::vector<std::string> data_hashes;  ///< "circ.csv sha256:…"
+  std::size_t test_count = 0;            ///< tests of the run: entries of per_test
+  std::size_t prediction_count = 0;      ///< Σ channel counts, held-out rows included
+  std::size_t residual_count = 0;        ///< fitted rows and priors
+  bool jacobian_is_exact = true;         ///< false: some test's predictions are differenced
+  bool has_costly_tests = false;         ///< some fitted test declares itself costly
+};
+
+}  // namespace tunica::assembly

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assembly/parameter_vector.hpp"
+#include "tunica/model.hpp"
+
+namespace tunica::assembly {
+
+/// One model of the run, with its mechanisms.
+struct RunModel {
+  std::string name, plugin;
+  std::unique_ptr<Model> model;
+  ParameterVector parameters;
+};
+
+/// A strip with free lateral faces among the tests of a run, and the stretches it was measured at.
+struct Strip {
+  std::string test;
+  std::size_t model = 0;  ///< which of the run's it is made of
+  std::size_t axis = 0;   ///< 0 = circumferential, 1 = axial
+  std::vector<double> stretches;
+};
+
+/// The models of a run with their mechanisms, its own first, then those of layers; and the stretches that the run
+/// takes them to.
+class Models {
+ public:
+  Models(std::vector<RunModel> models, std::vector<Strip> strips, double largest_stretch)
+      : models_(std::move(models)), strips_(std::move(strips)), largest_stretch_(largest_stretch) {}
+
+  [[nodiscard]] std::size_t count() const { return models_.size(); }
+  [[nodiscard]] const std::string& name(std::size_t model) const { return models_[model].name; }
+  [[nodiscard]] const Model& model(std::size_t model) const { return *models_[model].model; }
+  /// Where the free parameters go in the model's vector.
+  [[nodiscard]] const ParameterVector& vector(std::size_t model) const { return models_[model].parameters; }
+  /// All parameters of a model, in its order.
+  [[nodiscard]] std::vector<double> parameters(std::size_t model, std::span<const double> free) const {
+    return vector(model).at(free);
+  }
+  [[nodiscard]] const std::vector<Strip>& strips() const { return strips_; }  ///< free strips among the tests
+  /// Among the abscissae of all tests and stated ranges; 1 = none.
+  [[nodiscard]] double largest_stretch() const { return largest_stretch_; }
+
+ private:
+  std::vector<RunModel> models_;
+  std::vector<Strip> strips_;
+  double largest_stretch_;
+};
+
+}  // namespace tunica::assembly

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/run_test.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace tunica::assembly {
+
+void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models) {
+  const auto add = [&test](const RunModel& model) {
+    const std::size_t first = test.materials.values.size();
+    const std::vector<double>& values = model.parameters.values;
+    test.materials.values.insert(test.materials.values.end(), values.begin(), values.end());
+    for (const Link& link : model.parameters.links) test.materials.links.push_back({first + link.position, link.index});
+    test.differenced = test.differenced || !model.model->describe().parameter_derivatives;
+    if (test.model_plugins.find(model.plugin) == std::string::npos)
+      test.model_plugins += (test.model_plugins.empty() ? "" : ", ") + model.plugin;
+  };
+  if (entry.layers.empty()) add(models.front());
+  for (const experiment::LayerEntry& layer : entry.layers) {
+    const auto named = std::find_if(models.begin(), models.end(),
+                                    [&layer](const RunModel& candidate) { return candidate.name == layer.model; });
+    test.layers.push_back(named->model.get());
+    add(*named);
+  }
+  test.model = test.layers.empty() ? models.front().model.get() : test.layers.front();
+}
+
+void chain_parameters(RunTest& test, std::size_t free_count) {
+  std::vector<std::optional<std::size_t>> first(free_count);
+  const auto visit = [&](const Link& link, std::size_t slot) {
+    if (first[link.index]) {
+      test.sums.emplace_back(*first[link.index], slot);
+    } else {
+      first[link.index] = slot;
+    }
+  };
+  for (const Link& link : test.materials.links) visit(link, link.position);
+  for (const Link& link : test.own.links) visit(link, test.materials.values.size() + link.position);
+  for (std::size_t index = 0; index < free_count; ++index) {
+    if (!first[index]) {
+      test.untouched.push_back(index);
+    } else {
+      // Differences fill rows in free order instead of slot order; there are never more of them than slots.
+      test.columns.emplace_back(index, test.differenced ? test.columns.size() : *first[index]);
+    }
+  }
+}
+
+}  // namespace tunica::assembly

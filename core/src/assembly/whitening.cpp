@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/whitening.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "assembly/noise.hpp"
+
+namespace tunica::assembly {
+namespace {
+
+/// A channel of weight 0 is predicted, and says nothing about the parameters.
+bool counts(const MeasuredChannel& view) { return view.weight > 0; }
+
+std::size_t fitted_rows(const MeasuredChannel& view) {
+  return static_cast<std::size_t>(std::count(view.fitted.begin(), view.fitted.end(), true));
+}
+
+NoiseModel noise_of(const MeasuredChannel& view, std::span<const double> measured, std::span<const double> predictions,
+                    double share_left) {
+  if (view.noise) {
+    std::vector<std::string> known;  // warnings that the assembly has given where they matter
+    return noise_model({view.observable, view.unit, view.measured, {}, view.noise}, view.abscissa, view.fitted,
+                       view.test, known);
+  }
+  double squares = 0, largest = 0;
+  for (std::size_t i = 0; i < view.count; ++i) {
+    if (!view.fitted[i]) continue;
+    squares += std::pow(predictions[view.offset + i] - measured[i], 2);
+    largest = std::max(largest, std::abs(measured[i]));
+  }
+  const std::size_t count = fitted_rows(view);
+  const double freedom = std::max(1.0, static_cast<double>(count) * share_left);
+  const double sd = std::max({std::sqrt(squares / freedom), 1e-9 * largest, 1e-300});
+  return {std::vector<double>(count, sd), {}, true};
+}
+
+}  // namespace
+
+double Whitening::quantile(std::size_t parameters) const {
+  const double freedom = static_cast<double>(count()) - static_cast<double>(parameters);
+  return stated || freedom < 1 ? boost::math::quantile(boost::math::normal(), 0.975)
+                               : boost::math::quantile(boost::math::students_t(freedom), 0.975);
+}
+
+Whitening whitening(const Assembly& assembly, std::span<const double> predictions, std::span<const double> measured) {
+  Whitening result;
+  std::size_t fitted = 0, silent = 0;  // rows that count, rows of weight 0
+  for (const MeasuredChannel& view : assembly.layout().channels) (counts(view) ? fitted : silent) += fitted_rows(view);
+  result.first.push_back(0);
+  if (fitted == 0) return result;
+  const double share_left = 1 - static_cast<double>(assembly.layout().parameters.size()) / static_cast<double>(fitted);
+  for (const MeasuredChannel& view : assembly.layout().channels) {
+    if (!counts(view) || fitted_rows(view) == 0) continue;
+    result.stated = result.stated && view.noise.has_value();
+    const std::span<const double> values =
+        measured.empty() ? std::span<const double>(view.measured) : measured.subspan(view.offset, view.count);
+    const NoiseModel noise = noise_of(view, values, predictions, share_left);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      const double neighbour = k == 0 || noise.neighbour.empty() ? 0 : noise.neighbour[k];
+      result.rows.push_back({view.offset + i, values[i], noise.sd[k], neighbour});
+      ++k;
+    }
+    result.first.push_back(result.rows.size());
+  }
+  if (assembly.layout().residual_count == fitted + silent) return result;
+  for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j)
+    if (const auto& prior = assembly.layout().parameters[j].prior) result.priors.push_back({j, prior->mean, prior->sd});
+  return result;
+}
+
+void whitened_residuals(const Whitening& whitening, std::span<const double> free, std::span<const double> predictions,
+                        std::span<const double> prediction_jacobian, std::span<double> residuals,
+                        std::span<double> jacobian) {
+  const std::size_t n = free.size();
+  for (std::size_t k = 0; k < whitening.rows.size(); ++k) {
+    const Whitening::Row& row = whitening.rows[k];
+    const double innovation = std::sqrt(1 - row.neighbour * row.neighbour), own = 1 / (row.sd * innovation);
+    if (!residuals.empty()) residuals[k] = own * (predictions[row.prediction] - row.measured);
+    if (!jacobian.empty())
+      for (std::size_t j = 0; j < n; ++j) jacobian[k * n + j] = own * prediction_jacobian[row.prediction * n + j];
+    if (row.neighbour == 0) continue;
+    const Whitening::Row& before = whitening.rows[k - 1];
+    const double previous = row.neighbour / (before.sd * innovation);
+    if (!residuals.empty()) residuals[k] -= previous * (predictions[before.prediction] - before.measured);
+    if (!jacobian.empty())
+      for (std::size_t j = 0; j < n; ++j)
+        jacobian[k * n + j] -= previous * prediction_jacobian[before.prediction * n + j];
+  }
+  std::size_t at = whitening.rows.size();
+  for (const Whitening::Prior& prior : whitening.priors) {
+    if (!residuals.empty()) residuals[at] = (free[prior.index] - prior.mean) / prior.sd;
+    if (!jacobian.empty()) {
+      std::fill_n(&jacobian[at * n], n, 0.0);
+      jacobian[at * n + prior.index] = 1 / prior.sd;
+    }
+    ++at;
+  }
+}
+
+}  // namespace tunica::assembly

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/calibrate.hpp"
+
+#include <algorithm>
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "comparison/certify.hpp"
+#include "comparison/fit_table.hpp"
+#include "comparison/result_json.hpp"
+#include "comparison/stability_report.hpp"
+#include "comparison/study_tables.hpp"
+#include "comparison/uncertainty.hpp"
+#include "comparison/wall_tables.hpp"
+#include "execution/files.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/run_directory.hpp"
+#include "execution/runner.hpp"
+#include "report/report.hpp"
+
+namespace tunica::calibration {
+
+namespace {
+
+execution::Execution search(const execution::Plan& plan, const std::filesystem::path& directory,
+                            const Options& options) {
+  const execution::InterruptWatch watch;
+  execution::RunSettings settings;
+  settings.directory = directory;
+  settings.threads = options.threads;
+  settings.resume = options.resume;
+  settings.progress = options.progress;
+  return execution::execute(plan, settings);
+}
+
+void write_tables(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
+                  const std::filesystem::path& directory, const comparison::Summary& summary) {
+  comparison::write_fit_tables(directory, plan, summary);
+  comparison::write_wall_tables(directory, plan, summary);
+  comparison::write_stability_tables(directory, plan, summary);
+  comparison::write_study_tables(directory, plan, results, summary);
+}
+
+/// The fresh process knows the experiment and the best points, nothing else.
+void certify(const std::filesystem::path& directory, const Options& options, comparison::Summary& summary) {
+  if (!options.certify) return comparison::add_certificates("", "--no-certificate was given", summary);
+  const auto points = directory / "best_points.json";
+  execution::write_atomically(points, comparison::best_points_json(summary));
+  const Certified certified = options.certify(directory, points);
+  std::filesystem::remove(points);
+  comparison::add_certificates(certified.answer, certified.missing, summary);
+}
+
+void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
+             unsigned threads, comparison::Summary& summary) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute(
+      [&] { comparison::analyse(plan, catalogue, directory, execution::InterruptWatch::interrupted, summary); });
+}
+
+}  // namespace
+
+bool Outcome::sound() const {
+  return std::all_of(summary.runs.begin(), summary.runs.end(), [](const comparison::RunSummary& run) {
+    return run.has_result && run.status.kind() != Status::Kind::infeasible && run.given_up + run.faults == 0;
+  });
+}
+
+Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                  const Options& options) {
+  const auto plan = execution::make_plan(experiment, catalogue);
+  comparison::check_analysis(plan, catalogue);
+  const auto folder = options.resume ? execution::RunDirectory::reopen(options.directory, experiment.name)
+                                     : execution::RunDirectory::create(options.directory, experiment.name);
+  Outcome outcome;
+  outcome.directory = folder.path();
+  if (options.started) options.started({plan, outcome.directory});
+
+  const auto found = search(plan, outcome.directory, options);
+  outcome.write_failure = found.write_failure;
+  if (!found.write_failure.empty()) outcome.ending = Outcome::Ending::write_failure;
+  if (outcome.ending == Outcome::Ending::finished && found.interrupted) outcome.ending = Outcome::Ending::interrupted;
+  if (outcome.ending != Outcome::Ending::finished) return outcome;
+
+  const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
+  outcome.summary = comparison::summarise(plan, found.runs, options.refusals);
+  outcome.provenance = comparison::provenance_of(plan);
+  write_tables(plan, found.runs, outcome.directory, outcome.summary);
+  certify(outcome.directory, options, outcome.summary);
+  analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);
+  if (execution::InterruptWatch::interrupted()) {
+    outcome.ending = Outcome::Ending::interrupted;
+    return outcome;
+  }
+  outcome.result = outcome.directory / "result.json";
+  execution::write_atomically(outcome.result, comparison::result_json(outcome.summary, outcome.provenance));
+  outcome.report = report::write_report(outcome.directory);
+  return outcome;
+}
+
+}  // namespace tunica::calibration

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comparison/provenance.hpp"
+#include "comparison/summary.hpp"
+#include "execution/plan.hpp"
+#include "execution/progress.hpp"
+
+/// Everything that `tunica run` does, as a function.
+namespace tunica::calibration {
+
+/// What a process that has seen nothing of the search answers, see comparison/certify.hpp.
+struct Certified {
+  std::string answer;   ///< what comparison::certify() printed there; empty without
+  std::string missing;  ///< why there is no answer
+};
+
+/// What is about to be searched, and where its results go.
+struct Start {
+  const execution::Plan& plan;
+  const std::filesystem::path& directory;
+};
+
+struct Options {
+  std::optional<std::filesystem::path> directory = {};  ///< new, or to be resumed; without it results/<name>-<n>
+  bool resume = false;
+  unsigned threads = 1;
+  execution::Progress::Style progress = execution::Progress::Style::none;
+  std::vector<std::string> refusals = {};  ///< of plugins, for the warnings
+  /// Asks a fresh process about the best points that stand in the file of the folder.
+  std::function<Certified(const std::filesystem::path& directory, const std::filesystem::path& points)> certify = {};
+  std::function<void(const Start&)> started = {};  ///< called before the first evaluation
+};
+
+struct Outcome {
+  enum class Ending { finished, interrupted, write_failure };
+  Ending ending = Ending::finished;
+  std::string write_failure = {};  ///< which file, why, and what to do
+  std::filesystem::path directory = {};
+  // Of what has finished:
+  comparison::Summary summary = {};
+  comparison::Provenance provenance = {};
+  std::filesystem::path result = {}, report = {};
+
+  /// Every run has a best point that keeps its constraints, and neither its optimiser nor the failure policy gave up.
+  [[nodiscard]] bool sound() const;
+};
+
+/// Plans, searches, compares, certifies, analyses; writes result.json, the tables and report.html. An interrupted run
+/// is saved and can be resumed to the identical result. Throws InputError where experiment, data or folder do not fit,
+/// execution::WriteFailure where a table cannot be written.
+Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                  const Options& options);
+
+}  // namespace tunica::calibration

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/examination.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "comparison/ranking.hpp"
+#include "comparison/uncertainty.hpp"
+#include "uncertainty/identifiability.hpp"
+
+namespace tunica::calibration {
+
+namespace {
+
+/// Median time of one evaluation, over a fifth of a second at most, s.
+double time_evaluation(const assembly::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
+  using Clock = std::chrono::steady_clock;
+  auto workspace = assembly.evaluator().make_workspace();
+  std::vector<double> per_test(tests), times;
+  double objective = 0;
+  const auto end = Clock::now() + std::chrono::milliseconds(200);
+  for (auto now = Clock::now(); now < end && times.size() < 1001;) {
+    static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
+    const auto after = Clock::now();
+    times.push_back(std::chrono::duration<double>(after - now).count());
+    now = after;
+  }
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
+}
+
+InitialPoint try_initial_point(const execution::PlannedRun& run) {
+  const auto& assembly = *run.assembly;
+  const auto& tests = run.entry->tests;
+  InitialPoint point;
+  std::vector<double> free;
+  for (const auto& parameter : assembly.layout().parameters) free.push_back(parameter.initial);
+  point.per_test.resize(tests.size());
+  auto workspace = assembly.evaluator().make_workspace();
+  point.status = assembly.evaluator().evaluate(free, point.objective, point.per_test, {}, {}, *workspace);
+  if (point.status.kind() == Status::Kind::failed) return point;
+  point.seconds = time_evaluation(assembly, free, tests.size());
+  for (std::size_t test = 0; test < tests.size(); ++test) {
+    OtherMeans other{tests[test]};
+    other.status = assembly.evaluator().ask(
+        test, free, [&](const Test& asked, const TestInput& input) { return asked.agreement(input, other.found); });
+    if (!other.found.empty() || !other.status.ok()) point.other_means.push_back(std::move(other));
+  }
+  uncertainty::Identifiability found;
+  point.analysed = uncertainty::identify(assembly, free, found).ok();
+  if (point.analysed) point.sentences = found.sentences();
+  return point;
+}
+
+}  // namespace
+
+bool agrees(const Agreement& one) { return one.difference <= one.expected; }
+
+bool InitialPoint::good() const {
+  if (status.kind() == Status::Kind::failed) return false;
+  return std::all_of(other_means.begin(), other_means.end(), [](const OtherMeans& other) {
+    return std::all_of(other.found.begin(), other.found.end(), agrees);
+  });
+}
+
+bool Examination::good() const {
+  return std::all_of(problems.begin(), problems.end(), [](const auto& problem) { return problem.initial.good(); });
+}
+
+Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}};
+  comparison::check_analysis(found.plan, catalogue);
+  auto& warnings = found.warnings;
+  warnings = found.plan.warnings;
+  std::set<std::string> posed;
+  for (const auto& run : found.plan.runs) {
+    for (const auto& sentence : run.assembly->layout().warnings) {
+      const auto same = [&](const auto& warning) { return warning.sentence == sentence; };
+      if (std::none_of(warnings.begin(), warnings.end(), same))
+        warnings.push_back({execution::WarningKind::set_up, sentence});
+    }
+    std::string problem =
+        fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
+    for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
+    if (posed.insert(problem).second) found.problems.push_back({problem, &run, try_initial_point(run)});
+  }
+  return found;
+}
+
+}  // namespace tunica::calibration

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "execution/plan.hpp"
+#include "execution/warning.hpp"
+
+/// Everything that `tunica check` does, as a function.
+namespace tunica::calibration {
+
+/// What a test finds of itself by other means.
+struct OtherMeans {
+  std::string test;
+  std::vector<Agreement> found = {};
+  Status status = {};
+};
+
+/// Whether a test and its other means differ by no more than was expected.
+bool agrees(const Agreement& one);
+
+/// What one evaluation at the initial point tells of a problem.
+struct InitialPoint {
+  Status status;
+  double objective = 0;
+  std::vector<double> per_test;
+  double seconds = 0;  ///< of one evaluation, the median over a fifth of a second
+  std::vector<OtherMeans> other_means;
+  bool analysed = false;               ///< false: the linearisation could not be made
+  std::vector<std::string> sentences;  ///< what the data do not fix
+
+  [[nodiscard]] bool good() const;
+};
+
+/// Runs that differ only in the optimiser pose the same problem.
+struct PosedProblem {
+  std::string title;
+  const execution::PlannedRun* run;
+  InitialPoint initial;
+};
+
+/// Refers to the experiment and the catalogue, which must outlive it.
+struct Examination {
+  const experiment::Experiment& experiment;
+  execution::Plan plan;
+  std::vector<execution::Warning> warnings;
+  std::vector<PosedProblem> problems;
+
+  [[nodiscard]] bool good() const;
+};
+
+/// A dry run: plans, and evaluates every problem once at its initial point. Throws InputError where experiment, data or
+/// analysis do not fit.
+Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+
+}  // namespace tunica::calibration

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/overrides.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tunica::calibration {
+
+void apply(const Overrides& overrides, experiment::Experiment& experiment) {
+  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws) return;
+  auto input = nlohmann::ordered_json::parse(experiment.input_json);
+  auto& analysis = experiment.analysis;
+  if (overrides.seed) {
+    experiment.seed = *overrides.seed;
+    input["seed"] = *overrides.seed;
+  }
+  if (!overrides.profiles.empty()) {
+    analysis.all_profiles = overrides.profiles == std::vector<std::string>{"all"};
+    analysis.profiles = analysis.all_profiles ? std::vector<std::string>{} : overrides.profiles;
+    input["analysis"]["profiles"] =
+        analysis.all_profiles ? nlohmann::ordered_json("all") : nlohmann::ordered_json(analysis.profiles);
+  }
+  if (overrides.bootstrap_draws) {
+    analysis.bootstrap_draws = *overrides.bootstrap_draws;
+    input["analysis"]["bootstrap"]["draws"] = *overrides.bootstrap_draws;
+  }
+  experiment.input_json = input.dump(2) + '\n';
+}
+
+}  // namespace tunica::calibration

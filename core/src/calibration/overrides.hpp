@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+
+namespace tunica::calibration {
+
+/// What a command line asks for in place of the file.
+struct Overrides {
+  std::optional<std::uint64_t> seed = {};
+  std::vector<std::string> profiles = {};  ///< names of parameters, or "all"; empty = as the file says
+  std::optional<std::uint64_t> bootstrap_draws = {};
+};
+
+/// Changes the experiment, and the input.json that documents it.
+void apply(const Overrides& overrides, experiment::Experiment& experiment);
+
+}  // namespace tunica::calibration

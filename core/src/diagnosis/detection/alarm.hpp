@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "diagnosis/detection/detector.hpp"
+#include "diagnosis/hypotheses/hypotheses.hpp"
+
+namespace tunica::diagnosis {
+
+/// Whether anything is wrong with the base fit, and what that is tested with.
+struct Alarm {
+  Shapes shapes;
+  Eigen::MatrixXf draws;                     ///< noise_draws()
+  std::shared_ptr<const Detector> detector;  ///< of what the base fit leaves
+  Detection detection;
+  std::optional<double> p_refits;  ///< from full refits; none where it is quick
+  bool raised = false;
+  std::optional<double> factor;  ///< times the noise up to which the alarm stands
+
+  [[nodiscard]] double p() const { return p_refits.value_or(detection.p); }
+};
+
+Alarm alarm_of(const Inquiry& inquiry, const Evidence& evidence, const Hypotheses& hypotheses);
+
+}  // namespace tunica::diagnosis

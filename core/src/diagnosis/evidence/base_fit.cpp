@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/evidence/base_fit.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include "uncertainty/refit.hpp"
+#include "diagnosis/evidence/projection.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+std::vector<std::vector<double>> random_starts(const assembly::Assembly& assembly, std::size_t count,
+                                               std::uint64_t seed) {
+  boost::random::mt19937_64 generator(derive_seed(seed, "starts of the base fit"));
+  boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
+  std::vector<std::vector<double>> starts;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> unit(assembly.layout().parameters.size()), free(unit.size());
+    for (double& x : unit) x = uniform(generator);
+    assembly.box().from_unit(unit, free);
+    starts.push_back(std::move(free));
+  }
+  return starts;
+}
+
+/// Where the optimizer of the request ends, or why there is no such start.
+struct OptimizerStart {
+  std::vector<double> free = {};
+  std::vector<Warning> warnings = {};
+};
+
+OptimizerStart optimizer_start(const Inquiry& inquiry, const Preparation& prepared,
+                               const std::vector<double>& initial) {
+  const assembly::Assembly& assembly = *prepared.base;
+  const std::string& name = inquiry.request.optimizer;
+  const auto& entry = prepared.experiment.optimizer(name);
+  if (!entry.stages.empty())
+    return {{},
+            {{WarningKind::optimizer_has_stages,
+              fmt::format("diagnosis.optimizer '{}' has stages and is not used here. Name one of its stages", name)}}};
+  const uncertainty::LocalOptimizer optimizer{&inquiry.catalogue.optimizers().find(entry.type)->second, entry.options};
+  const uncertainty::RefitObjective target{
+      assembly.layout().blocks, assembly.layout().residual_count,
+      [&assembly](auto free, double& objective, auto residuals, auto jacobian, auto& workspace) {
+        return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);
+      }};
+  const auto workspace = assembly.evaluator().make_workspace();
+  const auto found =
+      uncertainty::refit(assembly, target, optimizer, initial, std::nullopt, inquiry.request.seed, *workspace);
+  if (found.status.ok()) return {found.free};
+  return {
+      {},
+      {{WarningKind::optimizer_failed,
+        fmt::format("the optimizer '{}' found no start for the base fit: {}. The base fit used its own starts only. "
+                    "Look at what `tunica run` reports for it",
+                    name, found.status.reason())}}};
+}
+
+/// The predictions, moved by the mean residual of the seven rows around each: what is measured, with little of its
+/// noise.
+std::vector<double> smoothed_level(const assembly::MeasuredChannel& view, std::span<const double> predicted) {
+  constexpr std::size_t half = 3;
+  std::vector<double> level(predicted.begin(), predicted.end());
+  for (std::size_t i = 0; i < view.count; ++i) {
+    const std::size_t from = i < half ? 0 : i - half, to = std::min(view.count, i + half + 1);
+    double sum = 0;
+    for (std::size_t k = from; k < to; ++k) sum += view.measured[k] - predicted[k];
+    level[i] += sum / static_cast<double>(to - from);
+  }
+  return level;
+}
+
+/// Relative noise taken of these predictions.
+experiment::Experiment with_noise_levels(experiment::Experiment experiment, const assembly::Assembly& base,
+                                         std::span<const double> predicted) {
+  for (const assembly::MeasuredChannel& view : base.layout().channels)
+    for (auto& test : experiment.tests) {
+      if (test.name != view.test) continue;
+      for (auto& [channel, noise] : test.data.noise)
+        if (channel == view.observable && noise.relative > 0)
+          noise.level = smoothed_level(view, predicted.subspan(view.offset, view.count));
+    }
+  return experiment;
+}
+
+}  // namespace
+
+BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
+  const assembly::Assembly& assembly = *prepared.base;
+  const bool quick = inquiry.request.quick;
+  const std::vector<Variable> variables = all_variables(assembly);
+  std::vector<double> initial(assembly.layout().parameters.size());
+  assembly.box().from_unit(assembly.box().initial(), initial);
+  std::vector<std::vector<double>> starts = random_starts(assembly, quick ? 3 : 8, inquiry.request.seed);
+  starts.insert(starts.begin(), initial);
+  BaseFit base;
+  if (!quick && !inquiry.request.optimizer.empty()) {
+    OptimizerStart start = optimizer_start(inquiry, prepared, initial);
+    if (start.warnings.empty()) starts.push_back(std::move(start.free));
+    base.warnings = std::move(start.warnings);
+  }
+  std::vector<Fit> fits(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
+    const auto workspace = assembly.evaluator().make_workspace();
+    fits[k] = least_squares(assembly, variables, starts[k], *workspace, k == 0 || !quick ? 200 : 60);
+  });
+  const Fit* best = nullptr;
+  for (const Fit& fit : fits)
+    if (fit.status.ok() && (!best || fit.chi2 < best->chi2)) best = &fit;
+  if (!best)
+    throw BaseFitFailure(fmt::format("diagnosis: the base model cannot be evaluated from any of {} starts: {}",
+                                     fits.size(), fits.front().status.reason()));
+  base.fit = *best;
+  // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
+  const Projection projection(interior(base.fit));
+  const double left = base.fit.chi2 - projection.off(base.fit.residuals).squaredNorm();
+  if (left > 0.1)
+    base.warnings.push_back(
+        {WarningKind::base_fit_not_optimal,
+         fmt::format("the base fit is not a clear optimum: one more step could lower |r|² by {:.2g}. Take the scores "
+                     "for less certain than they look",
+                     left)});
+  return base;
+}
+
+SettledFit settle_noise(const Inquiry& inquiry, const Preparation& prepared, const Fit& fit) {
+  const auto relative = [](const NoiseSource& source) { return source.noise.relative > 0; };
+  if (std::none_of(prepared.noise.begin(), prepared.noise.end(), relative))
+    return {prepared.experiment, prepared.base, fit};
+  std::vector<double> predicted(prepared.base->layout().prediction_count);
+  if (!prepared.base->evaluator().predict(fit.free, predicted, {}, *prepared.base->evaluator().make_workspace()).ok())
+    return {prepared.experiment, prepared.base, fit};
+  SettledFit settled{with_noise_levels(prepared.experiment, *prepared.base, predicted), nullptr, fit};
+  settled.base = std::make_shared<const assembly::Assembly>(settled.experiment, prepared.run, inquiry.catalogue);
+  Fit again = least_squares(*settled.base, all_variables(*settled.base), fit.free, *settled.base->evaluator().make_workspace());
+  if (again.status.ok()) settled.fit = std::move(again);
+  return settled;
+}
+
+}  // namespace tunica::diagnosis

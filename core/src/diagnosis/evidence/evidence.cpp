@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/evidence/evidence.hpp"
+
+#include <utility>
+
+#include "diagnosis/evidence/base_fit.hpp"
+#include "diagnosis/evidence/preparation.hpp"
+
+namespace tunica::diagnosis {
+
+Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross) {
+  Preparation prepared = prepare(inquiry, gross);
+  inquiry.report("fitting the base model", 0.05);
+  const BaseFit fitted = fit_base(inquiry, prepared);
+  SettledFit settled = settle_noise(inquiry, prepared, fitted.fit);
+  Evidence evidence{std::move(settled.experiment), std::move(prepared.run),
+                    std::move(prepared.noise),     gross,
+                    std::move(settled.base),       std::move(prepared.curves),
+                    std::move(settled.fit),        std::move(prepared.warnings)};
+  evidence.warnings.insert(evidence.warnings.end(), fitted.warnings.begin(), fitted.warnings.end());
+  for (const std::string& text : evidence.base->layout().warnings)
+    evidence.warnings.push_back({WarningKind::base_model, text});
+  return evidence;
+}
+
+}  // namespace tunica::diagnosis

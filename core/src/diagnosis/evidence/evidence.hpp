@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "diagnosis/evidence/curves.hpp"
+#include "diagnosis/evidence/least_squares.hpp"
+#include "diagnosis/evidence/noise_statement.hpp"
+#include "diagnosis/request.hpp"
+#include "diagnosis/result.hpp"
+
+namespace tunica::diagnosis {
+
+/// What the data say of the base model: noise stated for every channel, gross rows silenced, the model fitted.
+struct Evidence {
+  experiment::Experiment experiment;  ///< with noise stated for every channel
+  experiment::RunEntry run;
+  std::vector<NoiseSource> noise;
+  std::vector<GrossRow> gross;  ///< rows that every fit leaves out
+  std::shared_ptr<const assembly::Assembly> base;
+  std::vector<Curve> curves;
+  Fit fit;  ///< of the base
+  std::vector<Warning> warnings;
+};
+
+/// `gross`: rows to leave out. Throws InputError where data or names do not fit, BaseFitFailure where the base model
+/// cannot be evaluated.
+Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross);
+
+}  // namespace tunica::diagnosis

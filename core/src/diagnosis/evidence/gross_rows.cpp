@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/evidence/gross_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/evidence/projection.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+constexpr double gross_contrast = 4;
+constexpr Eigen::Index one_row_in = 30;      ///< at most
+constexpr std::size_t one_of_curve_in = 10;  ///< or one: more of a curve are a shape
+
+std::string four_digits(double value, const std::string& unit) {
+  return unit == "1" || unit.empty() ? fmt::format("{:.4g}", value) : fmt::format("{:.4g} {}", value, unit);
+}
+
+/// "stretch 1.25, measured 14 kPa": rows are counted from 0 behind `rows` and `where`, which is hard to find in a file.
+std::string place_of(const Evidence& evidence, const Curve& curve, std::size_t row) {
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
+    if (view.test == curve.test && view.observable == curve.channel)
+      return fmt::format("{} {}, measured {}", view.abscissa_name, four_digits(view.abscissa[row], view.abscissa_unit),
+                         four_digits(view.measured[row], view.unit));
+  return {};
+}
+
+/// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
+/// its standard deviations; 0 where a neighbour is almost as large, for then they are part of one shape.
+double contrast(const Evidence& evidence, const Curve& curve, Eigen::Index k) {
+  if (curve.count < 4) return 0;
+  const auto residual = [&](Eigen::Index row) { return -evidence.fit.residuals[curve.first + row]; };
+  const bool first = k == 0, last = k + 1 == curve.count;
+  const double near = first ? residual(1) : residual(k - 1);
+  const double far = first ? residual(2) : last ? residual(k - 2) : residual(k + 1);
+  const double r = residual(k), line = first || last ? 2 * near - far : (near + far) / 2;
+  constexpr double alone = 2.5;
+  if (std::abs(r) < alone * std::max(std::abs(near), std::abs(far))) return 0;
+  return (r - line) / std::sqrt(first || last ? 6.0 : 1.5);
+}
+
+}  // namespace
+
+std::vector<GrossRow> gross_rows(const Evidence& evidence) {
+  const Eigen::MatrixXd J = interior(evidence.fit), Q = basis(J, 1e-8);
+  std::vector<GrossRow> found;
+  for (const Curve& curve : evidence.curves) {
+    std::vector<GrossRow> of_curve;
+    for (Eigen::Index k = 0; k < curve.count; ++k) {
+      const Eigen::Index i = curve.first + k;
+      const double r = -evidence.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
+      if (!(free > 0.05) || r * r / free < gross_score) continue;
+      if (std::abs(contrast(evidence, curve, k)) > gross_contrast)
+        of_curve.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r,
+                            place_of(evidence, curve, curve.rows[static_cast<std::size_t>(k)])});
+    }
+    if (of_curve.size() <= std::max<std::size_t>(1, static_cast<std::size_t>(curve.count) / one_of_curve_in))
+      found.insert(found.end(), of_curve.begin(), of_curve.end());
+  }
+  if (static_cast<Eigen::Index>(found.size()) > std::max<Eigen::Index>(1, evidence.fit.residuals.size() / one_row_in))
+    found.clear();
+  std::stable_sort(found.begin(), found.end(),
+                   [](const GrossRow& a, const GrossRow& b) { return std::abs(a.residual) > std::abs(b.residual); });
+  return found;
+}
+
+experiment::Experiment without_rows(experiment::Experiment experiment, const std::vector<GrossRow>& rows) {
+  for (auto& test : experiment.tests)
+    for (auto& [channel, noise] : test.data.noise)
+      for (const GrossRow& row : rows)
+        if (row.test == test.name && row.channel == channel) noise.gross.push_back(row.row);
+  return experiment;
+}
+
+std::string words_of(const std::vector<GrossRow>& rows) {
+  std::vector<std::string> all;
+  for (const GrossRow& row : rows)
+    all.push_back(
+        fmt::format("row {} of {}, {} ({}; {:+.1f} σ)", row.row, row.test, row.channel, row.where, row.residual));
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+}  // namespace tunica::diagnosis

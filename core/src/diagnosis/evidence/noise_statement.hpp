@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "diagnosis/result.hpp"
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+namespace tunica::diagnosis {
+
+/// Where the noise of a channel is known from, and how well.
+struct NoiseSource {
+  enum class Kind { stated, replicates, differences };
+  std::string test, channel, unit;
+  Kind kind = Kind::stated;
+  data::Noise noise;          ///< of one measured value
+  double freedom = 0;         ///< degrees of freedom of σ²; 0 = known
+  double correlation_sd = 0;  ///< standard deviation of the estimated correlation
+};
+
+/// How large the noise of every channel of the tests is, so that every model is judged by the same: what the file
+/// states stays. Else, never from residuals of a fit,
+///
+///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
+///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over channels and
+///               over the tests that agree on it, where it exceeds twice its standard deviation;
+///   else:       deviations from the line through neighbouring rows (calibration/noise.hpp), uncorrelated.
+///
+/// Rows that are held out and `gross` ones take no part in those differences. Throws InputError where nothing can be
+/// known.
+std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment, const std::vector<std::string>& tests,
+                                       const plugins::Catalogue& catalogue, const std::vector<GrossRow>& gross = {});
+
+/// The experiment in which every channel of the tests states that noise.
+experiment::Experiment with_noise(experiment::Experiment experiment, const std::vector<std::string>& tests,
+                                  const std::vector<NoiseSource>& sources);
+
+/// σ of the fitted rows as the fit has it: of a mean, where there are replicates. Rows left out as gross errors have
+/// that of their neighbours, and not the one that silences them.
+std::vector<double> row_deviations(const assembly::MeasuredChannel& view);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/evidence/preparation.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "diagnosis/evidence/gross_rows.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+/// The run that fits this model; null where none does.
+const experiment::RunEntry* run_of_model(const experiment::Experiment& experiment, const std::string& model) {
+  for (const experiment::RunEntry& run : experiment.runs)
+    if (run.model == model) return &run;
+  return nullptr;
+}
+
+/// The tests of that run, or all.
+std::vector<std::string> tests_of(const experiment::Experiment& experiment, const experiment::RunEntry* run) {
+  if (run != nullptr) return run->tests;
+  std::vector<std::string> names;
+  for (const auto& test : experiment.tests) names.push_back(test.name);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What the file asks of the run and a diagnosis does not keep to.
+std::optional<Warning> constraints_warning(const experiment::RunEntry* run) {
+  if (run == nullptr || run->constraints.empty()) return std::nullopt;
+  std::vector<std::string> types;
+  for (const experiment::ConstraintEntry& constraint : run->constraints) types.push_back(constraint.type);
+  return Warning{WarningKind::constraints_not_applied,
+                 fmt::format("the constraints of the run ({}) do not apply to the fits of a diagnosis: a constraint "
+                             "that holds a fit back would look like a misfit of the model. Lost stability is reported; "
+                             "set \"admissibility\": true to have it count as a misfit",
+                             fmt::join(types, ", "))};
+}
+
+struct Weightless {
+  experiment::Experiment experiment;
+  std::vector<Warning> warnings;
+};
+
+/// Weights say what a channel is worth to a run; here its noise does. But one of weight 0 takes no part.
+Weightless without_weights(experiment::Experiment experiment, const std::vector<std::string>& tests,
+                           const plugins::Catalogue& catalogue) {
+  std::vector<Warning> warnings;
+  for (auto& test : experiment.tests) {
+    const std::vector<double> weights = std::exchange(test.weights, {});
+    if (!contains(tests, test.name) || std::find(weights.begin(), weights.end(), 0.0) == weights.end()) continue;
+    const auto channels =
+        data::read_dataset(test.data, catalogue.tests().find(test.type)->second.factory.observables).channels;
+    std::vector<std::string> silent;
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      if (weights[k] == 0) silent.push_back(channels[k].observable);
+    warnings.push_back({WarningKind::channel_without_weight,
+                        fmt::format("test '{}': {} has weight 0 and takes no part. Give it a weight to include it",
+                                    test.name, fmt::join(silent, " and "))});
+    if (silent.size() == channels.size()) {
+      test.hold_out.all = true;
+      continue;
+    }
+    const auto is_silent = [&](const auto& entry) { return contains(silent, entry.first); };
+    std::erase_if(test.data.columns, is_silent);
+    std::erase_if(test.data.noise, is_silent);
+  }
+  return {std::move(experiment), std::move(warnings)};
+}
+
+Warning estimated_noise_warning(const NoiseSource& source) {
+  return {WarningKind::noise_estimated,
+          fmt::format("test '{}', channel '{}': no noise is stated. σ = {:.3g}{} is estimated from differences of "
+                      "neighbouring rows. It is too small where errors of neighbouring rows are alike (false alarms), "
+                      "and too large where few rows follow a bend (missed misfits). State noise.absolute, "
+                      "noise.relative and noise.correlation, or give replicates",
+                      source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : " " + source.unit)};
+}
+
+}  // namespace
+
+Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) {
+  Preparation prepared;
+  experiment::RunEntry& run = prepared.run;
+  const experiment::RunEntry* const fitted = run_of_model(inquiry.experiment, inquiry.request.model);
+  run.model = inquiry.request.model;
+  run.tests = tests_of(inquiry.experiment, fitted);
+  run.optimizer = inquiry.request.optimizer;
+  run.objective = experiment::ObjectiveType::least_squares;
+
+  Weightless weightless = without_weights(inquiry.experiment, run.tests, inquiry.catalogue);
+  prepared.warnings = std::move(weightless.warnings);
+  prepared.noise = noise_sources(weightless.experiment, run.tests, inquiry.catalogue, gross);
+  prepared.experiment = without_rows(with_noise(std::move(weightless.experiment), run.tests, prepared.noise), gross);
+  prepared.base = std::make_shared<const assembly::Assembly>(prepared.experiment, run, inquiry.catalogue);
+  prepared.curves = curves_of(*prepared.base, prepared.noise);
+  if (prepared.curves.empty())
+    throw InputError(
+        "diagnosis: every test is held out, which leaves nothing to diagnose. Set hold_out to false in "
+        "at least one test");
+  if (prepared.base->layout().parameters.size() >= prepared.base->layout().residual_count)
+    throw InputError(
+        fmt::format("diagnosis: {} parameters are fitted to {} rows, which leaves nothing to test the model with. Fix "
+                    "parameters or give more rows",
+                    prepared.base->layout().parameters.size(), prepared.base->layout().residual_count));
+
+  if (auto warning = constraints_warning(fitted)) prepared.warnings.push_back(std::move(*warning));
+  for (const auto& test : prepared.experiment.tests)
+    if (test.hold_out.all && contains(run.tests, test.name))
+      prepared.warnings.push_back(
+          {WarningKind::test_held_out,
+           fmt::format("test '{}' is held out and takes no part. Set hold_out to false to include it", test.name)});
+  for (const NoiseSource& source : prepared.noise)
+    if (source.kind == NoiseSource::Kind::differences) prepared.warnings.push_back(estimated_noise_warning(source));
+  if (!gross.empty())
+    prepared.warnings.push_back(
+        {WarningKind::gross_rows_left_out,
+         fmt::format("left out as gross errors: {}. Look at them in residuals.csv", words_of(gross))});
+  return prepared;
+}
+
+}  // namespace tunica::diagnosis

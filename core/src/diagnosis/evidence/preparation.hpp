@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "diagnosis/evidence/curves.hpp"
+#include "diagnosis/request.hpp"
+#include "diagnosis/result.hpp"
+
+namespace tunica::diagnosis {
+
+/// The experiment as diagnosis sees it: every channel with its noise, weights of one, whitened least squares of one
+/// model over all tests of the first run (all tests where there is none), no constraints. Channels of weight 0 take no
+/// part.
+struct Preparation {
+  experiment::Experiment experiment;
+  experiment::RunEntry run;
+  std::vector<NoiseSource> noise;
+  std::shared_ptr<const assembly::Assembly> base;
+  std::vector<Curve> curves;
+  std::vector<Warning> warnings;
+};
+
+/// `gross` rows take no part in an estimate of the noise, nor in any fit.
+Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/hypotheses/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "diagnosis/hypotheses/extension.hpp"
+#include "diagnosis/hypotheses/places.hpp"
+#include "diagnosis/hypotheses/signatures.hpp"
+#include "plugins/guarded.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+using experiment::Experiment;
+using experiment::RunEntry;
+
+/// Number options of a setting: different ones need different tests.
+std::string options_key(const MechanismFactory& mechanism, const MechanismFactory::Setting& setting) {
+  std::string key;
+  for (const auto& [name, value] : setting)
+    if (takes(mechanism, name)) key += fmt::format("{}={};", name, value);
+  return key;
+}
+
+bool already_there(const std::vector<experiment::MechanismEntry>& entries, const std::string& id) {
+  return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.type == id; });
+}
+
+class CandidateSearch {
+ public:
+  CandidateSearch(const Inquiry& inquiry, const Evidence& evidence, const Projection& projection)
+      : experiment_(evidence.experiment),
+        run_(evidence.run),
+        base_(*evidence.base),
+        fitted_(evidence.fit.free),
+        projection_(projection),
+        catalogue_(inquiry.catalogue),
+        clock_(clock_of(evidence.experiment, evidence.run, inquiry.catalogue)),
+        quick_(inquiry.request.quick) {}
+
+  Candidate find(const std::string& id, const MechanismFactory& mechanism) const {
+    Candidate candidate{id, &mechanism, {}, {}};
+    if (needs_clock(mechanism) && !(clock_.longest > 0)) {
+      candidate.absent = "the data have no time";
+      return candidate;
+    }
+    const std::vector<Place> places = places_of(id, mechanism, candidate.absent);
+    std::map<std::string, std::vector<MechanismFactory::Setting>> by_options;
+    for (const auto& setting : settings_to_try(mechanism, clock_))
+      by_options[options_key(mechanism, setting)].push_back(setting);
+    for (const auto& [key, alike] : by_options) add_everywhere(places, alike, candidate);
+    std::erase_if(candidate.hypotheses, [](const Hypothesis& hypothesis) {
+      return hypothesis.signature.size() == 0 || !hypothesis.signature.allFinite() ||
+             !(hypothesis.signature.norm() > 0);
+    });
+    if (!candidate.hypotheses.empty())
+      candidate.absent.clear();
+    else if (candidate.absent.empty())
+      candidate.absent = "it leaves no trace in these data";
+    return candidate;
+  }
+
+ private:
+  /// The models, or the tests and channels, that have not got it yet; `absent` says why there is nowhere.
+  [[nodiscard]] std::vector<Place> places_of(const std::string& id, const MechanismFactory& mechanism,
+                                             std::string& absent) const {
+    if (mechanism.stage < Stage::test) {
+      std::vector<Place> materials;
+      const std::vector<std::string> models = experiment_.models_of(run_);
+      for (const std::string& name : models) {
+        if (already_there(experiment_.model(name).mechanisms, id)) continue;
+        Place material;
+        if (models.size() > 1) material.model = name;
+        materials.push_back(std::move(material));
+      }
+      if (materials.empty()) absent = "the model has it already";
+      return materials;
+    }
+    std::vector<Place> places = single_places(mechanism, experiment_, run_, base_);
+    std::erase_if(places, [&](const Place& place) {
+      return already_there(experiment_.test(place.tests.front()).mechanisms, id);
+    });
+    if (places.empty()) absent = "no test that it applies to";
+    return places;
+  }
+
+  /// On each place by itself, where the mechanism is shared with one amplitude on all of them, and on single rows.
+  void add_everywhere(const std::vector<Place>& places, const std::vector<MechanismFactory::Setting>& alike,
+                      Candidate& candidate) const {
+    const MechanismFactory& mechanism = *candidate.mechanism;
+    std::vector<Hypothesis> found;
+    Place all;
+    for (const Place& place : places) {
+      try {
+        add(mechanism, {candidate.id, place, alike.front()}, alike, found);
+        if (!place.tests.empty()) all.tests.push_back(place.tests.front());
+      } catch (const InputError& problem) {
+        if (candidate.absent.empty()) candidate.absent = problem.what();
+      }
+    }
+    const std::size_t singles = found.size();
+    if (mechanism.shared && all.tests.size() > 1) add(mechanism, {candidate.id, all, alike.front()}, alike, found);
+    if (takes(mechanism, "rows"))
+      for (std::size_t k = 0; k < singles; ++k) {
+        const Hypothesis whole = found[k];
+        add_rows(whole, base_, found);
+      }
+    std::move(found.begin(), found.end(), std::back_inserter(candidate.hypotheses));
+  }
+
+  void add(const MechanismFactory& mechanism, const Addition& first,
+           const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
+    const Extension extended(experiment_, run_of(first.place), {first}, catalogue_);
+    const assembly::Assembly& assembly = extended.assembly();
+    const auto workspace = assembly.evaluator().make_workspace();
+    const Extension::Part& part = extended.parts().front();
+    const std::vector<double> at_null = extended.at_null(fitted_in(extended));
+    Eigen::VectorXd bare;
+    Eigen::MatrixXd J;
+    for (std::size_t s = 0; s < settings.size(); ++s) {
+      std::vector<double> null = at_null;
+      for (std::size_t k = 0; k < part.nuisance.size(); ++k)
+        for (const auto& [name, value] : settings[s])
+          if (name == mechanism.parameters[k + 1].name)
+            for (const std::size_t member : part.nuisance[k])
+              null[member] = std::clamp(value, assembly.layout().parameters[member].min, assembly.layout().parameters[member].max);
+      const bool exact = assembly.layout().jacobian_is_exact;
+      // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
+      if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
+      for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
+        if (slope.signature.size() == 0) continue;
+        Hypothesis tangent{&mechanism,
+                           {first.id, first.place, settings[s]},
+                           embedded(slope.signature, assembly),
+                           slope.side,
+                           slope.sign};
+        if (tangent.side != MechanismFactory::Side::even)
+          for (const double sign : {1.0, -1.0}) add_secant(extended, tangent, sign, null, bare, *workspace, into);
+        into.push_back(std::move(tangent));
+      }
+    }
+  }
+
+  /// Only the tests that a mechanism acts on have to be simulated; not so where that changes which models there are,
+  /// and with them the names of parameters.
+  [[nodiscard]] RunEntry run_of(const Place& place) const {
+    RunEntry run = run_;
+    if (place.tests.empty()) return run;
+    run.tests = place.tests;
+    return experiment_.models_of(run) == experiment_.models_of(run_) ? run : run_;
+  }
+
+  /// The fitted parameters that an extension has of the base, in its order.
+  [[nodiscard]] std::vector<double> fitted_in(const Extension& extended) const {
+    std::vector<double> values;
+    for (const std::size_t j : extended.base())
+      for (std::size_t k = 0; k < fitted_.size(); ++k)
+        if (base_.layout().parameters[k].name == extended.assembly().layout().parameters[j].name) values.push_back(fitted_[k]);
+    return values;
+  }
+
+  /// Residual rows of some tests among those of all.
+  [[nodiscard]] Eigen::VectorXd embedded(const Eigen::VectorXd& rows, const assembly::Assembly& from) const {
+    const auto fitted = [](const assembly::MeasuredChannel& view) {
+      return static_cast<Eigen::Index>(std::count(view.fitted.begin(), view.fitted.end(), true));
+    };
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(base_.layout().residual_count));
+    Eigen::Index at = 0;
+    for (const assembly::MeasuredChannel& view : from.channels()) {
+      Eigen::Index into = 0;
+      for (const assembly::MeasuredChannel& own : base_.layout().channels) {
+        if (own.test == view.test && own.observable == view.observable)
+          all.segment(into, fitted(own)) = rows.segment(at, fitted(own));
+        into += fitted(own);
+      }
+      at += fitted(view);
+    }
+    return all;
+  }
+
+  /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
+  /// tangent: then it is one more place to look at.
+  void add_secant(const Extension& extended, const Hypothesis& tangent, double sign, const std::vector<double>& null,
+                  const Eigen::VectorXd& bare, assembly::Workspace& workspace,
+                  std::vector<Hypothesis>& into) const {
+    const MechanismFactory& mechanism = *tangent.mechanism;
+    if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
+    // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.
+    if (!tangent.addition.place.channel.empty() || mechanism.stage == Stage::history) return;
+    const double reach = sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.null - mechanism.plausible_min;
+    if (!(reach > 0)) return;
+    const Extension::Part& part = extended.parts().front();
+    Eigen::VectorXd there;
+    for (const double share : {0.5, 0.2}) {
+      std::vector<double> free = null;
+      for (const std::size_t member : part.amplitude) free[member] = part.null + sign * share * reach;
+      if (!whitened(extended.assembly(), free, workspace, there, nullptr).ok()) continue;
+      Hypothesis secant = tangent;
+      secant.signature = embedded((there - bare) / (share * reach), extended.assembly());
+      secant.side = MechanismFactory::Side::positive, secant.sign = sign, secant.at_large = true;
+      const Eigen::VectorXd a = projection_.off(secant.signature), b = projection_.off(tangent.signature);
+      constexpr double another_shape = 0.97;
+      if (std::abs(a.dot(b)) < another_shape * a.norm() * b.norm()) into.push_back(std::move(secant));
+      return;
+    }
+  }
+
+  const Experiment& experiment_;
+  const RunEntry& run_;
+  const assembly::Assembly& base_;
+  std::span<const double> fitted_;
+  const Projection& projection_;
+  const plugins::Catalogue& catalogue_;
+  Clock clock_;
+  bool quick_;
+};
+
+}  // namespace
+
+std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& evidence, const Projection& projection) {
+  const CandidateSearch search(inquiry, evidence, projection);
+  const std::vector<std::string>& requested = inquiry.request.mechanisms;
+  std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
+  for (const auto& [id, entry] : inquiry.catalogue.mechanisms())
+    if (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end())
+      asked.push_back(&entry);
+  std::vector<Candidate> found(asked.size());
+  tbb::parallel_for(std::size_t{0}, asked.size(),
+                    [&](std::size_t k) { found[k] = search.find(asked[k]->factory.id, asked[k]->factory); });
+  return found;
+}
+
+}  // namespace tunica::diagnosis

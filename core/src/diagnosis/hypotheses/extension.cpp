@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "diagnosis/hypotheses/extension.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+using experiment::MechanismEntry;
+
+/// Defaults of its options, with what the addition says: number options of the setting, channel and row of the place.
+MechanismEntry entry_of(const Addition& addition, const MechanismFactory& mechanism) {
+  MechanismEntry entry{addition.id, {}, {}};
+  for (const Option& option : mechanism.options) {
+    if (option.fallback) entry.options.set(option.name, *option.fallback);
+    if (option.name == "channel") entry.options.set("channel", addition.place.channel);
+    if (option.name == "rows" && addition.place.row)
+      entry.options.set("rows", fmt::format("{}:{}:1", *addition.place.row, *addition.place.row + 1));
+    for (const auto& [name, value] : addition.setting)
+      if (name == option.name) entry.options.set(name, value);
+  }
+  return entry;
+}
+
+template <class Entries>
+auto& entry_named(Entries& entries, const std::string& name) {
+  return *std::find_if(entries.begin(), entries.end(), [&name](const auto& entry) { return entry.name == name; });
+}
+
+std::optional<std::size_t> index_of(const assembly::Assembly& assembly, const std::string& name) {
+  const auto& parameters = assembly.layout().parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    if (parameters[j].name == name) return j;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Extension::Extension(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                     std::vector<Addition> additions, const plugins::Catalogue& catalogue)
+    : experiment_(experiment), additions_(std::move(additions)) {
+  const std::vector<std::string> models = experiment_.models_of(run);
+  for (const Addition& addition : additions_) {
+    const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
+    if (addition.place.tests.empty())
+      entry_named(experiment_.models, addition.place.model.empty() ? models.front() : addition.place.model)
+          .mechanisms.push_back(entry_of(addition, mechanism));
+    for (const std::string& test : addition.place.tests)
+      entry_named(experiment_.tests, test).mechanisms.push_back(entry_of(addition, mechanism));
+  }
+  assembly_ = std::make_unique<assembly::Assembly>(experiment_, run, catalogue);
+
+  std::vector<bool> added(assembly_->layout().parameters.size(), false);
+  for (const Addition& addition : additions_) {
+    const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
+    Part part{{}, {}, {}, mechanism.null};
+    for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
+      Variable variable;
+      const auto add = [&](const std::string& owner) {
+        const auto index =
+            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.id, mechanism.parameters[k].name));
+        if (!index)
+          throw plugins::PluginFailure(
+              fmt::format("the mechanism '{}' declares the parameter '{}' but does not have it", addition.id,
+                          mechanism.parameters[k].name));
+        variable.push_back(*index);
+        added[*index] = true;
+      };
+      if (addition.place.tests.empty()) add(addition.place.model.empty() ? "" : addition.place.model + ".");
+      for (const std::string& test : addition.place.tests) add(test + ".");
+      if (k == 0) {
+        part.amplitude = std::move(variable);
+        continue;
+      }
+      double start = assembly_->layout().parameters[variable.front()].initial;
+      for (const auto& [name, value] : addition.setting)
+        if (name == mechanism.parameters[k].name) start = value;
+      part.nuisance.push_back(std::move(variable));
+      part.nuisance_start.push_back(start);
+    }
+    parts_.push_back(std::move(part));
+  }
+  for (std::size_t j = 0; j < added.size(); ++j)
+    if (!added[j]) base_.push_back(j);
+}
+
+std::vector<double> Extension::at_null(std::span<const double> base) const {
+  std::vector<double> free(assembly_->layout().parameters.size());
+  for (std::size_t j = 0; j < base_.size(); ++j) free[base_[j]] = base[j];
+  for (const Part& part : parts_) {
+    for (const std::size_t member : part.amplitude) free[member] = part.null;
+    for (std::size_t k = 0; k < part.nuisance.size(); ++k)
+      for (const std::size_t member : part.nuisance[k]) {
+        const auto& parameter = assembly_->layout().parameters[member];
+        free[member] = std::clamp(part.nuisance_start[k], parameter.min, parameter.max);
+      }
+  }
+  return free;
+}
+
+std::vector<Variable> Extension::variables() const {
+  std::vector<Variable> all;
+  for (const std::size_t j : base_) all.push_back({j});
+  for (const Part& part : parts_) {
+    all.push_back(part.amplitude);
+    all.insert(all.end(), part.nuisance.begin(), part.nuisance.end());
+  }
+  return all;
+}
+
+}  // namespace tunica::diagnosis

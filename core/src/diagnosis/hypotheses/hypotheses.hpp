@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/evidence/evidence.hpp"
+#include "diagnosis/hypotheses/directions.hpp"
+
+namespace tunica::diagnosis {
+
+/// What could be wrong, and what the data would show of it.
+struct Hypotheses {
+  Projection projection;  ///< what a refit of the base model absorbs
+  std::vector<Candidate> candidates;
+  std::vector<Direction> directions;
+
+  [[nodiscard]] const Hypothesis& hypothesis(const Direction& direction) const {
+    return candidates[direction.candidate].hypotheses[direction.hypothesis];
+  }
+  [[nodiscard]] const Hypothesis& hypothesis(std::size_t direction) const { return hypothesis(directions[direction]); }
+};
+
+Hypotheses hypotheses_of(const Inquiry& inquiry, const Evidence& evidence);
+
+}  // namespace tunica::diagnosis

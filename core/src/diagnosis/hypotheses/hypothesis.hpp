@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/result.hpp"
+#include "tunica/mechanism.hpp"
+
+namespace tunica::diagnosis {
+
+/// A mechanism at work: what is added to the experiment.
+struct Addition {
+  std::string id;
+  Place place;
+  MechanismFactory::Setting setting;  ///< nuisance parameters and number options where the search begins
+};
+
+/// One amplitude that may differ from its null, and what the data would show of it.
+struct Hypothesis {
+  const MechanismFactory* mechanism = nullptr;
+  Addition addition;
+  Eigen::VectorXd signature;  ///< ∂ whitened prediction/∂ amplitude at the null (even: by its square)
+  MechanismFactory::Side side = MechanismFactory::Side::both;
+  double sign = 1;  ///< −1: a positive score means an amplitude below the null
+  /// The signature of amplitudes half as large as plausible ones, per unit of amplitude, where it is another than at
+  /// the null.
+  bool at_large = false;
+};
+
+/// A mechanism that takes part, or why it does not.
+struct Candidate {
+  std::string id;
+  const MechanismFactory* mechanism = nullptr;
+  std::vector<Hypothesis> hypotheses;  ///< over places and settings; empty: it leaves no trace in these data
+  std::string absent;                  ///< why, in words
+};
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/hypotheses/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tunica::diagnosis {
+namespace {
+
+using experiment::Experiment;
+using experiment::RunEntry;
+
+constexpr std::size_t clock_points = 6;
+
+}  // namespace
+
+bool takes(const MechanismFactory& mechanism, const std::string& option) {
+  return std::any_of(mechanism.options.begin(), mechanism.options.end(),
+                     [&](const Option& declared) { return declared.name == option; });
+}
+
+Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
+  Clock clock;
+  for (const std::string& name : run.tests) {
+    const auto& entry = experiment.test(name);
+    const auto dataset = data::read_dataset(entry.data, catalogue.tests().find(entry.type)->second.factory.observables);
+    if (dataset.time.size() < 2) continue;
+    clock.longest = std::max(clock.longest, dataset.time.back() - dataset.time.front());
+    for (std::size_t i = 1; i < dataset.time.size(); ++i)
+      if (const double step = dataset.time[i] - dataset.time[i - 1]; step > 0)
+        clock.shortest = std::min(clock.shortest, step);
+  }
+  return clock;
+}
+
+bool needs_clock(const MechanismFactory& mechanism) {
+  return std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(),
+                     [](const Parameter& parameter) { return parameter.unit == "s"; });
+}
+
+std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& mechanism, const Clock& clock) {
+  if (!mechanism.scan.empty()) return mechanism.scan;
+  std::vector<MechanismFactory::Setting> found;
+  for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) {
+    const Parameter& nuisance = mechanism.parameters[k];
+    if (nuisance.unit != "s" || !(clock.longest > 0)) continue;
+    const double low = std::clamp(clock.shortest, nuisance.min, nuisance.max);
+    const double high = std::clamp(clock.longest, nuisance.min, nuisance.max);
+    for (std::size_t i = 0; i < clock_points; ++i)
+      found.push_back({{nuisance.name, low * std::pow(high / low, static_cast<double>(i) / (clock_points - 1))}});
+    break;
+  }
+  if (found.empty()) found.emplace_back();
+  return found;
+}
+
+std::vector<Place> single_places(const MechanismFactory& mechanism, const Experiment& experiment, const RunEntry& run,
+                                 const assembly::Assembly& base) {
+  std::vector<Place> places;
+  for (const std::string& name : run.tests) {
+    const auto& entry = experiment.test(name);
+    if (entry.hold_out.all) continue;
+    const auto& types = mechanism.applies_to;
+    if (!types.empty() && std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
+    if (!takes(mechanism, "channel")) {
+      places.push_back({{name}});
+      continue;
+    }
+    for (const assembly::MeasuredChannel& view : base.layout().channels)
+      if (view.test == name && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
+        places.push_back({{name}, view.observable});
+  }
+  return places;
+}
+
+std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
+                                          const Place& place) {
+  if (place.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
+  for (const assembly::MeasuredChannel& view : base.layout().channels)
+    if (view.test == place.tests.front() && view.observable == place.channel) {
+      const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
+      return {*low - *high, *high - *low};
+    }
+  return {-INFINITY, INFINITY};
+}
+
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {
+  const std::size_t rows = base.layout().residual_count, predictions = base.layout().prediction_count;
+  std::vector<double> unit(rows, 0.0), map(predictions);
+  // Row k of the whitening, read off its transpose.
+  std::vector<std::vector<std::pair<std::size_t, double>>> columns(predictions);
+  for (std::size_t k = 0; k < rows; ++k) {
+    unit[k] = 1;
+    base.evaluator().transpose_residuals(unit, map);
+    unit[k] = 0;
+    for (std::size_t i = 0; i < predictions; ++i)
+      if (map[i] != 0) columns[i].emplace_back(k, map[i]);
+  }
+  for (const assembly::MeasuredChannel& view : base.layout().channels) {
+    if (view.test != whole.addition.place.tests.front() || view.observable != whole.addition.place.channel) continue;
+    for (std::size_t i = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      Hypothesis one = whole;
+      one.addition.place.row = i;
+      one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
+      for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
+      into.push_back(std::move(one));
+    }
+  }
+}
+
+}  // namespace tunica::diagnosis

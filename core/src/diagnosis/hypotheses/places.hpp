@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/evidence/evidence.hpp"
+#include "diagnosis/hypotheses/hypothesis.hpp"
+
+namespace tunica::diagnosis {
+
+/// Whether the mechanism has an option of that name.
+bool takes(const MechanismFactory& mechanism, const std::string& option);
+
+/// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
+struct Clock {
+  double shortest = INFINITY, longest = 0;
+};
+Clock clock_of(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+               const plugins::Catalogue& catalogue);
+bool needs_clock(const MechanismFactory& mechanism);
+
+/// Where to look for a mechanism: as it declares, or over the clock of the data for nuisance parameters in seconds.
+std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& mechanism, const Clock& clock);
+
+/// Tests and channels, one by one, where the mechanism may act; nothing for one that acts on the model.
+std::vector<Place> single_places(const MechanismFactory& mechanism, const experiment::Experiment& experiment,
+                                 const experiment::RunEntry& run, const assembly::Assembly& base);
+
+/// Plausible amplitudes: as declared; of a mechanism that acts on a channel, whose unit it cannot know, what the
+/// channel spans.
+std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
+                                          const Place& place);
+
+/// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
+void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into);
+
+}  // namespace tunica::diagnosis

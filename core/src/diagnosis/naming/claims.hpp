@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/naming/groups.hpp"
+
+namespace tunica::diagnosis {
+
+/// What is said to explain the misfit.
+struct Claim {
+  std::vector<Cause> causes;  ///< of the best explanation first, then rivals
+  std::size_t named = 0;      ///< how many of the causes make up the best explanation
+  std::vector<std::string> ambiguity_set;
+  std::vector<std::vector<std::string>> look_alikes;   ///< the ambiguity set by what looks alike; empty for groups
+  std::vector<std::vector<std::string>> alternatives;  ///< to a group that is named: what rivals it, likeliest first
+  std::optional<Refit> best;
+  std::vector<Refit> rivals;  ///< the best, and what explains the misfit as well
+  std::optional<Rejected> best_rejected;
+};
+
+/// A claim, and what the verdict depends on.
+struct WeighedClaim {
+  Claim claim;
+  std::vector<std::size_t> directions;  ///< of the causes that make up the best explanation
+  std::size_t explanations = 0;         ///< in the ambiguity set, look-alikes counted once
+  bool alone = true;                    ///< without a rival in the set
+  /// The member of a group that by itself takes next to nothing of what the group takes. Two causes each show in the
+  /// data; what shows only beside another may make up for its shape, that of an effect which no mechanism lists. Else
+  /// empty.
+  std::string correction;
+};
+
+/// The likeliest single mechanism and those about as likely; `ranking` has the probabilities of the singles.
+WeighedClaim claim_one(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Single>& singles,
+                       const std::vector<RankedMechanism>& ranking);
+
+/// The likeliest group, and beside it groups as large and single mechanisms, which are likelier before the data.
+WeighedClaim claim_several(const Inquiry& inquiry, const Analysis& analysis, const std::vector<Group>& groups,
+                           const std::vector<Single>& singles);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/naming/refits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/QR>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include "tunica/error.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+constexpr std::size_t quick_starts = 6, full_starts = 16;
+constexpr double next_to_nothing = 0.01;  ///< of the amplitude that the scores promise
+
+/// The signature of an addition at the base fit, on the side of the amplitude; or null.
+const Hypothesis* hypothesis_of(const Hypotheses& hypotheses, const Addition& addition, double amplitude) {
+  for (const Candidate& candidate : hypotheses.candidates)
+    for (const Hypothesis& hypothesis : candidate.hypotheses)
+      if (candidate.id == addition.id && hypothesis.addition.place == addition.place &&
+          hypothesis.addition.setting == addition.setting &&
+          (hypothesis.side == MechanismFactory::Side::both || hypothesis.sign * amplitude >= 0))
+        return &hypothesis;
+  return nullptr;
+}
+
+/// The values of a smaller refit in the place of parameters of the same name.
+void take_over(const Refit& from, const assembly::Assembly& onto, std::vector<double>& start) {
+  const auto& names = from.extension->assembly().layout().parameters;
+  const auto& parameters = onto.parameters();
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (names[k].name == parameters[j].name)
+        start[j] = std::clamp(from.fit.free[k], parameters[j].min, parameters[j].max);
+}
+
+}  // namespace
+
+std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, std::vector<Addition> additions,
+                              std::span<const double> amplitudes, const Refit* from) {
+  const Evidence& evidence = analysis.evidence;
+  const bool quick = inquiry.request.quick;
+  Refit refit;
+  refit.additions = std::move(additions);
+  try {
+    refit.extension =
+        std::make_shared<const Extension>(evidence.experiment, evidence.run, refit.additions, inquiry.catalogue);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  const Extension& extended = *refit.extension;
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
+  const std::vector<Variable> variables = extended.variables();
+
+  // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(evidence.fit.residuals.size());
+  for (std::size_t a = 0; a < refit.additions.size(); ++a)
+    if (const Hypothesis* hypothesis = hypothesis_of(analysis.hypotheses, refit.additions[a], amplitudes[a]))
+      moved += hypothesis->signature * (hypothesis->sign * amplitudes[a]);
+  Eigen::MatrixXd scaled = evidence.fit.jacobian;
+  std::vector<double> lengths;
+  for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
+    lengths.push_back(std::max(scaled.col(k).norm(), 1e-300));
+    scaled.col(k) /= lengths.back();
+  }
+  Eigen::VectorXd shift;
+  if (scaled.cols() > 0) {  // a model without free parameters leaves nothing to factorise
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+    qr.setThreshold(1e-6);
+    shift = qr.solve(-moved);
+  }
+
+  bool found = false;
+  const auto set_amplitude = [&](std::vector<double>& start, std::size_t a, double share) {
+    const Extension::Part& part = extended.parts()[a];
+    const bool even = inquiry.mechanism(refit.additions[a].id).side == MechanismFactory::Side::even;
+    const double amplitude = share * (even ? std::sqrt(std::max(amplitudes[a], 0.0)) : amplitudes[a]);
+    for (const std::size_t member : part.amplitude)
+      start[member] = std::clamp(part.null + amplitude, parameters[member].min, parameters[member].max);
+  };
+  if (from != nullptr) {
+    std::vector<double> start = extended.at_null(evidence.fit.free);
+    take_over(*from, extended.assembly(), start);
+    set_amplitude(start, extended.parts().size() - 1, 1);
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    if (fit.status.ok()) {
+      refit.fit = std::move(fit);
+      found = true;
+    }
+  }
+  for (const double share : {1.0, 0.3}) {
+    if (found && quick && refit.fit.chi2 < evidence.fit.chi2) break;
+    std::vector<double> base = evidence.fit.free;
+    for (std::size_t j = 0; j < base.size(); ++j) {
+      const auto& parameter = evidence.base->layout().parameters[j];
+      double step = share * shift[static_cast<Eigen::Index>(j)] / lengths[j];
+      if (parameter.scale == Scale::log)  // as far as the straight line can be believed
+        base[j] *= std::exp(std::clamp(step / base[j], -1.0, 1.0));
+      else
+        base[j] += std::clamp(step, -0.3 * (parameter.max - parameter.min), 0.3 * (parameter.max - parameter.min));
+      base[j] = std::clamp(base[j], parameter.min, parameter.max);
+    }
+    std::vector<double> start = extended.at_null(base);
+    for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, share);
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    if (!fit.status.ok()) continue;
+    if (!found || fit.chi2 < refit.fit.chi2) {
+      refit.fit = std::move(fit);
+      found = true;
+    }
+    if (quick && refit.fit.chi2 < evidence.fit.chi2) break;
+  }
+  // The base is among the extensions: from next to it a search cannot end above it.
+  if (found && refit.fit.chi2 > evidence.fit.chi2) {
+    std::vector<double> start = extended.at_null(evidence.fit.free);
+    for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, next_to_nothing);
+    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+        fit.status.ok() && fit.chi2 < refit.fit.chi2)
+      refit.fit = std::move(fit);
+  }
+  if (!found) return std::nullopt;
+  return refit;
+}
+
+Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit) {
+  const Evidence& evidence = analysis.evidence;
+  if (!at_a_bound(evidence.fit)) return refit;
+  const Extension& extended = *refit.extension;
+  const auto& parameters = extended.assembly().layout().parameters;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
+  boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
+  boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
+  for (std::size_t k = 0; k < (inquiry.request.quick ? quick_starts : full_starts); ++k) {
+    std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
+    for (double& x : unit) x = uniform(generator);
+    evidence.base->box().from_unit(unit, base);
+    std::vector<double> start = extended.at_null(base);
+    for (const Extension::Part& part : extended.parts()) {
+      const double share = uniform(generator);
+      for (const std::size_t member : part.amplitude)
+        start[member] = std::clamp(part.null + share * (refit.fit.free[member] - part.null), parameters[member].min,
+                                   parameters[member].max);
+    }
+    Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60);
+    if (fit.status.ok() && fit.chi2 < refit.fit.chi2) refit.fit = std::move(fit);
+  }
+  return refit;
+}
+
+}  // namespace tunica::diagnosis

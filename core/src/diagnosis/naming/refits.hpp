@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "diagnosis/detection/analysis.hpp"
+#include "diagnosis/hypotheses/extension.hpp"
+
+namespace tunica::diagnosis {
+
+/// Mechanisms fitted at finite amplitude beside all parameters.
+struct Refit {
+  std::vector<Addition> additions;
+  std::shared_ptr<const Extension> extension;
+  Fit fit;
+};
+
+/// Fits the parameters again with the additions, from what the linearisation says and from a smaller amplitude; none
+/// where neither can be evaluated. `amplitudes` are differences from the nulls (even: squares). With `from`, a refit
+/// with all additions but the last, first from where that one ended.
+std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, std::vector<Addition> additions,
+                              std::span<const double> amplitudes, const Refit* from = nullptr);
+
+/// What a missing effect has driven to a bound of the base fit may stay there, though with the effect it is there no
+/// longer: at θ = 0 two families of fibres are one, and no derivative leads away. Where the base fit has such a
+/// parameter, the refit is searched for again from random places; the better one.
+Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "diagnosis/diagnosis.hpp"
+
+namespace tunica::diagnosis {
+
+/// `diagnosis` of result.json.
+nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
+
+/// The whole of result.json: no runs, the diagnosis, its warnings and provenance.
+std::string result_document(const Diagnosis& diagnosis, const experiment::Experiment& experiment,
+                            const plugins::Catalogue& catalogue);
+
+/// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
+std::vector<std::string> explanations(const Claim& claim);
+
+/// What a person reads on the terminal: what is wrong and where, the cause and how sure, what else it could be, what
+/// was gained, what to measure next.
+std::string summary(const Diagnosis& diagnosis);
+
+/// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the
+/// text of extended.json. Empty without an extension.
+std::string extended_experiment(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
+
+/// residuals.csv: one line a fitted row; measured, predicted by the base and by the extension, σ of the measured value
+/// (of its mean over replicates), whitened residuals of both, and what each cause changes: how its refit differs from
+/// the base fit, or for one of several its own share of their refit, whitened.
+/// confusability.csv: how much every mechanism may look like that of the row as it explains these data best.
+void write_tables(const std::filesystem::path& directory, const Diagnosis& diagnosis);
+
+}  // namespace tunica::diagnosis

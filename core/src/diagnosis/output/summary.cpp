@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "text/wrapping.hpp"
+#include "diagnosis/output/outputs.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+std::string amount(double value, const std::string& unit) {
+  return unit == "1" || unit.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
+}
+
+/// Rivals that a summary lists.
+constexpr std::size_t most_rivals = 4;
+
+/// Factors are looked for up to twenty.
+std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3g}", factor) : "19 or more"; }
+
+std::string p_words(const Alarm& alarm) {
+  const double p = alarm.p();
+  // So many refits cannot tell smaller ones apart.
+  if (alarm.p_refits && alarm.detection.p < p && p >= 1e-4 && p < 0.001) return fmt::format("p ≤ {:.2g}", p);
+  return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+}
+
+std::string joined_reasons(const Explanation& explanation) {
+  std::vector<std::string> all;
+  for (const Reason& reason : explanation.reasons) all.push_back(reason.text);
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+std::string verdict_line(const Diagnosis& d) {
+  const Explanation& explanation = d.explanation;
+  const Claim& claim = explanation.claim;
+  switch (explanation.verdict) {
+    case Verdict::nothing_detected:
+      return "NOTHING DETECTED: the model describes these data to within their noise";
+    case Verdict::named: {
+      std::vector<std::string> ids;
+      for (std::size_t k = 0; k < claim.named; ++k) ids.push_back(claim.causes[k].id);
+      for (const Cause& row : explanation.left_out) ids.push_back(fmt::format("{} {}", row.id, row.place.words()));
+      if (!explanation.admissibility.remedy.empty() && d.analysis.alarm.p() > d.request.alpha)
+        return fmt::format("NAMED: {} restores the stability that the base fit loses; the curves raise no alarm",
+                           fmt::join(ids, " and "));
+      return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
+    }
+    case Verdict::indistinguishable:
+      if (explanation.unlisted && claim.ambiguity_set.size() == claim.named)
+        return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
+                           fmt::join(claim.ambiguity_set, " and "));
+      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well",
+                         fmt::join(explanations(claim), ", "));
+    case Verdict::suspect_data:
+      return "SUSPECT DATA: " + joined_reasons(explanation);
+    case Verdict::unknown:
+      break;
+  }
+  return "UNKNOWN: " + joined_reasons(explanation);
+}
+
+std::string alarm_line(const Analysis& analysis) {
+  const Alarm& alarm = analysis.alarm;
+  std::string text = fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f}, {} mechanisms)",
+                                 p_words(alarm), analysis.evidence.fit.residuals.size(), analysis.evidence.fit.chi2,
+                                 analysis.hypotheses.candidates.size());
+  if (alarm.factor)
+    text += fmt::format("; the alarm holds even if the noise is {} times larger", factor_words(*alarm.factor));
+  return text;
+}
+
+/// The two worst curves.
+std::string misfit_line(const std::vector<Misfit>& misfits) {
+  std::vector<std::string> where;
+  for (std::size_t k = 0; k < std::min<std::size_t>(misfits.size(), 2); ++k)
+    where.push_back(fmt::format("{}, {}: {}", misfits[k].test, misfits[k].channel, misfits[k].where));
+  return fmt::format("{}", fmt::join(where, "; "));
+}
+
+/// What speaks against an amplitude, to stand behind it.
+std::string doubt(const Amplitude& amplitude) {
+  return !amplitude.plausible ? ", beyond what is plausible" : amplitude.at_bound ? ", at its bound" : "";
+}
+
+std::string cause_line(const Cause& cause) {
+  const Amplitude& amplitude = cause.amplitude;
+  const std::string interval =
+      std::isfinite(amplitude.low) ? fmt::format(" ({:.3g} … {:.3g})", amplitude.low, amplitude.high) : std::string();
+  return fmt::format("{} {}, {} = {}{}{}; probability {:.2f}", cause.id, cause.place.words(), amplitude.name,
+                     amount(amplitude.value, amplitude.unit), interval, doubt(amplitude), cause.probability);
+}
+
+std::string rivals_line(const Explanation& explanation) {
+  const Claim& claim = explanation.claim;
+  std::vector<std::string> rivals;
+  if (claim.named > 1) {
+    const std::vector<std::string> all = explanations(claim);
+    rivals.assign(all.begin() + 1, all.end());
+  } else {
+    for (std::size_t k = claim.named; k < claim.causes.size(); ++k)
+      rivals.push_back(fmt::format("{} ({:.2f}{})", claim.causes[k].id, claim.causes[k].probability,
+                                   doubt(claim.causes[k].amplitude)));
+  }
+  if (const std::size_t count = rivals.size(); count > most_rivals) {
+    rivals.resize(most_rivals);
+    rivals.push_back(fmt::format("and {} more", count - most_rivals));
+  }
+  if (explanation.unlisted)
+    rivals.push_back("an effect that the catalogue does not list: " + explanation.reasons.back().text);
+  return rivals.empty() ? "no other mechanism of the catalogue comes close"
+                        : fmt::format("{}", fmt::join(rivals, ", "));
+}
+
+/// "0.82", "82.9", "1241": root mean squares for sentences.
+std::string size_of(double sigmas) {
+  return sigmas < 10 ? fmt::format("{:.2f}", sigmas) : fmt::format("{:.{}f}", sigmas, sigmas < 100 ? 1 : 0);
+}
+
+std::string error_words(const HeldOut& block) {
+  return fmt::format("{} → {} σ", size_of(block.before), size_of(block.after));
+}
+
+/// What the extension makes of blocks that it has not seen: the one that it does most for among those that it
+/// predicts, and the one that it is furthest from.
+std::string held_out_words(const Gain& gain) {
+  const HeldOut *best = nullptr, *worst = nullptr;
+  for (const HeldOut& block : gain.held_out) {
+    if (block.verdict == BlockVerdict::predicted &&
+        (best == nullptr || block.before - block.after > best->before - best->after))
+      best = &block;
+    if (block.verdict == BlockVerdict::not_predicted && (worst == nullptr || block.after > worst->after))
+      worst = &block;
+  }
+  std::string text;
+  if (best != nullptr)
+    text += fmt::format("; predicts {}, which it has not seen: error {}", best->block, error_words(*best));
+  if (worst != nullptr) text += fmt::format("; does not predict {}: error {}", worst->block, error_words(*worst));
+  return text;
+}
+
+std::string gain_line(const Gain& gain, bool several) {
+  std::string text = fmt::format("|r|² {:.1f} → {:.1f} ({:.1f} expected by chance{})", gain.before, gain.after,
+                                 gain.expected_under_nothing, several ? " with one mechanism" : "");
+  text += held_out_words(gain);
+  if (gain.best_rejected)
+    text += fmt::format("; the best rejected alternative, {}, leaves {:.1f}", gain.best_rejected->id,
+                        gain.best_rejected->after);
+  return text;
+}
+
+std::string material_line(const Admissibility& admissibility) {
+  if (admissibility.stable != false) return "";
+  return "the base fit loses " + admissibility.where +
+         (admissibility.remedy.empty() ? "" : "; " + admissibility.remedy + " restores it");
+}
+
+/// The amplitudes that would not be found, around the null; not beyond what is plausible.
+std::string undetected(const Detectable& one) {
+  if (one.detectable >= one.reach) return one.id + " at any plausible amplitude";
+  if (one.null == 0)
+    return fmt::format("{} {} {}", one.id, one.one_sided ? "below" : "within ±", amount(one.detectable, one.unit));
+  if (one.one_sided)
+    return fmt::format("{} from {:.3g} to {}", one.id, one.null, amount(one.null + one.detectable, one.unit));
+  return fmt::format("{} within {:.3g} ± {}", one.id, one.null, amount(one.detectable, one.unit));
+}
+
+/// The mechanisms that could still hide: least detectable amplitudes that are large, or no trace at all.
+std::string could_hide(const std::vector<Detectable>& detectable) {
+  std::vector<std::string> large, invisible;
+  for (const Detectable& one : detectable) {
+    if (!one.absent.empty())
+      invisible.push_back(one.id);
+    else if (one.detectable > 0.3 * one.reach)
+      large.push_back(undetected(one));
+  }
+  std::string text;
+  if (!large.empty()) text += fmt::format("{}", fmt::join(large, ", "));
+  if (!invisible.empty())
+    text += fmt::format("{}no trace in these data: {}", text.empty() ? "" : "; ", fmt::join(invisible, ", "));
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> explanations(const Claim& claim) {
+  std::vector<std::string> all;
+  for (const auto& alike : claim.look_alikes) {
+    all.push_back(alike.front());
+    if (alike.size() > 1)
+      all.back() += fmt::format(" (or {}, much the same here)", fmt::join(alike.begin() + 1, alike.end(), ", "));
+  }
+  if (claim.named > 1) {
+    std::vector<std::string> together;
+    for (std::size_t k = 0; k < claim.named; ++k) together.push_back(claim.causes[k].id);
+    all.push_back(fmt::format("{}", fmt::join(together, " with ")));
+    for (const auto& ids : claim.alternatives)
+      all.push_back(ids.size() == 1 ? ids.front() + " alone" : fmt::format("{}", fmt::join(ids, " with ")));
+  }
+  return all.empty() ? claim.ambiguity_set : all;
+}
+
+std::string summary(const Diagnosis& d) {
+  const Explanation& explanation = d.explanation;
+  const Claim& claim = explanation.claim;
+  const bool wrong = explanation.verdict != Verdict::nothing_detected;
+  std::vector<std::string> lines;
+  const auto line = [&lines](const char* lead, const std::string& text) {
+    if (!text.empty()) lines.push_back(text::hanging(lead, text));
+  };
+  line("Verdict:  ", verdict_line(d));
+  line("Alarm:    ", alarm_line(d.analysis));
+  if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
+  for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
+    line("Cause:    ", cause_line(claim.causes[k]));
+  for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row));
+  if (wrong && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
+  if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
+  line("Material: ", material_line(explanation.admissibility));
+  if (d.prospects.next) line("Next:     ", d.prospects.next->description);
+  if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/output/outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "diagnosis/naming/credible.hpp"
+#include "execution/files.hpp"
+
+namespace tunica::diagnosis {
+namespace {
+
+/// What a cause changes in every row, in σ. One that is an explanation by itself: how its refit differs from the base
+/// fit. A member of several: what its amplitude does in their refit, as far as the parameters could not do it.
+Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
+  const Fit& base = d.analysis.evidence.fit;
+  const Claim& claim = d.explanation.claim;
+  if (claim.named < 2 && which < claim.rivals.size()) return claim.rivals[which].fit.residuals - base.residuals;
+  Eigen::VectorXd nothing = Eigen::VectorXd::Zero(base.residuals.size());
+  if (!claim.best || which >= claim.best->additions.size()) return nothing;
+  const Extension& extension = *claim.best->extension;
+  const Extension::Part& part = extension.parts()[which];
+  std::vector<double> without = claim.best->fit.free;
+  for (const std::size_t member : part.amplitude) without[member] = part.null;
+  Eigen::VectorXd residuals;
+  if (!whitened(extension.assembly(), without, *extension.assembly().evaluator().make_workspace(), residuals, nullptr).ok())
+    return nothing;
+  return d.analysis.hypotheses.projection.off(claim.best->fit.residuals - residuals);
+}
+
+std::string residual_table(const Diagnosis& d) {
+  const Evidence& evidence = d.analysis.evidence;
+  const Claim& claim = d.explanation.claim;
+  const auto predicted = [](const assembly::Assembly& assembly, std::span<const double> free) {
+    std::vector<double> values(assembly.layout().prediction_count);
+    const auto workspace = assembly.evaluator().make_workspace();
+    if (!assembly.evaluator().predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
+    return values;
+  };
+  const std::vector<double> base = predicted(*evidence.base, evidence.fit.free);
+  const std::vector<double> extended =
+      claim.best ? predicted(claim.best->extension->assembly(), claim.best->fit.free) : std::vector<double>();
+  std::vector<Eigen::VectorXd> signatures;
+  for (std::size_t k = 0; k < claim.causes.size(); ++k) signatures.push_back(signature_of(d, k));
+  std::string text =
+      "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,residual_"
+      "extended";
+  for (const Cause& cause : claim.causes) text += ",signature_" + cause.id;
+  text += '\n';
+  std::size_t c = 0;
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
+    if (c >= evidence.curves.size() || evidence.curves[c].test != view.test ||
+        evidence.curves[c].channel != view.observable)
+      continue;
+    const Curve& curve = evidence.curves[c++];
+    const std::vector<double> sd = row_deviations(view);
+    for (std::size_t k = 0; k < curve.rows.size(); ++k) {
+      const std::size_t row = curve.rows[k];
+      const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
+      // A gross row is all but silent in the fit, and here it is as far off as it is.
+      const auto& gross = view.noise->gross;
+      const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
+      const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
+        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
+      };
+      text += fmt::format(
+          "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
+          view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
+          base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+          residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
+      for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string confusability_table(const Diagnosis& d) {
+  const Eigen::MatrixXd alike = likeness(d.analysis.hypotheses, d.explanation.best_direction);
+  const std::vector<Candidate>& candidates = d.analysis.hypotheses.candidates;
+  std::string text = "mechanism";
+  for (const Candidate& candidate : candidates) text += "," + candidate.id;
+  text += '\n';
+  for (std::size_t a = 0; a < candidates.size(); ++a) {
+    text += candidates[a].id;
+    for (std::size_t b = 0; b < candidates.size(); ++b)
+      text += fmt::format(",{:.4f}", alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_tables(const std::filesystem::path& directory, const Diagnosis& d) {
+  execution::write_atomically(directory / "residuals.csv", residual_table(d));
+  execution::write_atomically(directory / "confusability.csv", confusability_table(d));
+}
+
+}  // namespace tunica::diagnosis

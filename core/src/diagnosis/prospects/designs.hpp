@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/naming/refits.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::diagnosis {
+
+/// A test that a lab could make, on the material of the experiment.
+struct Design {
+  std::string description;
+  std::unique_ptr<Test> test;
+  std::vector<double> parameters;  ///< of the test: its nulls, or what the design sets
+  std::vector<double> sd;          ///< of each predicted value
+};
+
+/// The library: strips along both directions with their width measured, a strip cut at 45°, sheets pulled equally and
+/// twice as far in one direction, a load–unload cycle and a hold where the data have time, and where tubes were
+/// measured the same tube at another axial stretch. Stretches reach as far as those of the data; noise is that of the
+/// data's channels of the same kind, else 1.5 % of the largest value, which `scale` predicts. Types that no plugin
+/// provides are left out.
+std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const Refit& scale);
+
+/// What the material of a refit shows in a design; false where it cannot be simulated. The errors of the rig that the
+/// refit may hold belong to the tests they were found in.
+bool predict(const Design& design, const Refit& rival, std::span<const double> free, std::vector<double>& values);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "diagnosis/naming/claims.hpp"
+
+namespace tunica::diagnosis {
+
+/// What the extension gains: |r|² in sample, beside what the best of all mechanisms gains under nothing and what the
+/// best rejected one gains; and on blocks that take no part in the fit that predicts them: each test left out, each
+/// type of test, and the rows beyond 70 % of the range of the abscissa predicted from those below. A test that alone
+/// shows the effect cannot be predicted with it from the others, and is left out of the list.
+///
+/// The p-value of a block is Chow's: |r|² of all rows at the fit of all, less |r|² of the others at theirs, is χ² of as
+/// many degrees of freedom as the block has rows.
+Gain gain_of(const Analysis& analysis, const Claim& claim);
+
+/// Predicted: the error is below 2 σ and smaller than without the extension. Not predicted: it is larger than 2 σ, or
+/// clearly larger than without the extension, and the p-value says that this is no chance. Far off is no contradiction
+/// where the other rows leave the parameters open: the p-value knows of that.
+BlockVerdict verdict_of(double before, double after, double p_value);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/naming/explanation.hpp"
+
+namespace tunica::diagnosis {
+
+/// What the explanation is worth, what could still hide, and what to do next.
+struct Prospects {
+  std::optional<Gain> gain;  ///< of the extension, where there is one
+  std::vector<Detectable> detectable;
+  std::optional<NextExperiment> next;
+  std::vector<Warning> warnings;  ///< about a run of the extension, and about the noise
+};
+
+Prospects prospects_of(const Inquiry& inquiry, const Analysis& analysis, const Explanation& explanation);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/experiment.hpp"
+#include "plugins/catalogue.hpp"
+
+namespace tunica::diagnosis {
+
+/// What is asked: the "diagnosis" block of the experiment file and the command line.
+struct Request {
+  std::string model;                    ///< name of an entry of "models"; empty where every test names its layers
+  std::string optimizer;                ///< one more start of the base fit is what it finds; empty = none
+  double alpha = 0.05;                  ///< false alarms that are accepted
+  std::vector<std::string> mechanisms;  ///< ids to consider; empty = all
+  bool admissibility = false;           ///< lost stability changes the verdict
+  bool quick = false;                   ///< linear bootstrap only, refits of the likeliest causes only
+  std::uint64_t seed = 1;
+};
+
+/// Fills in what the file leaves open: the model of the first run.
+Request request_of(const experiment::Experiment& experiment);
+
+/// How far a diagnosis is, for a person: the stage, and the share that is done. Called from any thread.
+using Progress = std::function<void(const std::string& stage, double share)>;
+
+/// What every stage starts from beside the stages before it. Refers to what lives longer.
+struct Inquiry {
+  const experiment::Experiment& experiment;
+  const Request& request;
+  const plugins::Catalogue& catalogue;
+  const Progress& progress;
+
+  void report(const std::string& stage, double share) const {
+    if (progress) progress(stage, share);
+  }
+  [[nodiscard]] const MechanismFactory& mechanism(const std::string& id) const {
+    return catalogue.mechanisms().at(id).factory;
+  }
+};
+
+}  // namespace tunica::diagnosis

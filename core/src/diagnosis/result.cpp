@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/result.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tunica::diagnosis {
+
+const char* code_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::nothing_detected:
+      return "nothing_detected";
+    case Verdict::named:
+      return "named";
+    case Verdict::indistinguishable:
+      return "indistinguishable";
+    case Verdict::suspect_data:
+      return "suspect_data";
+    case Verdict::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+const char* code_of(ReasonKind kind) {
+  switch (kind) {
+    case ReasonKind::residuals_like_noise:
+      return "residuals_like_noise";
+    case ReasonKind::no_trace:
+      return "no_trace";
+    case ReasonKind::no_trace_of_requested:
+      return "no_trace_of_requested";
+    case ReasonKind::no_fit:
+      return "no_fit";
+    case ReasonKind::many_explanations:
+      return "many_explanations";
+    case ReasonKind::shape_correction:
+      return "shape_correction";
+    case ReasonKind::single_place:
+      return "single_place";
+    case ReasonKind::at_bound:
+      return "at_bound";
+    case ReasonKind::implausible:
+      return "implausible";
+    case ReasonKind::single_carrier:
+      return "single_carrier";
+    case ReasonKind::gross_rows:
+      return "gross_rows";
+    case ReasonKind::not_clean:
+      return "not_clean";
+    case ReasonKind::larger_noise:
+      return "larger_noise";
+    case ReasonKind::lost_stability:
+      return "lost_stability";
+    case ReasonKind::stability_restored:
+      return "stability_restored";
+    case ReasonKind::restored_by_larger:
+      break;
+  }
+  return "restored_by_larger";
+}
+
+const char* code_of(WarningKind kind) {
+  switch (kind) {
+    case WarningKind::channel_without_weight:
+      return "channel_without_weight";
+    case WarningKind::constraints_not_applied:
+      return "constraints_not_applied";
+    case WarningKind::test_held_out:
+      return "test_held_out";
+    case WarningKind::noise_estimated:
+      return "noise_estimated";
+    case WarningKind::gross_rows_left_out:
+      return "gross_rows_left_out";
+    case WarningKind::optimizer_has_stages:
+      return "optimizer_has_stages";
+    case WarningKind::optimizer_failed:
+      return "optimizer_failed";
+    case WarningKind::base_fit_not_optimal:
+      return "base_fit_not_optimal";
+    case WarningKind::noise_too_large:
+      return "noise_too_large";
+    case WarningKind::noise_vanishes:
+      return "noise_vanishes";
+    case WarningKind::run_differs_in_noise:
+      return "run_differs_in_noise";
+    case WarningKind::run_keeps_gross_rows:
+      return "run_keeps_gross_rows";
+    case WarningKind::base_model:
+      break;
+  }
+  return "base_model";
+}
+
+const char* code_of(BlockVerdict verdict) {
+  switch (verdict) {
+    case BlockVerdict::predicted:
+      return "predicted";
+    case BlockVerdict::not_predicted:
+      return "not_predicted";
+    case BlockVerdict::inconclusive:
+      break;
+  }
+  return "inconclusive";
+}
+
+std::string Place::words() const {
+  if (tests.empty()) return model.empty() ? "in the material" : fmt::format("in the material of '{}'", model);
+  if (tests.size() > 1) return fmt::format("alike in the tests '{}'", fmt::join(tests, "', '"));
+  const std::string where = row ? fmt::format(", row {}", *row) : std::string();
+  if (channel.empty()) return fmt::format("in the test '{}'{}", tests.front(), where);
+  return fmt::format("in the channel '{}' of the test '{}'{}", channel, tests.front(), where);
+}
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a diagnosis says, as plain data: no fit, no model, no calculation. Codes are the stable names that result.json
+/// carries beside its sentences; sentences may change, codes do not.
+namespace tunica::diagnosis {
+
+enum class Verdict { nothing_detected, named, indistinguishable, unknown, suspect_data };
+const char* code_of(Verdict verdict);
+
+/// Why the verdict is what it is.
+enum class ReasonKind {
+  residuals_like_noise,
+  no_trace,
+  no_trace_of_requested,
+  no_fit,
+  many_explanations,
+  shape_correction,
+  single_place,
+  at_bound,
+  implausible,
+  single_carrier,
+  gross_rows,
+  not_clean,
+  larger_noise,
+  lost_stability,
+  stability_restored,
+  restored_by_larger
+};
+const char* code_of(ReasonKind kind);
+
+struct Reason {
+  ReasonKind kind;
+  std::string text;  ///< one clause, without a full stop
+};
+
+enum class WarningKind {
+  channel_without_weight,
+  constraints_not_applied,
+  test_held_out,
+  noise_estimated,
+  gross_rows_left_out,
+  optimizer_has_stages,
+  optimizer_failed,
+  base_fit_not_optimal,
+  base_model,
+  noise_too_large,
+  noise_vanishes,
+  run_differs_in_noise,
+  run_keeps_gross_rows
+};
+const char* code_of(WarningKind kind);
+
+struct Warning {
+  WarningKind kind;
+  std::string text;
+};
+
+/// Where a mechanism acts.
+struct Place {
+  std::vector<std::string> tests;       ///< empty: the model; several: one amplitude in all of them
+  std::string channel = {};             ///< of a mechanism that takes one
+  std::optional<std::size_t> row = {};  ///< of a mechanism that takes rows; none = the whole curve
+  std::string model = {};               ///< where a run has several, and no tests are named
+
+  bool operator==(const Place&) const = default;
+  /// "in the material", "in the material of 'media'", "in the test 'strip'", "alike in the tests 'a', 'b'", "in the
+  /// channel 'stress' of the test 'strip', row 12"
+  [[nodiscard]] std::string words() const;
+};
+
+/// A row that stands apart from its neighbours as no mechanism makes it.
+struct GrossRow {
+  std::string test, channel;
+  std::size_t row = 0;
+  double residual = 0;  ///< in σ
+  std::string where;    ///< "stretch 1.25, measured 14 kPa"
+};
+
+/// Where measured and predicted values disagree more than noise explains.
+struct Misfit {
+  std::string test, channel;
+  std::string where;  ///< "stretch 1.3 … 1.6: measured lies above the prediction by 3.1 σ on average over 9 rows"
+  double p_value = 1;
+  double from = 0, to = 0;  ///< of the abscissa
+};
+
+struct Amplitude {
+  std::string name, unit;
+  double value = 0, low = 0, high = 0;  ///< 95 % interval
+  bool at_bound = false, plausible = true;
+};
+
+struct Cause {
+  std::string id;
+  Place place;
+  /// Of the fall of |r|² at finite amplitude (beside others: of its rise without the cause), where nothing is wrong and
+  /// the mechanism is looked for in all its places.
+  double p_value = 1;
+  double probability = 0;  ///< that it is this one, of the mechanisms of the catalogue
+  Amplitude amplitude;
+  std::vector<Amplitude> nuisance;
+  double retained = 0;  ///< share of its signature that a refit of the parameters does not absorb
+  double gain = 0;      ///< of |r|² at finite amplitude
+  std::string explanation;
+  /// How far the parameters of the base model had gone to make up for it: name, without, with it.
+  struct Shift {
+    std::string name, unit;
+    double before, after;
+  };
+  std::vector<Shift> shifts;
+};
+
+/// A mechanism as the only explanation, among all that were tried.
+struct RankedMechanism {
+  std::string id;
+  Place place;  ///< of its best hypothesis
+  double probability = 0;
+  double score = 0;            ///< T at the null, of the best hypothesis
+  std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
+};
+
+/// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.
+struct Detectable {
+  std::string id, unit, absent;  ///< absent: why it leaves no trace; else empty
+  Place place;
+  /// Distances of the amplitude from its null; identifiable: infinite where another has the same signature.
+  double detectable = 0, identifiable = 0;
+  double null = 0;         ///< the amplitude that does nothing
+  double reach = 0;        ///< the largest plausible distance from it
+  bool one_sided = false;  ///< the amplitude goes one way from its null
+  double retained = 0;
+  std::string closest;     ///< the other mechanism whose projected signature is most alike
+  double correlation = 0;  ///< with it, absolute
+};
+
+/// What the extension makes of rows that it has not seen.
+enum class BlockVerdict { predicted, not_predicted, inconclusive };
+const char* code_of(BlockVerdict verdict);
+
+struct HeldOut {
+  std::string block;
+  double before = 0, after = 0;  ///< root mean square of whitened errors
+  double p_value = 1;            ///< of the block under the extension, parameter uncertainty included
+  std::size_t rows = 0;
+  BlockVerdict verdict = BlockVerdict::inconclusive;
+};
+
+/// The explanation outside the ambiguity set that leaves least.
+struct Rejected {
+  std::string id;    ///< "geometry_error", of several "a + b"
+  double after = 0;  ///< |r|²
+};
+
+struct Gain {
+  double before = 0, after = 0;  ///< |r|² in sample
+  double expected_under_nothing = 0;
+  std::vector<HeldOut> held_out;
+  std::optional<Rejected> best_rejected;
+};
+
+struct NextExperiment {
+  std::string description;
+  std::vector<std::string> separates;
+  std::optional<std::size_t> repeats;
+};
+
+/// Whether the base fit behaves as a material where it was measured; none: it could not be told.
+struct Admissibility {
+  std::optional<bool> stable;
+  std::string where, remedy;
+  std::vector<std::string> sentences;
+};
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/codes.hpp"
+
+namespace tunica::execution {
+
+/// What a warning is about. Scripts and the report decide by it, so that the sentences may change.
+enum class WarningKind {
+  no_result,
+  no_feasible_point,
+  not_repeatable,
+  not_evaluated_again,
+  not_linearised,
+  predicts_worse,
+  unstable,
+  ellipticity_lost,
+  drucker_lost,
+  inadmissible_parameters,
+  at_bound,
+  not_fixed_by_data,
+  failed_evaluations,
+  optimizer_failure,
+  same_course,
+  given_up,
+  depends_on_time,
+  prior,
+  held_out,
+  not_comparable,
+  certificate_failed,
+  objective_differs,
+  not_an_optimum,
+  differenced_derivatives,
+  equal_realisations,
+  plugin_refused,
+  set_up,
+};
+
+inline constexpr text::Codes<WarningKind, 27> warning_codes{
+    {{WarningKind::no_result, "no_result"},
+     {WarningKind::no_feasible_point, "no_feasible_point"},
+     {WarningKind::not_repeatable, "not_repeatable"},
+     {WarningKind::not_evaluated_again, "not_evaluated_again"},
+     {WarningKind::not_linearised, "not_linearised"},
+     {WarningKind::predicts_worse, "predicts_worse"},
+     {WarningKind::unstable, "unstable"},
+     {WarningKind::ellipticity_lost, "ellipticity_lost"},
+     {WarningKind::drucker_lost, "drucker_lost"},
+     {WarningKind::inadmissible_parameters, "inadmissible_parameters"},
+     {WarningKind::at_bound, "at_bound"},
+     {WarningKind::not_fixed_by_data, "not_fixed_by_data"},
+     {WarningKind::failed_evaluations, "failed_evaluations"},
+     {WarningKind::optimizer_failure, "optimizer_failure"},
+     {WarningKind::same_course, "same_course"},
+     {WarningKind::given_up, "given_up"},
+     {WarningKind::depends_on_time, "depends_on_time"},
+     {WarningKind::prior, "prior"},
+     {WarningKind::held_out, "held_out"},
+     {WarningKind::not_comparable, "not_comparable"},
+     {WarningKind::certificate_failed, "certificate_failed"},
+     {WarningKind::objective_differs, "objective_differs"},
+     {WarningKind::not_an_optimum, "not_an_optimum"},
+     {WarningKind::differenced_derivatives, "differenced_derivatives"},
+     {WarningKind::equal_realisations, "equal_realisations"},
+     {WarningKind::plugin_refused, "plugin_refused"},
+     {WarningKind::set_up, "set_up"}}};
+
+static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());
+
+std::string_view code(WarningKind kind);
+
+struct Warning {
+  WarningKind kind;
+  std::string sentence;                    ///< without the run
+  std::string run = {};                    ///< its label; empty = of the whole experiment
+  std::vector<std::string> subjects = {};  ///< parameters, models, channels, tests; empty = the whole run
+
+  /// "gho/es: mu lies at …".
+  [[nodiscard]] std::string text() const;
+};
+
+}  // namespace tunica::execution

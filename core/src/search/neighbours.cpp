@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/neighbours.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <Eigen/Eigenvalues>
+
+namespace tunica::search {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+struct Direction {
+  std::string name;
+  std::vector<double> v;  ///< unit length
+};
+
+struct Neighbour {
+  const Direction* direction;
+  double step;
+  std::vector<double> free;
+  Status status;
+  double objective = 0;
+};
+
+/// Eigenvectors of JᵀJ; none where the Jacobian cannot be had.
+void add_principal_directions(const assembly::Assembly& assembly, std::span<const double> free,
+                              std::vector<Direction>& directions) {
+  const std::size_t n = free.size(), m = assembly.layout().residual_count;
+  std::vector<double> residuals(m), jacobian(m * n);
+  const auto workspace = assembly.evaluator().make_workspace();
+  double objective = 0;
+  if (assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, *workspace).kind() ==
+      Status::Kind::failed)
+    return;
+  assembly.box().jacobian_to_unit(free, jacobian);
+  Matrix normal = Matrix::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  for (const ResidualBlock& block : assembly.layout().blocks) {
+    double squares = 0;
+    for (std::size_t k = 0; k < block.size; ++k) squares += std::pow(residuals[block.offset + k], 2);
+    // The Gauss–Newton matrix of w ρ(‖r‖²) is 2 w ρ' JᵀJ, ρ' = 1/(2√(s + ε²)) for the root.
+    const double slope = block.loss == ResidualBlock::Loss::quadratic
+                             ? 1
+                             : 0.5 / std::hypot(std::sqrt(squares), Problem::root_smoothing);
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Rows> J(jacobian.data() + block.offset * n, static_cast<Eigen::Index>(block.size),
+                                   static_cast<Eigen::Index>(n));
+    normal += block.weight * slope * J.transpose() * J;
+  }
+  if (!normal.allFinite()) return;
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(normal);
+  for (Eigen::Index k = 0; k < normal.rows(); ++k) {
+    const Eigen::VectorXd v = eigen.eigenvectors().col(k);
+    directions.push_back({fmt::format("direction {} of the residuals' curvature", k + 1), {v.begin(), v.end()}});
+  }
+}
+
+std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::span<const double> free,
+                                     const std::vector<Direction>& directions) {
+  const std::size_t n = free.size();
+  std::vector<double> x(n), moved(n);
+  assembly.box().to_unit(free, x);
+  std::vector<Neighbour> found;
+  for (const Direction& direction : directions)
+    for (const double length : neighbour_steps)
+      for (const double step : {-length, length}) {
+        for (std::size_t j = 0; j < n; ++j) moved[j] = std::clamp(x[j] + step * direction.v[j], 0.0, 1.0);
+        if (std::equal(moved.begin(), moved.end(), x.begin())) continue;  // out of the bounds
+        Neighbour neighbour{&direction, step, std::vector<double>(n), {}, 0};
+        assembly.box().from_unit(moved, neighbour.free);
+        found.push_back(std::move(neighbour));
+      }
+  return found;
+}
+
+}  // namespace
+
+bool same_objective(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b) + 1e-12; }
+
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free) {
+  const std::size_t n = free.size();
+  Neighbourhood result;
+  const auto workspace = assembly.evaluator().make_workspace();
+  result.status = assembly.evaluator().evaluate(free, result.objective, {}, {}, {}, *workspace);
+  if (result.status.kind() == Status::Kind::failed) return result;
+  result.constraints = assembly.constraints().count();
+  std::vector<double> values(result.constraints);
+  if (result.constraints > 0 && assembly.constraints().evaluate(free, values, {}).ok())
+    result.active_constraints = static_cast<std::size_t>(
+        std::count_if(values.begin(), values.end(), [](double value) { return value > -active_margin; }));
+
+  std::vector<Direction> directions;
+  for (std::size_t j = 0; j < n; ++j) {
+    directions.push_back({assembly.layout().parameters[j].name, std::vector<double>(n, 0.0)});
+    directions.back().v[j] = 1;
+  }
+  if (n > 1) add_principal_directions(assembly, free, directions);
+  auto neighbours = neighbours_of(assembly, free, directions);
+  tbb::parallel_for(std::size_t{0}, neighbours.size(), [&](std::size_t k) {
+    auto& neighbour = neighbours[k];
+    const auto own = assembly.evaluator().make_workspace();
+    neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own);
+  });
+  for (auto& neighbour : neighbours) {
+    ++result.evaluated;
+    result.infeasible += neighbour.status.kind() == Status::Kind::infeasible;
+    result.failed += neighbour.status.kind() == Status::Kind::failed;
+    if (!neighbour.status.ok() || (result.lowest && neighbour.objective >= result.lowest->objective)) continue;
+    result.lowest = {neighbour.objective, neighbour.step, neighbour.direction->name, std::move(neighbour.free)};
+  }
+  result.better = result.lowest && result.lowest->objective < result.objective &&
+                  !same_objective(result.lowest->objective, result.objective);
+  return result;
+}
+
+}  // namespace tunica::search

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "tunica/status.hpp"
+
+namespace tunica::search {
+
+/// What lies around a point that claims to be an optimum.
+struct Neighbourhood {
+  /// The least feasible objective among the neighbours, and where it is.
+  struct Lowest {
+    double objective = 0, step = 0;  ///< signed, in the unit box
+    std::string along;               ///< a parameter, or "direction 2 of the residuals' curvature"
+    std::vector<double> parameters;
+  };
+  Status status;         ///< of the point itself
+  double objective = 0;  ///< of the point itself, evaluated here
+  std::size_t evaluated = 0, infeasible = 0, failed = 0;
+  std::optional<Lowest> lowest;                         ///< none when no neighbour could be evaluated and is feasible
+  bool better = false;                                  ///< the lowest is below the point by more than rounding
+  std::size_t constraints = 0, active_constraints = 0;  ///< values c(p), and those above −active_margin
+};
+
+constexpr double neighbour_steps[] = {1e-3, 1e-5};  ///< of the unit box
+constexpr double active_margin = 1e-3;
+
+/// Objectives that differ by less are the same: |a − b| ≤ 1e-9 |b| + 1e-12. The absolute part is for perfect fits of
+/// synthetic data, whose objectives are rounding.
+bool same_objective(double a, double b);
+
+/// Evaluates the point, and its neighbours at ± the steps above along every parameter and along the eigenvectors of JᵀJ
+/// in the unit box, J the Jacobian of the residuals as the objective weighs them. These span the long and the short
+/// axes of the valley that the point lies in: an optimiser that stopped half-way down a bent one is found out along
+/// them. Neighbours outside the bounds are moved onto them; what breaks a constraint does not count.
+Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<const double> free);
+
+}  // namespace tunica::search

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/oracle.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace tunica::search {
+namespace {
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// Coordinates may leave the unit box by rounding, no further.
+constexpr double rounding = 1e-9;
+
+Status check_point(std::span<const double> x) {
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    if (x[j] >= -rounding && x[j] <= 1 + rounding) continue;
+    return Status::failed(fmt::format("the optimiser asked for coordinate {} = {}, outside the unit box", j, x[j]));
+  }
+  return {};
+}
+
+void check_length(std::size_t found, std::size_t expected, const char* what) {
+  if (found != expected) {
+    throw std::invalid_argument(
+        fmt::format("the optimiser passed {} {} where the problem has {}", found, what, expected));
+  }
+}
+
+}  // namespace
+
+assembly::WorkspacePointer WorkspacePool::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      assembly::WorkspacePointer workspace = std::move(idle_.back());
+      idle_.pop_back();
+      return workspace;
+    }
+  }
+  return assembly_.evaluator().make_workspace();
+}
+
+void WorkspacePool::give(assembly::WorkspacePointer workspace) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(workspace));
+}
+
+SharedState::SharedState(const assembly::Assembly& assembly_, const CalibrationProblem::Settings& settings_)
+    : assembly(assembly_),
+      settings(settings_),
+      parameters(assembly.layout().parameters.size()),
+      tests(assembly.layout().test_count),
+      start(settings.start.empty() ? assembly.box().initial() : settings.start),
+      watch(settings.elapsed_before),
+      pool(assembly),
+      replaying(static_cast<bool>(settings.replay)) {}
+
+void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count) {
+  calls.push_back({size(), count, jacobian});
+  const std::size_t total = size() + count;
+  parameters.resize(total * parameter_count);
+  per_test.resize(total * test_count);
+  objectives.resize(total);
+  seconds.resize(total);
+  statuses.resize(total);
+}
+
+void Evaluations::clear() {
+  calls.clear();
+  parameters.clear();
+  per_test.clear();
+  objectives.clear();
+  seconds.clear();
+  statuses.clear();
+}
+
+Oracle::Oracle(SharedState& shared, Ledger ledger_, std::optional<std::uint64_t> replay_from,
+               const std::atomic<bool>* needless)
+    : ledger(std::move(ledger_)), shared_(shared), replay_from_(replay_from), needless_(needless) {}
+
+bool Oracle::should_stop() const {
+  if (ledger.stopped()) return true;
+  const auto& settings = shared_.settings;
+  if (needless_ != nullptr && *needless_) ledger.stop(StopReason::not_needed);
+  if (settings.interrupted && settings.interrupted()) ledger.stop(StopReason::interrupted);
+  if (settings.stop.max_time && shared_.watch.seconds() >= *settings.stop.max_time) ledger.stop(StopReason::max_time);
+  if (ledger.budget() == 0) ledger.stop(StopReason::max_evaluations);
+  return ledger.stopped();
+}
+
+Status Oracle::refusal() const { return Status::failed("stopped: " + ledger.stop_sentence()); }
+
+void Oracle::contradict(std::size_t slot, std::string what) {
+  if (!made.contradiction.empty()) return;
+  made.contradicted = slot;
+  made.contradiction = fmt::format(
+      "evaluation {} of the journal cannot be continued: {}. The experiment file, a plugin or the seed has changed "
+      "since it was written; restore them, or start anew without --resume",
+      *replay_from_ + ledger.tally().evaluations + (slot - made.calls.back().first) + 1, what);
+}
+
+bool Oracle::replay(std::span<const double> x, std::size_t slot) {
+  if (!shared_.replaying || !replay_from_ || !made.contradiction.empty()) return false;
+  const std::uint64_t index = *replay_from_ + ledger.tally().evaluations + (slot - made.calls.back().first);
+  if (!shared_.settings.replay(index, entry_)) {
+    shared_.replaying = false;
+    return false;
+  }
+  const std::size_t n = shared_.parameters;
+  const std::span<double> free = std::span(made.parameters).subspan(slot * n, n);
+  shared_.assembly.box().from_unit(x, free);
+  if (entry_.parameters.size() != n || entry_.per_test.size() != shared_.tests) {
+    contradict(slot, fmt::format("it has {} parameters and {} tests where the run has {} and {}",
+                                 entry_.parameters.size(), entry_.per_test.size(), n, shared_.tests));
+    return false;
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    if (same_bits(entry_.parameters[j], free[j])) continue;
+    contradict(slot, fmt::format("{} was {} and is now {}", shared_.assembly.layout().parameters[j].name,
+                                 entry_.parameters[j], free[j]));
+    return false;
+  }
+  std::copy(entry_.per_test.begin(), entry_.per_test.end(),
+            made.per_test.begin() + static_cast<std::ptrdiff_t>(slot * shared_.tests));
+  made.objectives[slot] = entry_.objective;
+  made.statuses[slot] = entry_.status;
+  made.seconds[slot] = entry_.seconds;
+  shared_.watch.catch_up(entry_.seconds);
+  return true;
+}
+
+/// The evaluation proper; touches nothing but its slot, so that slots run side by side.
+Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
+                           std::span<double> jacobian, assembly::Workspace& workspace) {
+  const std::size_t n = shared_.parameters, tests = shared_.tests;
+  const std::span<double> free = std::span(made.parameters).subspan(slot * n, n);
+  const std::span<double> per_test = std::span(made.per_test).subspan(slot * tests, tests);
+  shared_.assembly.box().from_unit(x, free);
+  if (Status status = check_point(x); !status.ok()) return status;
+  const auto evaluate = [&](std::span<const double> point) {
+    shared_.assembly.box().from_unit(point, free);
+    return shared_.assembly.evaluator().evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace,
+                                                 shared_.settings.skip_costly);
+  };
+  Status status = evaluate(x);
+  if (status.kind() == Status::Kind::failed && shared_.settings.on_failure == experiment::OnFailure::retry) {
+    if (const auto good = good_.nearest(x); !good.empty()) {
+      status = continue_to(good, x, std::move(status), evaluate);
+      shared_.assembly.box().from_unit(x, free);
+    }
+  }
+  if (status.kind() != Status::Kind::failed) shared_.assembly.box().jacobian_to_unit(free, jacobian);
+  return status;
+}
+
+void Oracle::count(std::span<const double> xs, const Evaluations::Call& call) {
+  const std::size_t n = shared_.parameters;
+  for (std::size_t k = 0; k < call.size; ++k) {
+    const std::size_t slot = call.first + k;
+    const Status& status = made.statuses[slot];
+    ledger.add(std::span(made.parameters).subspan(slot * n, n), made.objectives[slot], status, call.jacobian);
+    if (status.ok() && shared_.settings.on_failure == experiment::OnFailure::retry) good_.add(xs.subspan(k * n, n));
+  }
+}
+
+Status Oracle::evaluate(std::span<const double> x, double& objective) {
+  Status status;
+  evaluate_batch(x, {&objective, 1}, {&status, 1});
+  return status;
+}
+
+void Oracle::evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) {
+  const std::size_t n = shared_.parameters, asked = objectives.size();
+  check_length(xs.size(), asked * n, "coordinates");
+  check_length(statuses.size(), asked, "statuses");
+  std::size_t count = 0;
+  if (!should_stop()) {
+    count = static_cast<std::size_t>(std::min<std::uint64_t>(asked, ledger.budget()));
+    made.grow(count, false, n, shared_.tests);
+    const Evaluations::Call call = made.calls.back();
+    std::size_t replayed = 0;
+    while (replayed < count && replay(xs.subspan(replayed * n, n), call.first + replayed)) ++replayed;
+    const auto evaluate_range = [&](std::size_t first, std::size_t last) {
+      const WorkspacePool::Loan workspace(shared_.pool);
+      for (std::size_t k = first; k < last; ++k) {
+        made.statuses[call.first + k] = evaluate_at(xs.subspan(k * n, n), call.first + k, {}, {}, *workspace);
+      }
+    };
+    if (count - replayed <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
+      evaluate_range(replayed, count);
+    } else {
+      // The partitioner splits only as far as threads ask for work, so that tasks stay long against their overhead.
+      // Isolated: a thread that waits here must not begin another search in between.
+      tbb::this_task_arena::isolate([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(replayed, count),
+                          [&](const auto& range) { evaluate_range(range.begin(), range.end()); });
+      });
+    }
+    const double now = replayed < count ? shared_.watch.seconds() : 0;
+    std::fill(made.seconds.begin() + static_cast<std::ptrdiff_t>(call.first + replayed), made.seconds.end(), now);
+    this->count(xs, call);
+    for (std::size_t k = 0; k < count; ++k) {
+      statuses[k] = made.statuses[call.first + k];
+      if (statuses[k].kind() != Status::Kind::failed) objectives[k] = made.objectives[call.first + k];
+    }
+  }
+  for (std::size_t k = count; k < asked; ++k) statuses[k] = refusal();
+}
+
+Status Oracle::linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                         std::span<double> jacobian) {
+  const std::size_t n = shared_.parameters, m = shared_.assembly.layout().residual_count;
+  check_length(x.size(), n, "coordinates");
+  check_length(residuals.size(), m, "residuals");
+  if (!jacobian.empty()) check_length(jacobian.size(), m * n, "entries of the Jacobian");
+  if (should_stop()) return refusal();
+  made.grow(1, !jacobian.empty(), n, shared_.tests);
+  const Evaluations::Call call = made.calls.back();
+  const std::size_t slot = call.first;
+  const bool replayed = replay(x, slot);
+  const double before = made.objectives[slot];
+  const Status status_before = made.statuses[slot];
+  const WorkspacePool::Loan workspace(shared_.pool);
+  made.statuses[slot] = evaluate_at(x, slot, residuals, jacobian, *workspace);  // residuals are not in the journal
+  const Status& status = made.statuses[slot];
+  if (replayed && status.kind() != status_before.kind()) {
+    contradict(slot,
+               fmt::format("its status was '{}' and is now '{}'", name(status_before.kind()), name(status.kind())));
+  } else if (replayed && status.kind() != Status::Kind::failed && !same_bits(before, made.objectives[slot])) {
+    contradict(slot, fmt::format("the objective was {} and is now {}", before, made.objectives[slot]));
+  }
+  if (!replayed) made.seconds[slot] = shared_.watch.seconds();
+  count(x, call);
+  if (status.kind() != Status::Kind::failed) objective = made.objectives[slot];
+  return status;
+}
+
+Status Oracle::constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) const {
+  const std::size_t n = shared_.parameters, m = shared_.assembly.constraints().count();
+  check_length(x.size(), n, "coordinates");
+  check_length(values.size(), m, "constraint values");
+  if (!jacobian.empty()) check_length(jacobian.size(), m * n, "entries of the constraints' Jacobian");
+  if (Status status = check_point(x); !status.ok()) return status;
+  std::vector<double> free(n);
+  shared_.assembly.box().from_unit(x, free);
+  if (Status status = shared_.assembly.constraints().evaluate(free, values, jacobian); !status.ok() || jacobian.empty())
+    return status;
+  const WorkspacePool::Loan workspace(shared_.pool);
+  shared_.assembly.box().jacobian_to_unit(free, jacobian);
+  return {};
+}
+
+}  // namespace tunica::search

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "search/calibration_problem.hpp"
+#include "search/continuation.hpp"
+#include "search/ledger.hpp"
+
+namespace tunica::search {
+
+/// Seconds since the realisation began, those before a resume or an earlier stage included.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double before) : before_(before) {}
+  [[nodiscard]] double seconds() const {
+    return before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  /// A replayed evaluation was made at `seconds`: the watch is never behind it.
+  void catch_up(double seconds) {
+    const double late = seconds - this->seconds();
+    if (late > 0) before_ += late;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double before_;
+};
+
+/// Workspaces lent to threads. Each task borrows one of its own, also a task that a waiting thread takes in between.
+class WorkspacePool {
+ public:
+  explicit WorkspacePool(const assembly::Assembly& assembly) : assembly_(assembly) {}
+  class Loan {
+   public:
+    explicit Loan(WorkspacePool& pool) : pool_(pool), workspace_(pool.take()) {}
+    ~Loan() { pool_.give(std::move(workspace_)); }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    assembly::Workspace& operator*() const { return *workspace_; }
+
+   private:
+    WorkspacePool& pool_;
+    assembly::WorkspacePointer workspace_;
+  };
+
+ private:
+  assembly::WorkspacePointer take();
+  void give(assembly::WorkspacePointer workspace);
+
+  const assembly::Assembly& assembly_;
+  std::mutex mutex_;
+  std::vector<assembly::WorkspacePointer> idle_;
+};
+
+/// What all searches of one realisation have in common.
+struct SharedState {
+  SharedState(const assembly::Assembly& assembly, const CalibrationProblem::Settings& settings);
+
+  const assembly::Assembly& assembly;
+  const CalibrationProblem::Settings& settings;
+  std::size_t parameters, tests;
+  std::vector<double> start;  ///< unit box
+  Stopwatch watch;
+  WorkspacePool pool;
+  bool replaying;  ///< the journal has not run out; while true nothing runs side by side
+};
+
+/// Evaluations in the order they were asked for, call by call: a call is a batch, or one.
+struct Evaluations {
+  struct Call {
+    std::size_t first, size;
+    bool jacobian;
+  };
+  std::vector<Call> calls;
+  std::vector<double> parameters, per_test, objectives, seconds;
+  std::vector<Status> statuses;
+  std::string contradiction;  ///< of the journal, at evaluation `contradicted`
+  std::size_t contradicted = 0;
+
+  [[nodiscard]] std::size_t size() const { return objectives.size(); }
+  void grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count);
+  void clear();
+};
+
+/// A search through the unit box: checks points, evaluates or replays them, counts, refuses after the stop. What it
+/// evaluated lies in `made` until somebody takes it out. Batches count whole up to the budget: a target or stall in
+/// the middle of one stops what comes after it.
+class Oracle {
+ public:
+  /// `replay_from`: index of the first evaluation in the journal; used only while it lasts.
+  /// It also stops where `needless` becomes true.
+  Oracle(SharedState& shared, Ledger ledger, std::optional<std::uint64_t> replay_from,
+         const std::atomic<bool>* needless = nullptr);
+
+  Status evaluate(std::span<const double> x, double& objective);
+  void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses);
+  Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                   std::span<double> jacobian);
+  /// Constraint values and their Jacobian by the unit box; counted nowhere.
+  Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) const;
+  [[nodiscard]] bool should_stop() const;
+
+  [[nodiscard]] Status refusal() const;
+
+  mutable Ledger ledger;  ///< mutable: looking at the clock may stop it
+  Evaluations made;
+
+ private:
+  Status evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
+                     std::span<double> jacobian, assembly::Workspace& workspace);
+  /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
+  bool replay(std::span<const double> x, std::size_t slot);
+  void count(std::span<const double> xs, const Evaluations::Call& call);
+  void contradict(std::size_t slot, std::string what);
+
+  SharedState& shared_;
+  std::optional<std::uint64_t> replay_from_;
+  const std::atomic<bool>* needless_;
+  GoodPoints good_;
+  JournalEntry entry_;
+};
+
+}  // namespace tunica::search

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/starts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+
+#include "tunica/random.hpp"
+
+namespace tunica::search {
+namespace {
+
+constexpr std::size_t first_block = 8, largest_block = 64;
+
+std::uint64_t seed_of_start(std::uint64_t seed, std::size_t number) {
+  return derive_seed(seed, fmt::format("start {}", number));
+}
+
+}  // namespace
+
+StartProblem::StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed,
+                           std::optional<std::uint64_t> replay_from, const std::atomic<bool>* needless)
+    : oracle(shared, std::move(ledger), replay_from, needless), shared_(shared), seed_(seed) {}
+
+Status StartProblem::evaluate(std::span<const double> x, double& objective) { return oracle.evaluate(x, objective); }
+
+void StartProblem::evaluate_batch(std::span<const double> xs, std::span<double> objectives,
+                                  std::span<Status> statuses) {
+  oracle.evaluate_batch(xs, objectives, statuses);
+}
+
+Status StartProblem::linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                               std::span<double> jacobian) {
+  return oracle.linearise(x, objective, residuals, jacobian);
+}
+
+std::size_t StartProblem::for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) {
+  const std::uint64_t own = seed_;
+  std::size_t k = 0;
+  for (; k < count && !should_stop(); ++k) {
+    seed_ = seed_of_start(own, k);
+    body(k, *this);
+  }
+  seed_ = own;
+  return k;
+}
+
+std::uint64_t StartProblem::seed(std::string_view purpose) const { return derive_seed(seed_, purpose); }
+
+void Starts::take(StartProblem& start) {
+  begun_ += parent_.ledger.stopped() ? 0 : 1;
+  merge_(start.oracle.made);
+  // A start that the clock or the user ended is not whole: what follows it in order must not be counted.
+  const StopReason reason = start.oracle.ledger.stop_reason();
+  if (reason == StopReason::interrupted || reason == StopReason::max_time) parent_.ledger.stop(reason);
+  start.oracle.made = {};
+}
+
+void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
+                       const std::function<void(std::size_t, Problem&)>& body) {
+  const Ledger at_begin = parent_.ledger.for_one_start();
+  std::size_t k = 0;
+  // A journal numbers evaluations in the merged order, so starts that it covers run one after the other.
+  for (; k < size && shared_.replaying && !parent_.ledger.stopped(); ++k) {
+    StartProblem start(shared_, at_begin, seed_of_start(seed, first + k), parent_.ledger.next_index());
+    body(first + k, start);
+    take(start);
+  }
+  std::vector<std::unique_ptr<StartProblem>> starts(size);
+  std::vector<char> finished(size, 0);
+  std::atomic<bool> needless = parent_.ledger.stopped();
+  std::size_t next = k;
+  std::mutex mutex;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(k, size, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t at = range.begin(); at < range.end(); ++at) {
+          starts[at] = std::make_unique<StartProblem>(shared_, at_begin, seed_of_start(seed, first + at), std::nullopt,
+                                                      &needless);
+          body(first + at, *starts[at]);
+          const std::lock_guard lock(mutex);
+          finished[at] = 1;
+          for (; next < size && finished[next]; ++next) {
+            take(*starts[next]);
+            starts[next].reset();
+          }
+          needless = parent_.ledger.stopped();
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+std::size_t Starts::run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body) {
+  for (std::size_t done = 0, block = first_block; done < count && !parent_.should_stop();
+       block = std::min(2 * block, largest_block)) {
+    const std::size_t size = std::min(block, count - done);
+    run_block(done, size, seed, body);
+    done += size;
+  }
+  return begun_;
+}
+
+}  // namespace tunica::search

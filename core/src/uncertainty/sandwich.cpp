@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "uncertainty/sandwich.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
+namespace tunica::uncertainty {
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// 2 w ρ' of every residual.
+Vector weights(const assembly::Assembly& assembly, std::span<const double> residuals) {
+  Vector found(static_cast<Eigen::Index>(residuals.size()));
+  for (const ResidualBlock& block : assembly.layout().blocks) {
+    double s = 0;
+    for (const double r : residuals.subspan(block.offset, block.size)) s += r * r;
+    constexpr double epsilon = Problem::root_smoothing;
+    const bool root = block.loss == ResidualBlock::Loss::root;
+    found.segment(static_cast<Eigen::Index>(block.offset), static_cast<Eigen::Index>(block.size))
+        .setConstant(2 * block.weight * (root ? 0.5 / std::sqrt(s + epsilon * epsilon) : 1));
+  }
+  return found;
+}
+
+/// Lᵀ t for every column of t: whitened errors z = L⁻¹ e are own e_k − previous e_{k−1} within a channel, so that
+/// L⁻ᵀ u = t is solved from the last row backwards.
+Matrix by_unit_noise(const assembly::Whitening& noise, const Matrix& by_prediction) {
+  Matrix u(static_cast<Eigen::Index>(noise.rows.size()), by_prediction.cols());
+  const auto innovation = [](const assembly::Whitening::Row& row) {
+    return std::sqrt(1 - row.neighbour * row.neighbour);
+  };
+  for (std::size_t k = noise.rows.size(); k-- > 0;) {
+    const assembly::Whitening::Row& row = noise.rows[k];
+    const auto at = static_cast<Eigen::Index>(k);
+    u.row(at) = by_prediction.row(static_cast<Eigen::Index>(row.prediction));
+    if (k + 1 < noise.rows.size() && noise.rows[k + 1].neighbour != 0)
+      u.row(at) += noise.rows[k + 1].neighbour / (row.sd * innovation(noise.rows[k + 1])) * u.row(at + 1);
+    u.row(at) *= row.sd * innovation(row);
+  }
+  return u;
+}
+
+}  // namespace
+
+Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
+                      const assembly::Whitening& noise, Spectrum& spectrum) {
+  std::vector<Eigen::Index> seen, unseen;
+  for (Eigen::Index k = 0; k < spectrum.values.size(); ++k)
+    (spectrum.seen[static_cast<std::size_t>(k)] == Visibility::not_at_all ? unseen : seen).push_back(k);
+  const auto k = static_cast<Eigen::Index>(seen.size());
+  if (k == 0) return {};
+
+  const auto n = static_cast<Eigen::Index>(free.size()),
+             m = static_cast<Eigen::Index>(assembly.layout().residual_count);
+  std::vector<double> residuals(assembly.layout().residual_count), entries(residuals.size() * free.size());
+  const auto workspace = assembly.evaluator().make_workspace();
+  double objective = 0;
+  if (Status status = assembly.evaluator().evaluate(free, objective, {}, residuals, entries, *workspace);
+      status.kind() == Status::Kind::failed)
+    return status;
+  assembly.box().jacobian_to_unit(free, entries);
+  // In directions scaled by their singular values the likelihood's JᵀJ is the identity, and H no worse than the
+  // weights.
+  const Vector width = spectrum.values(seen).cwiseInverse();
+  const Matrix scaled = spectrum.V(Eigen::all, seen) * width.asDiagonal();
+  const Matrix J = Eigen::Map<const Rows>(entries.data(), m, n) * scaled;
+  const Matrix weighted = weights(assembly, residuals).asDiagonal() * J;
+  const Matrix H = J.transpose() * weighted;
+
+  Matrix by_prediction(static_cast<Eigen::Index>(assembly.layout().prediction_count), k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Vector column = weighted.col(j);
+    assembly.evaluator().transpose_residuals({column.data(), residuals.size()},
+                                             {&by_prediction(0, j), assembly.layout().prediction_count});
+  }
+  const Matrix u = by_unit_noise(noise, by_prediction);
+  Matrix M = u.transpose() * u;
+  const auto priors = static_cast<Eigen::Index>(noise.priors.size());
+  M += weighted.bottomRows(priors).transpose() * weighted.bottomRows(priors);
+
+  const Eigen::LDLT<Matrix> solver(H);
+  const Eigen::LLT<Matrix> root(M);
+  if (solver.info() != Eigen::Success || !solver.isPositive() || root.info() != Eigen::Success)
+    return Status::failed("the objective's curvature is singular in directions that the data see");
+  const Matrix spread = width.asDiagonal() * solver.solve(Matrix(root.matrixL()));
+  const Eigen::JacobiSVD<Matrix> svd(spread, Eigen::ComputeFullU);
+  const Matrix V = spectrum.V(Eigen::all, seen) * svd.matrixU();
+  for (Eigen::Index a = 0; a < k; ++a) {  // singular values fall, so widths in reverse
+    const Eigen::Index from = k - 1 - a, to = seen[static_cast<std::size_t>(a)];
+    const double sd = svd.singularValues()[from];
+    spectrum.V.col(to) = V.col(from);
+    spectrum.values[to] = 1 / sd;
+    spectrum.variance[to] = sd * sd;
+    spectrum.seen[static_cast<std::size_t>(to)] = sd > 1 ? Visibility::weakly : Visibility::well;
+  }
+  return {};
+}
+
+}  // namespace tunica::uncertainty

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "text/csv.hpp"
+#include "text/lists.hpp"
+#include "text/terminal.hpp"
+#include "text/units.hpp"
+
+using namespace tunica::text;
+
+TEST(Lists, JoinAsASentenceDoes) {
+  EXPECT_EQ(joined(std::vector<std::string>{}), "");
+  EXPECT_EQ(joined(std::vector<std::string>{"a"}), "a");
+  EXPECT_EQ(joined(std::vector<std::string>{"a", "b"}), "a and b");
+  EXPECT_EQ(joined(std::vector<std::string>{"a", "b", "c"}), "a, b and c");
+}
+
+TEST(Lists, CountInWords) {
+  EXPECT_EQ(counted(1, "search", "searches"), "1 search");
+  EXPECT_EQ(counted(0, "search", "searches"), "0 searches");
+  EXPECT_EQ(agreeing(1, "was", "were"), "was");
+  EXPECT_EQ(agreeing(2, "was", "were"), "were");
+}
+
+TEST(Lists, BeginASentence) {
+  EXPECT_EQ(capitalised("mu and k1"), "Mu and k1");
+  EXPECT_EQ(capitalised(""), "");
+}
+
+TEST(Units, StandBesideWhatHasADimension) {
+  EXPECT_EQ(unit_suffix("kPa"), " kPa");
+  EXPECT_EQ(unit_suffix("1"), "");
+  EXPECT_EQ(unit_suffix(""), "");
+  EXPECT_EQ(titled("mu", "kPa"), "mu [kPa]");
+  EXPECT_EQ(titled("k2", "1"), "k2");
+  EXPECT_TRUE(is_dimensionless("1"));
+  EXPECT_FALSE(is_dimensionless("deg"));
+}
+
+TEST(Csv, QuotesWhatWouldBreakACell) {
+  EXPECT_EQ(csv_cell("plain"), "plain");
+  EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_cell("say \"a\""), "\"say \"\"a\"\"\"");
+  EXPECT_EQ(csv_cell("two\nlines"), "two lines");
+}
+
+TEST(Terminal, WritesTimesAsClocksDo) {
+  EXPECT_EQ(clock_text(7.4), "0:07");
+  EXPECT_EQ(clock_text(750), "12:30");
+  EXPECT_EQ(clock_text(3 * 3600 + 5 * 60), "3:05:00");
+}
+
+TEST(Terminal, IsNoneWhereOutputIsAFile) {
+  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  ASSERT_GE(null, 0);
+  const auto terminal = Terminal::of(null);
+  ::close(null);
+  EXPECT_FALSE(terminal.redraws);
+  EXPECT_FALSE(terminal.colours);
+  EXPECT_EQ(terminal.columns, 80u);
+}
