@@ -103,12 +103,12 @@ TEST_F(NativeInFiles, EachIsTheParameterOfTheTestAndFree) {
     SCOPED_TRACE(is.mechanism);
     const std::string named = fmt::format(R"("mechanisms": [{{"type": "{}"}}])", is.mechanism);
     const auto with = assemble(file(is.test, named));
-    EXPECT_EQ(with.parameters().back().name, fmt::format("a.{}.{}", is.mechanism, is.parameter));
+    EXPECT_EQ(with.layout().parameters.back().name, fmt::format("a.{}.{}", is.mechanism, is.parameter));
     // The parameter itself, set free by its bounds.
-    const auto& bounds = with.parameters().back();
+    const auto& bounds = with.layout().parameters.back();
     const auto own = assemble(file(is.test, fmt::format(R"("parameters": {{"{}": {{"min": {}, "max": {}}}}})",
                                                         is.native, bounds.min, bounds.max)));
-    EXPECT_EQ(own.parameters().back().name, fmt::format("a.{}", is.native));
+    EXPECT_EQ(own.layout().parameters.back().name, fmt::format("a.{}", is.native));
     expect_same_bits(predict(with, {is.value}), predict(own, {is.value}));
 
     const auto fixed = assemble(
