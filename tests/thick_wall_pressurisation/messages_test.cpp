@@ -17,10 +17,10 @@ std::string refusal(const std::vector<double>& pressure, const TubeSetup& setup)
   }
   return {};
 }
-Options lengths(double inner, double outer, double thickness) {
+Options lengths(double inside, double outside, double thickness) {
   Options options;
-  options.set("inner_radius", inner);
-  options.set("outer_radius", outer);
+  options.set("inner_radius", inside);
+  options.set("outer_radius", outside);
   options.set("thickness", thickness);
   return options;
 }
