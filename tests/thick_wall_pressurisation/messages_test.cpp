@@ -78,7 +78,7 @@ TEST(TubeMessages, PathsWithHistoryHaveNoJacobian) {
   const Status status = make_tube({1})->predict({*viscous, {{60, 0.8, 5}}, bare_tube}, {{}, jacobian, {}, {}});
   EXPECT_EQ(status.kind(), Status::Kind::failed);
   EXPECT_SAYS(status.reason(), "no exact Jacobian along the path of a model with history");
-  const Inflated burst = inflate(*make_tube({1, 400}), *viscous, {60, 0.8, 5});
+  const Inflation burst = inflate(*make_tube({1, 400}), *viscous, {60, 0.8, 5});
   EXPECT_SAYS(burst.status.reason(), "no equilibrium at row 2 (pressure 400 kPa, axial stretch 1.2)");
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "assembly/channels.hpp"
 #include "assembly/noise.hpp"
 
 namespace tunica::diagnosis {
@@ -206,7 +207,7 @@ std::vector<double> row_deviations(const assembly::MeasuredChannel& view) {
   noise.gross.clear();
   std::vector<std::string> warnings;
   return assembly::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
-                                  view.test, warnings)
+                               view.test, warnings)
       .sd;
 }
 
