@@ -93,7 +93,7 @@ class WrappedModel : public Model {
     const std::size_t last = points.parameters.size() - 1, n = points.count;
     inner.parameters = points.parameters.first(last);
     if (kind_ == Kind::memory && !response.stress_dp.empty()) return Status::failed("no parameter derivatives");
-    if (Status status = base_->evaluator().evaluate(inner, response); !status.ok()) return status;
+    if (Status status = base_->evaluate(inner, response); !status.ok()) return status;
     const double v = points.parameters[last];
     double before = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -229,7 +229,7 @@ class WrappedTest : public Test {
     const std::size_t last = input.test_parameters.size() - 1, size = output.values.size();
     TestInput inner = input;
     inner.test_parameters = input.test_parameters.first(last);
-    if (Status status = base_->evaluator().predict(inner, output); !status.ok()) return status;
+    if (Status status = base_->predict(inner, output); !status.ok()) return status;
     const double v = input.test_parameters[last];
     const std::size_t slots = input.model_parameters.size() + last;
     for (std::size_t i = 0; i < size; ++i) {

@@ -21,8 +21,8 @@ std::vector<Variable> each_alone(const assembly::Assembly& assembly) {
 }
 
 Fit fit(const assembly::Assembly& assembly, const std::vector<Variable>& variables, const std::vector<double>& start,
-        const Rows& rows = {}) {
-  Fit found = least_squares(assembly, variables, start, *assembly.evaluator().make_workspace(), 200, rows);
+        const DataVariant& data = {}) {
+  Fit found = least_squares(assembly, variables, start, *assembly.evaluator().make_workspace(), 200, data);
   EXPECT_TRUE(found.status.ok()) << found.status.reason();
   return found;
 }
@@ -101,8 +101,8 @@ TEST(LeastSquares, ReachesTheSameOptimumWithSecantsAsWithExactJacobians) {
   differenced.model().mechanisms = {{"memory", {}, {}}};
   differenced.model().mechanisms[0].parameters["g"].fixed = 0;
   const auto exact = plain.assemble(), secant = differenced.assemble();
-  ASSERT_TRUE(exact.jacobian_is_exact());
-  ASSERT_FALSE(secant.jacobian_is_exact());
+  ASSERT_TRUE(exact.layout().jacobian_is_exact);
+  ASSERT_FALSE(secant.layout().jacobian_is_exact);
   const Fit one = fit(exact, each_alone(exact), {9, 0.2, -3}), other = fit(secant, each_alone(secant), {9, 0.2, -3});
   EXPECT_NEAR(other.chi2, one.chi2, 1e-4);
   for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(other.free[j], one.free[j], 1e-3);
