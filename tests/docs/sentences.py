@@ -71,7 +71,7 @@ def sentences(text):
             ends = re.search(r"[.!?…]$", token.rstrip(")*_\"'”’"))
             initial = re.fullmatch(r"(?:[A-Z]\.)+(?:-?[A-Z]\.)*", bare)
             following = tokens[place + 1] if place + 1 < len(tokens) else ""
-            starts = not following or re.match(r"[(\"'“‘*_]*[A-Z0-9|Λα-ω]", following) or following in ("code", "tunica")
+            starts = not following or re.match(r"[(\"'“‘*_]*[A-Z0-9|Λα-ω]", following) or following == "code" or following.startswith("tunica")
             if ends and starts and not initial and bare.lower() not in ABBREVIATIONS:
                 if len(words) > 2:
                     yield words
