@@ -21,8 +21,8 @@ std::vector<Variable> each_alone(const assembly::Assembly& assembly) {
 }
 
 Fit fit(const assembly::Assembly& assembly, const std::vector<Variable>& variables, const std::vector<double>& start,
-        const Rows& rows = {}) {
-  Fit found = least_squares(assembly, variables, start, *assembly.evaluator().make_workspace(), 200, rows);
+        const DataVariant& data = {}) {
+  Fit found = least_squares(assembly, variables, start, *assembly.evaluator().make_workspace(), 200, data);
   EXPECT_TRUE(found.status.ok()) << found.status.reason();
   return found;
 }
