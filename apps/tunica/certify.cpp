@@ -48,19 +48,20 @@ int certify(const GlobalOptions& global, const CertifyOptions& options) {
 
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<CertifyOptions>();
-  auto* verb = app.add_subcommand("certify", "Evaluate the best points of a finished run and their neighbours again");
+  auto* verb = app.add_subcommand("certify", "Check the best points of a finished run and their neighbours once more");
   verb->add_option("folder", options->folder, "Folder that `tunica run` has written")->required()->type_name("DIR");
-  verb->add_option("-j,--threads", options->threads, "Threads for the neighbours; all of the machine without it")
+  verb->add_option("-j,--threads", options->threads, "Threads for the neighbours (default: all of the machine)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   verb->add_option("--best-points", options->best_points, "Before there is a result.json: the points to evaluate")
       ->type_name("FILE")
       ->group("");
-  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+  verb->add_flag("--quiet", global.quiet, "Print only errors on stderr");
   verb->footer(
       "Prints JSON: for every run the objective in this process, its difference from the recorded one, and the lowest\n"
-      "of the neighbours. Exit code 1, and a line on stderr, where a recorded objective is not confirmed.\n"
-      "`tunica run` asks a process of its own for it, for `certificate` in result.json.\n\n"
+      "of the neighbours. Where a recorded objective is not confirmed, a line on stderr says so and the exit code is "
+      "1.\n"
+      "`tunica run` asks a fresh process for the same, and result.json has the answer as `certificate`.\n\n"
       "Examples:\n"
       "  tunica certify results/a\n"
       "  tunica certify results/a | jq '.runs[].difference'");

@@ -73,7 +73,7 @@ void print_agreement(const calibration::OtherMeans& other) {
                hanging(fmt::format("  {} against ", other.test),
                        fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference, text::unit_suffix(one.unit),
                                    calibration::agrees(one) ? ""
-                                                            : fmt::format("; NOT MORE THAN {:.2g} WAS EXPECTED: take a "
+                                                            : fmt::format("; at most {:.2g} was expected. Take a "
                                                                           "finer mesh, or do not trust this simulation",
                                                                           one.expected))));
   if (!other.status.ok())
@@ -125,7 +125,7 @@ void print(const calibration::Examination& checked, const std::string& file) {
     print_initial_point(problem);
   }
   fmt::print("\n{}\n", checked.good() ? fmt::format("In order. Next: tunica run {}", file)
-                                      : std::string("Not in order: see above. Searches begin all the same."));
+                                      : std::string("Not in order: see above. `tunica run` would still start."));
 }
 
 int check(const GlobalOptions& global, const std::string& file, bool as_json) {
@@ -144,9 +144,10 @@ int check(const GlobalOptions& global, const std::string& file, bool as_json) {
 void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
   auto file = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
-  auto* verb = app.add_subcommand("check", "Dry run: names, units, data, bounds, the initial point, identifiability");
+  auto* verb =
+      app.add_subcommand("check", "Dry run: check names, units, data, bounds, the initial point and identifiability");
   verb->add_option("experiment", *file, "Experiment file (JSON)")->required()->type_name("EXP");
-  verb->add_flag("--json", *as_json, "One JSON object; `in_order` says whether the exit code is 0");
+  verb->add_flag("--json", *as_json, "Print one JSON object; `in_order` says whether the exit code is 0");
   verb->footer(
       "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n"
       "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n\nWrites nothing.");

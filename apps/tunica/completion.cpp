@@ -31,13 +31,14 @@ int complete(const CLI::App& app, const std::string& shell) {
 
 void add_completion(CLI::App& app, GlobalOptions&, Action& action) {
   auto shell = std::make_shared<std::string>();
-  auto* verb = app.add_subcommand("completion", "Print what makes a shell complete verbs, options, files and names");
+  auto* verb =
+      app.add_subcommand("completion", "Print the script that completes verbs, options, files and names in a shell");
   verb->add_option("shell", *shell, "The shell: bash or zsh")->required()->type_name("bash|zsh");
   verb->footer(
       "Examples:\n"
       "  tunica completion bash > ~/.local/share/bash-completion/completions/tunica\n"
       "  source <(tunica completion bash)\n\n"
-      "An installed tunica brings both along; only one that runs from its build folder needs this.");
+      "An installed tunica includes both scripts; you need this only when you run it from its build folder.");
   verb->callback([&app, &action, shell] { action = [&app, shell] { return complete(app, *shell); }; });
 }
 
@@ -46,7 +47,7 @@ void add_man(CLI::App& app, GlobalOptions&, Action& action) {
   verb->footer(
       "Examples:\n"
       "  tunica man | man -l -\n\n"
-      "An installed tunica brings it along: man tunica.");
+      "An installed tunica includes it: man tunica.");
   verb->callback([&app, &action] {
     action = [&app] {
       fmt::print("{}", manual_page(command_tree(app), comparison::version()));

@@ -11,9 +11,9 @@
 #include "describe.hpp"
 #include "exit_codes.hpp"
 #include "plugins/guarded.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
-#include "text/wrapping.hpp"
 
 namespace tunica::app {
 
@@ -185,8 +185,8 @@ void add_describe(CLI::App& app, GlobalOptions& global, Action& action) {
   auto name = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   auto* verb = app.add_subcommand("describe", "Describe a model, test, optimizer or mechanism");
-  verb->add_option("name", *name, "As `tunica list` shows it")->required()->type_name("NAME");
-  verb->add_flag("--json", *as_json, "One JSON object, with the kind of what is described as its key");
+  verb->add_option("name", *name, "Name as `tunica list` shows it")->required()->type_name("NAME");
+  verb->add_flag("--json", *as_json, "Print one JSON object, whose key is the kind of what is described");
   verb->footer(
       "Examples:\n  tunica describe gho\n  tunica describe uniaxial\n  tunica describe ceres_lm\n"
       "  tunica describe gho --json | jq '.model.parameters[].name'");

@@ -16,18 +16,18 @@
 #include <string>
 #include <vector>
 
-#include "text/wrapping.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "text/terminal.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "text/terminal.hpp"
+#include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"

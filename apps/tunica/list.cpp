@@ -10,8 +10,8 @@
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "exit_codes.hpp"
-#include "verbs.hpp"
 #include "text/wrapping.hpp"
+#include "verbs.hpp"
 
 namespace tunica::app {
 
@@ -49,7 +49,7 @@ void print_shelf(const std::string& title, const Shelf& shelf, const ListOptions
       fmt::print("{}\n", name);
     else
       fmt::print("{}\n", text::hanging(fmt::format("  {:<{}}  ", name, width),
-                                             fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
+                                       fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
 }
 
 int list(const GlobalOptions& global, const ListOptions& options) {
@@ -78,10 +78,10 @@ int list(const GlobalOptions& global, const ListOptions& options) {
 void add_list(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<ListOptions>();
   auto* verb = app.add_subcommand("list", "List what the loaded plugins provide");
-  verb->add_option("what", options->what, "models, tests, optimizers or mechanisms; everything without it")
+  verb->add_option("what", options->what, "models, tests, optimizers or mechanisms (default: everything)")
       ->type_name("models|tests|optimizers|mechanisms");
-  verb->add_flag("--names", options->names, "Only the names, one a line");
-  verb->add_flag("--json", options->as_json, "One JSON object, with the plugins and those that were refused");
+  verb->add_flag("--names", options->names, "Print only the names, one a line");
+  verb->add_flag("--json", options->as_json, "Print one JSON object, with the plugins and those that were refused");
   verb->footer(
       "Examples:\n  tunica list\n  tunica list models\n  tunica list optimizers --plugin-path my_plugins\n"
       "  tunica list mechanisms --json | jq '.mechanisms[].name'");

@@ -55,7 +55,7 @@ int run(int argc, char** argv) {
   app.formatter(help_format());
   app.set_version_flag("--version", "tunica " + comparison::version());
   app.add_option("--plugin-path", global.plugin_paths,
-                 "Folder to search for plugins first, or a plugin file; may be given several times")
+                 "Plugin file, or folder to search for plugins first; may be repeated")
       ->type_name("PATH")
       ->allow_extra_args(false);
   app.add_flag("--allow-world-writable-plugins", global.allow_world_writable_plugins,

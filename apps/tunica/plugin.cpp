@@ -6,7 +6,7 @@
 namespace tunica::app {
 
 void add_plugin(CLI::App& app, GlobalOptions& global, Action& action) {
-  auto* verb = app.add_subcommand("plugin", "Begin a plugin of your own, or check one");
+  auto* verb = app.add_subcommand("plugin", "Start a plugin of your own, or check one");
   verb->require_subcommand(1);
   verb->footer(
       "Examples:\n  tunica plugin new model my_model      a project that builds and passes\n"

@@ -23,8 +23,8 @@ namespace tunica::app {
 namespace {
 
 namespace fs = std::filesystem;
-using text::hanging;
 using conformance::Finding;
+using text::hanging;
 using json = nlohmann::ordered_json;
 
 struct Asked {
@@ -35,12 +35,12 @@ struct Asked {
 };
 
 /// The plugin under check before all others, so that its names are its own; the others are its partners.
-struct OnTheBench {
+struct CheckedPlugin {
   plugins::Catalogue catalogue;
   plugins::LoadedPlugin loaded;
   conformance::Contents contents;
 
-  OnTheBench(const GlobalOptions& global, const fs::path& file) {
+  CheckedPlugin(const GlobalOptions& global, const fs::path& file) {
     const bool trusting = global.allow_world_writable_plugins;
     if (!fs::exists(file)) throw InputError(fmt::format("{}: no such file; expected a plugin to check", file.string()));
     try {
@@ -117,7 +117,8 @@ json as_json(const Finding& finding) {
   json one{{"kind", finding.kind},         {"name", finding.name},        {"with", finding.with},
            {"property", finding.property}, {"outcome", outcome(finding)}, {"compared", verdict.compared}};
   // An error that is infinite is no number in JSON.
-  one["worst"] = verdict.worst, one["tolerance"] = verdict.tolerance;
+  one["worst"] = verdict.worst;
+  one["tolerance"] = verdict.tolerance;
   if (!verdict.counter_example.empty()) one["counter_example"] = verdict.counter_example;
   if (!verdict.skipped.empty()) one["reason"] = verdict.skipped;
   if (!verdict.note.empty()) one["note"] = verdict.note;
@@ -126,7 +127,7 @@ json as_json(const Finding& finding) {
 }
 
 int check_plugin(const GlobalOptions& global, const Asked& asked) {
-  const OnTheBench bench(global, asked.file);
+  const CheckedPlugin bench(global, asked.file);
   const std::string plugin = fmt::format("{} {}", bench.loaded.name, bench.loaded.version);
   if (bench.contents.empty())
     throw InputError(
@@ -145,7 +146,10 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     if (!asked.as_json) table.add(one);
   });
   std::size_t failed = 0, skipped = 0;
-  for (const Finding& one : findings) failed += one.failed(), skipped += !one.verdict.skipped.empty();
+  for (const Finding& one : findings) {
+    failed += one.failed();
+    skipped += !one.verdict.skipped.empty();
+  }
   if (asked.as_json) {
     json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
     for (const Finding& one : findings) all["findings"].push_back(as_json(one));
@@ -162,8 +166,8 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     fmt::print("\n{}\n", hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
                                                  "follow from it, and check again with --only NAME; what each "
                                                  "property means is in docs/plugin-check.md.",
-                                                 text::counted(failed, "property failed", "properties failed") +
-                                                     ", " + checked)));
+                                                 text::counted(failed, "property failed", "properties failed") + ", " +
+                                                     checked)));
   return failed == 0 ? done : not_converged;
 }
 
@@ -171,22 +175,22 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
 
 void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action) {
   auto asked = std::make_shared<Asked>();
-  auto* verb = plugin.add_subcommand("check", "Hold a plugin to every property that tunica relies on");
+  auto* verb = plugin.add_subcommand("check", "Check every property of a plugin that tunica relies on");
   verb->add_option("file", asked->file, "The plugin, a shared library")->required()->type_name("FILE");
-  verb->add_option("--seed", asked->seed, "Of the states, parameters and searches that are tried")
+  verb->add_option("--seed", asked->seed, "Seed of the states, parameters and searches that are tried")
       ->check(seed_number())
       ->type_name("S");
-  verb->add_option("--only", asked->only, "A property, or one of the things the plugin provides; may be repeated")
+  verb->add_option("--only", asked->only, "Check only this property, or this part of the plugin; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  verb->add_option("--experiment", asked->experiment, "Check tests and mechanisms of tests as they stand in this file")
+  verb->add_option("--experiment", asked->experiment, "Check tests and their mechanisms as they stand in this file")
       ->type_name("EXP");
-  verb->add_flag("--json", asked->as_json, "The verdicts as JSON on stdout");
+  verb->add_flag("--json", asked->as_json, "Print the verdicts as JSON");
   verb->footer(
       "Examples:\n  tunica plugin check build/my_model.so\n  tunica plugin check build/my_model.so --only "
       "concurrent_calls_agree\n  tunica plugin check build/my_test.so --experiment experiment.json\n\nExit code 0: "
       "every property holds; 1: one failed; 3: the plugin was refused. Each property is\nchecked in a process of its "
-      "own, so that one that crashes is a finding.");
+      "own, so a crash is a finding.");
   verb->callback([&global, &action, asked] { action = [&global, asked] { return check_plugin(global, *asked); }; });
 }
 

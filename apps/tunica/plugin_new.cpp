@@ -99,7 +99,7 @@ void add_plugin_new(CLI::App& plugin, GlobalOptions& global, Action& action) {
   auto wanted = std::make_shared<New>();
   auto* verb = plugin.add_subcommand("new", "Write a project for a new plugin: source, build, test, example");
   verb->add_option("kind", wanted->kind, "model, test, optimizer or mechanism")->required();
-  verb->add_option("name", wanted->name, "As experiments will name it: my_model")->required();
+  verb->add_option("name", wanted->name, "Name of the type in experiments: my_model")->required();
   verb->add_option("-o,--output", wanted->folder, "Folder of the project (default: NAME)")->type_name("DIR");
   verb->footer(
       "Examples:\n  tunica plugin new model my_model\n  tunica plugin new mechanism my_effect -o plugins/my_effect");

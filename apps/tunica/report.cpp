@@ -46,16 +46,17 @@ int make_report(const ReportOptions& options) {
 
 void add_report(CLI::App& app, GlobalOptions&, Action& action) {
   auto options = std::make_shared<ReportOptions>();
-  auto* verb = app.add_subcommand("report", "Make report.html again from what result folders hold, one or several");
-  verb->add_option("folders", options->folders, "Folders that run, diagnose or simulate has written")
+  auto* verb = app.add_subcommand("report", "Make report.html again from one or several result folders");
+  verb->add_option("folders", options->folders, "Folders that run, diagnose or simulate have written")
       ->required()
       ->type_name("DIR");
-  verb->add_option("-o,--output", options->file, "The file; DIR/report.html for one folder")->type_name("FILE");
+  verb->add_option("-o,--output", options->file, "The file to write (default for one folder: DIR/report.html)")
+      ->type_name("FILE");
   verb->footer(
       "Examples:\n"
       "  tunica report results/a\n"
       "  tunica report results/a results/b -o comparison.html\n\n"
-      "The file needs nothing but itself: it opens offline, in any browser.");
+      "The file is self-contained: it opens offline, in any browser.");
   verb->callback([&action, options] { action = [options] { return make_report(*options); }; });
 }
 

@@ -149,27 +149,28 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<RunOptions>();
   auto* verb = app.add_subcommand("run", "Calibrate every entry of \"runs\" and compare them");
   verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
-  verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
+  verb->add_option("-o,--output", options->directory, "New folder for the results (default: results/<name>-<n>)")
       ->type_name("DIR");
   verb->add_option("-j,--threads", options->threads,
-                   "Threads, for realisations and population members together; all of the machine without it")
+                   "Threads for realisations and population members together (default: all of the machine)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  verb->add_option("--seed", options->overrides.seed, "Root seed instead of the one in the file")
+  verb->add_option("--seed", options->overrides.seed, "Root seed in place of the one in the file")
       ->check(seed_number())
       ->type_name("S");
-  verb->add_flag("--resume", options->resume, "Go on with an interrupted run, to the identical result");
+  verb->add_flag("--resume", options->resume, "Resume an interrupted run; the result is identical");
   verb->add_option("--profiles", options->overrides.profiles,
-                   "Profile likelihood of these parameters, names separated by commas, or all")
+                   "Profile the likelihood of these parameters: names separated by commas, or all")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAMES");
-  verb->add_option("--bootstrap", options->overrides.bootstrap_draws, "Residual bootstrap with so many draws, from 40")
+  verb->add_option("--bootstrap", options->overrides.bootstrap_draws,
+                   "Residual bootstrap with this many draws (at least 40)")
       ->check(CLI::Range(40, 1000000))
       ->type_name("N");
   verb->add_flag("!--no-certificate", options->certificate,
-                 "Do not evaluate the best points and their neighbours again in a fresh process");
-  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+                 "Do not check the best points and their neighbours in a fresh process");
+  verb->add_flag("--quiet", global.quiet, "Print only errors on stderr");
   verb->footer(
       "Examples:\n"
       "  tunica run experiment.json\n"

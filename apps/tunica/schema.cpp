@@ -29,7 +29,7 @@ int write_schema(const GlobalOptions& global, const std::string& file) {
 void add_schema(CLI::App& app, GlobalOptions& global, Action& action) {
   auto file = std::make_shared<std::string>();
   auto* verb =
-      app.add_subcommand("schema", "Print the JSON Schema of experiment files, as the loaded plugins compose it");
+      app.add_subcommand("schema", "Print the JSON Schema of experiment files, composed from the loaded plugins");
   verb->add_option("-o,--output", *file, "Write to this file instead of stdout")->type_name("FILE");
   verb->footer(
       "Examples:\n  tunica schema > tunica-experiment.schema.json\n"

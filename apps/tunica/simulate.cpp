@@ -50,16 +50,17 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
 
 void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<SimulateOptions>();
-  auto* verb = app.add_subcommand("simulate", "Predict every test and write it like the data: DIR/<test>.csv");
+  auto* verb =
+      app.add_subcommand("simulate", "Predict every test and write it in the form of the data: DIR/<test>.csv");
   add_subject_options(*verb, options->subject);
-  verb->add_option("--noise", options->noise, "Relative noise: y (1 + R N(0, 1))")
+  verb->add_option("--noise", options->noise, "Add relative noise: y (1 + R N(0, 1))")
       ->check(CLI::NonNegativeNumber)
       ->type_name("R");
-  verb->add_option("--seed", options->seed, "Seed of the noise instead of the experiment's")
+  verb->add_option("--seed", options->seed, "Seed of the noise (default: that of the experiment)")
       ->check(seed_number())
       ->type_name("S");
   verb->add_option("--fields", options->fields,
-                   "Also write the fields of a simulated test, as VTK and through the wall: TEST or TEST:ROW,ROW,…")
+                   "Also write the fields of a test, as VTK and through the wall: TEST or TEST:ROW,ROW,…")
       ->type_name("TEST");
   verb->add_option("-o,--output", options->directory, "New folder")->required()->type_name("DIR");
   verb->footer(

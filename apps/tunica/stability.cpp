@@ -95,12 +95,13 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
 
 void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<StabilityOptions>();
-  auto* verb = app.add_subcommand("stability", "Is a parameter set a stable material? Over which stretches?");
+  auto* verb =
+      app.add_subcommand("stability", "Judge whether a parameter set is a stable material, and over which stretches");
   add_subject_options(*verb, options->subject);
-  verb->add_option("--to", options->to, "Judge up to this stretch instead of the largest measured one")
+  verb->add_option("--to", options->to, "Judge up to this stretch (default: the largest measured one)")
       ->check(CLI::Range(1.0, 100.0))
       ->type_name("STRETCH");
-  verb->add_option("--map", options->map, "Two free parameters: where between their bounds is it stable?")
+  verb->add_option("--map", options->map, "Map where the material is stable between the bounds of two free parameters")
       ->expected(2)
       ->type_name("X Y");
   verb->add_option("--points", options->points, "Points of the map along each parameter")
@@ -110,7 +111,7 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("-o,--output", options->directory,
                    "New folder: stability.csv (strips), energy.csv (isocontours), stability_map.csv")
       ->type_name("DIR");
-  verb->add_flag("--json", options->as_json, "One JSON object, in the form of `best.stability` of result.json");
+  verb->add_flag("--json", options->as_json, "Print one JSON object, in the form of `best.stability` of result.json");
   verb->footer(
       "Examples:\n"
       "  tunica stability experiment.json --model gho --parameters a/result.json\n"

@@ -11,9 +11,9 @@ void add_subject_options(CLI::App& verb, SubjectOptions& options) {
                   "Name of a model in the experiment; leave it out where all tests name theirs in layers")
       ->type_name("M");
   verb.add_option("--parameters", options.parameters,
-                  "A result.json, or a JSON object {name: value}; without it the fixed and initial values")
+                  "A result.json, or a JSON object {name: value} (default: the fixed and initial values)")
       ->type_name("FILE");
-  verb.add_option("--run", options.run, "A run of that result.json instead of the best-ranked one of the model")
+  verb.add_option("--run", options.run, "A run of that result.json (default: the best-ranked one of the model)")
       ->type_name("RUN");
 }
 

@@ -27,11 +27,11 @@ void on_signal(int) {
 
 }  // namespace
 
-UnfinishedFolder::UnfinishedFolder(const std::vector<std::filesystem::path>& folders, const std::string& farewell) {
+UnfinishedFolder::UnfinishedFolder(const std::vector<std::filesystem::path>& folders, const std::string& message) {
   to_remove.clear();
   // Absolute: something may change the working directory on the way.
   for (const auto& folder : folders) to_remove.push_back(std::filesystem::absolute(folder).string());
-  last_words = farewell;
+  last_words = message;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
 }

@@ -65,7 +65,7 @@ TEST_F(ProblemOnALine, RefusesEverythingAfterTheBudgetWithoutCounting) {
   std::vector<Status> statuses(8);
   problem.evaluate_batch(xs, objectives, statuses);
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_sentence(), "max_evaluations");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::max_evaluations);
   EXPECT_EQ(problem.evaluations(), 5u);
   EXPECT_EQ(problem.budget(), 0u);
   EXPECT_TRUE(statuses[4].ok());
@@ -91,7 +91,7 @@ TEST_F(ProblemOnALine, StopsAtItsTarget) {
   EXPECT_FALSE(problem.should_stop());
   EXPECT_TRUE(problem.evaluate(std::vector<double>{0.1, 0.5, 0.5}, objective).ok());
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_sentence(), "target");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::target);
 }
 
 TEST_F(ProblemOnALine, StopsWhenItStalls) {
@@ -103,7 +103,7 @@ TEST_F(ProblemOnALine, StopsWhenItStalls) {
   for (const double a : {0.5, 0.4, 0.6, 0.3, 0.3, 0.3, 0.3}) {
     static_cast<void>(problem.evaluate(std::vector<double>{a, 0.5, 0.5}, objective));
   }
-  EXPECT_EQ(problem.stop_sentence(), "stall");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::stall);
   EXPECT_EQ(problem.evaluations(), 7u);
   EXPECT_EQ(problem.best().index, 3u);
 }
@@ -121,7 +121,7 @@ TEST_F(ProblemOnALine, StopsOnTheClockAndOnRequest) {
   EXPECT_FALSE(problem.should_stop());
   pressed = true;
   EXPECT_TRUE(problem.should_stop());
-  EXPECT_EQ(problem.stop_sentence(), "interrupted");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::interrupted);
 }
 
 TEST_F(ProblemOnALine, LinearisesInTheUnitBox) {
@@ -245,6 +245,7 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
     s.on_failure = experiment::OnFailure::stop;
     CalibrationProblem problem(assembly, s);
     static_cast<void>(problem.evaluate(bad, objective));
+    EXPECT_EQ(problem.stop_reason(), search::StopReason::failure);
     EXPECT_EQ(problem.stop_sentence(), "failure: test 't': a is too large");
   }
   {
@@ -256,6 +257,7 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
       EXPECT_FALSE(problem.should_stop());
       static_cast<void>(problem.evaluate(bad, objective));
     }
+    EXPECT_EQ(problem.stop_reason(), search::StopReason::failure_rate);
     EXPECT_THAT(problem.stop_sentence(), HasSubstr("failure rate: 51 of 100 evaluations failed"));
   }
   {
@@ -264,10 +266,19 @@ TEST_F(ProblemOnALine, PenalisesStopsOrLimitsFailures) {
     for (int k = 0; k < 250; ++k) xs.insert(xs.end(), bad.begin(), bad.end());
     std::vector<Status> statuses(250);
     problem.evaluate_batch(xs, objectives, statuses);
+    EXPECT_EQ(problem.stop_reason(), search::StopReason::nothing_succeeded);
     EXPECT_THAT(
         problem.stop_sentence(),
         HasSubstr("nothing succeeded in the first 200 evaluations; the first failure: test 't': a is too large"));
   }
+}
+
+TEST(StopReason, IsFoundAgainByItsCode) {
+  for (const auto& [reason, code] : search::stop_reason_codes) {
+    EXPECT_EQ(search::code(reason), code);
+    EXPECT_EQ(search::stop_reason_from_code(code), reason);
+  }
+  EXPECT_EQ(search::stop_reason_from_code("tired"), std::nullopt);
 }
 
 TEST_F(ProblemOnALine, RetriesFromTheNearestGoodPoint) {

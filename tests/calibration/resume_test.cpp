@@ -102,7 +102,7 @@ TEST_F(Resuming, NumbersALaterStageOn) {
   EXPECT_EQ(recording.lines.front().index, 40u);
   EXPECT_EQ(recording.lines.back().index, 44u);
   EXPECT_GE(problem.best().index, 40u);
-  EXPECT_EQ(problem.stop_sentence(), "max_evaluations") << "the budget is the stage's own";
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::max_evaluations) << "the budget is the stage's own";
 }
 
 }  // namespace

@@ -232,7 +232,7 @@ TEST_F(StartsOnALine, KeepAPrefixWhenInterrupted) {
   CalibrationProblem problem(assembly, settings);
   wander(problem, 2);
   problem.for_each_start(20, [](std::size_t k, Problem& child) { wander(child, 5 + static_cast<int>(k % 4) * 5); });
-  EXPECT_EQ(problem.stop_sentence(), "interrupted");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::interrupted);
   ASSERT_LT(recording.lines.size(), whole.lines.size());
   EXPECT_TRUE(std::equal(recording.lines.begin(), recording.lines.end(), whole.lines.begin()));
   EXPECT_GT(recording.lines.size(), 10u);
@@ -256,7 +256,7 @@ TEST_F(StartsOnALine, EndThoseUnderWayWhenAnEarlierOneEndsTheSearch) {
     for (; !child.should_stop(); ++wasted) static_cast<void>(child.evaluate(fails, objective));
   });
   EXPECT_EQ(problem.evaluations(), 1u);
-  EXPECT_EQ(problem.stop_sentence(), "target");
+  EXPECT_EQ(problem.stop_reason(), search::StopReason::target);
   EXPECT_EQ(begun, 1u);
   EXPECT_LT(wasted, most);
 }

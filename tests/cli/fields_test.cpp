@@ -108,7 +108,7 @@ TEST_F(Fields, OfTheBestPointComeWithEveryRun) {
 TEST_F(Fields, SayWhatCannotBeShown) {
   EXPECT_THAT(refused("tub:1"), HasSubstr("--fields tub: the experiment has no test of that name"));
   EXPECT_THAT(refused("tube:4"), HasSubstr("--fields tube: there is no row 4; the test has 3"));
-  EXPECT_THAT(refused("tube:first"), HasSubstr("--fields tube:first: 'first' is no row; rows are counted from 1"));
+  EXPECT_THAT(refused("tube:first"), HasSubstr("--fields tube:first: 'first' is not a row; rows are counted from 1"));
   const std::string strip = bench.experiment["tests"].begin().key();
   ASSERT_NE(strip, "tube");
   EXPECT_THAT(refused(strip), HasSubstr("this test has no fields to show"));

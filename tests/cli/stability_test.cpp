@@ -120,7 +120,7 @@ TEST(Stability, SaysWhoseParametersItTakesAndTakesThoseOfANamedRun) {
                 HasSubstr("no run 'neo/ex' of the model 'neo' has a result in it. Did you mean 'neo/es'?"));
     EXPECT_THAT(asked({"--run", "neo/es"}).err, HasSubstr("name that with --parameters"));
     bench.folder.write("p.json", R"({"mu": -5})");
-    EXPECT_THAT(asked({"--run", "neo/es", "--parameters", "p.json"}).err, HasSubstr("is no result.json"));
+    EXPECT_THAT(asked({"--run", "neo/es", "--parameters", "p.json"}).err, HasSubstr("is not a result.json"));
   }
   EXPECT_THAT(bench.tunica({"stability", "experiment.json", "--model", "neo", "--parameters", "p.json"}).err,
               HasSubstr("warning: mu = -5 kPa lies outside "));

@@ -16,7 +16,9 @@ namespace {
 Quality channel(const std::string& test, const std::string& name, bool held_out, std::size_t rows, double rmse,
                 std::optional<double> r2, double nmad = 20) {
   Quality quality{test, name, name == "force" ? "mN" : "mm", held_out, {}};
-  quality.agreement.rows = rows, quality.agreement.rmse = rmse, quality.agreement.r2 = r2;
+  quality.agreement.rows = rows;
+  quality.agreement.rmse = rmse;
+  quality.agreement.r2 = r2;
   quality.agreement.nmad = nmad;
   return quality;
 }
@@ -85,7 +87,9 @@ TEST(HoldOut, RunsWithoutHeldOutRowsAreShownAsBefore) {
   EXPECT_EQ(hold_out_table({channel("fitted", "force", false, 12, 1.5, 0.8)}), "");
   Summary summary;
   RunSummary run;
-  run.label = "m/lm", run.group = "g", run.has_result = true;
+  run.label = "m/lm";
+  run.group = "g";
+  run.has_result = true;
   run.quality = {channel("fitted", "force", false, 12, 1.5, 0.8)};
   summary.runs = {run};
   summary.ranking = {{0, 1, std::nullopt}};

@@ -65,7 +65,11 @@ TEST(Information, IsNotGivenWhereTheBestPointIsNotTheMostLikely) {
 
 TEST(Information, ComparesDifferentModelsOfAGroupOnly) {
   std::vector<comparison::RunSummary> runs(3);
-  for (auto& run : runs) run.group = "g", run.has_result = true, run.model = "a";
+  for (auto& run : runs) {
+    run.group = "g";
+    run.has_result = true;
+    run.model = "a";
+  }
   runs[0].information = Information{-10, 0, Information::Noise::stated};
   runs[1].information = Information{-14, 0, Information::Noise::stated};
   auto ranking = comparison::rank(runs);
@@ -78,7 +82,8 @@ TEST(Information, ComparesDifferentModelsOfAGroupOnly) {
   EXPECT_FALSE(ranking[2].delta_aicc);
   // A point that breaks a constraint fits better for it, and sets no standard.
   runs[1].status = Status::infeasible("unstable", 1);
-  runs[2].model = "c", runs[2].information = Information{-9, 0, Information::Noise::stated};
+  runs[2].model = "c";
+  runs[2].information = Information{-9, 0, Information::Noise::stated};
   ranking = comparison::rank(runs);
   comparison::compare_information(runs, ranking);
   std::vector<std::optional<double>> delta(3);

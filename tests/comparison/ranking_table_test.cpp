@@ -58,7 +58,8 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   good.group = "least_squares on circ";
   good.has_result = true;
   good.objective = 1.2345678e-21;
-  good.realisations = 20, good.successes = 19;
+  good.realisations = 20;
+  good.successes = 19;
   good.evaluations_to_target = sample_statistics(std::vector<double>{1234567, 1234567});
   good.expected_running_time = 123456789;
   good.seconds = 123456;
@@ -80,7 +81,10 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
 TEST(RankingTable, SaysWhatEndedARunAndWhetherItsBestSearchHadConverged) {
   Summary summary;
   RunSummary run;
-  run.label = "m/lm", run.group = "g", run.has_result = true, run.reason = "the reason";
+  run.label = "m/lm";
+  run.group = "g";
+  run.has_result = true;
+  run.reason = "the reason";
   summary.ranking = {{0, 1, std::nullopt}};
   using tunica::search::StopReason;
   const auto text = [&](bool converged, StopReason stop) {
@@ -102,7 +106,10 @@ TEST(RankingTable, SaysWhatEndedARunAndWhetherItsBestSearchHadConverged) {
 TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {
   Summary summary;
   RunSummary run;
-  run.label = "m/lm", run.group = "g", run.has_result = true, run.target = 0.25;
+  run.label = "m/lm";
+  run.group = "g";
+  run.has_result = true;
+  run.target = 0.25;
   summary.runs = {run, run};
   summary.ranking = {{0, 1, std::nullopt}, {1, 2, std::nullopt}};
   EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("Ranking by success, then ERT, at the target 0.25: g\n"));
@@ -111,7 +118,9 @@ TEST(RankingTable, NamesTheTargetThatRunsAreRankedAt) {
 TEST(RankingTable, GivesMeanAndDeviationOverRealisations) {
   Summary summary;
   RunSummary run;
-  run.label = "m/lm", run.group = "g", run.has_result = true;
+  run.label = "m/lm";
+  run.group = "g";
+  run.has_result = true;
   run.parameters = {estimate(22.4, Interval{21.9, 22.9})};
   run.parameters[0].over_realisations = sample_statistics(std::vector<double>{22, 23});
   run.objectives = sample_statistics(std::vector<double>{1, 3});
@@ -124,7 +133,10 @@ TEST(RankingTable, GivesMeanAndDeviationOverRealisations) {
 TEST(RankingTable, SaysNothingOfTheDataAtAPointThatIsNoFit) {
   Summary summary;
   RunSummary run;
-  run.label = "m/lm", run.group = "g", run.has_result = true, run.status = tunica::Status::infeasible("x", 1);
+  run.label = "m/lm";
+  run.group = "g";
+  run.has_result = true;
+  run.status = tunica::Status::infeasible("x", 1);
   run.parameters = {estimate(22.4, std::nullopt)};
   run.parameters[0].assessed = false;
   summary.runs = {run};
@@ -139,7 +151,9 @@ TEST(RankingTable, SaysNothingOfTheDataAtAPointThatIsNoFit) {
 TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
   Summary summary;
   RunSummary run;
-  run.label = "gho/lm", run.group = "g", run.has_result = true;
+  run.label = "gho/lm";
+  run.group = "g";
+  run.has_result = true;
   run.parameters = {estimate(22.4, Interval{21.9, 22.9})};
   run.parameters[0].profile = ProfileInterval{21.8, std::nullopt};
   run.parameters[0].bootstrap = Interval{21.7, 23.1};
@@ -161,12 +175,14 @@ TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   run.group = "least_squares on " + name + ", " + name;
   run.has_result = true;
   run.objective = 1.2345678e-21;
-  run.realisations = 20, run.successes = 19;
+  run.realisations = 20;
+  run.successes = 19;
   run.reason = "the largest of 20 starts was evaluated, and the others came to the same point within rounding";
   run.parameters = {estimate(-1.234567e-5, Interval{-2.3456e-5, 9.8765e-5}, Estimate::Bound::upper)};
   run.parameters[0].name = name + "." + name;
   run.quality.resize(1);
-  run.quality[0].test = name, run.quality[0].channel = "transverse_stretch";
+  run.quality[0].test = name;
+  run.quality[0].channel = "transverse_stretch";
   run.certificate.sentence = "no better neighbour " + name;
   run.stability.emplace();
   run.stability->imposed = "h(stretch), admissible";

@@ -46,7 +46,9 @@ TEST(Ranking, PutsTheLeastViolationFirstOfPointsThatBreakAConstraint) {
 TEST(Ranking, GoesBySuccessAndExpectedRunningTimeWhereAllStopAtOneTarget) {
   const auto aimed = [](double objective, double rate, std::optional<double> expected) {
     RunSummary summary = run("a", objective);
-    summary.target = 1e-3, summary.success_rate = rate, summary.expected_running_time = expected;
+    summary.target = 1e-3;
+    summary.success_rate = rate;
+    summary.expected_running_time = expected;
     return summary;
   };
   std::vector<RunSummary> runs{aimed(9e-4, 0.05, 5000), aimed(9.9e-4, 1, 80), aimed(9.5e-4, 1, 900),

@@ -113,7 +113,9 @@ TEST(LeastSquares, FindsWhatAModelWithHistoryRemembers) {
   bench.model().mechanisms = {{"memory", {}, {}}};
   auto assembly = bench.assemble();
   std::vector<double> seen(assembly.layout().prediction_count);
-  ASSERT_TRUE(assembly.evaluator().predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.evaluator().make_workspace()).ok());
+  ASSERT_TRUE(assembly.evaluator()
+                  .predict(std::vector<double>{1, 2, 0.7, 0.4}, seen, {}, *assembly.evaluator().make_workspace())
+                  .ok());
   const auto workspace = assembly.evaluator().make_workspace();
   assembly.evaluator().measure(seen, *workspace);
   const Fit found = least_squares(assembly, each_alone(assembly), std::vector<double>{2, 1, 0, 0.1}, *workspace, 200);
@@ -169,8 +171,8 @@ TEST(LeastSquares, TellsWhyNothingCouldBeEvaluated) {
   Parabola bench;
   const auto assembly = bench.assemble();
   fakes::set_behaviour([](double, std::span<double>, Status& status) { status = Status::failed("a torn strip"); });
-  const Fit found =
-      least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0}, *assembly.evaluator().make_workspace());
+  const Fit found = least_squares(assembly, each_alone(assembly), std::vector<double>{1, 1, 0},
+                                  *assembly.evaluator().make_workspace());
   EXPECT_FALSE(found.status.ok());
   EXPECT_THAT(found.status.reason(), ::testing::HasSubstr("a torn strip"));
 }

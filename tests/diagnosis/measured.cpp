@@ -58,7 +58,8 @@ void Measured::measure(std::uint64_t seed, const Hide& hide, const Add& add) con
   const assembly::Assembly assembly(read, read.runs.front(), testing::catalogue());
   std::vector<double> free(assembly.layout().parameters.size()), exact(assembly.layout().prediction_count);
   assembly.box().from_unit(assembly.box().initial(), free);
-  if (const Status status = assembly.evaluator().predict(free, exact, {}, *assembly.evaluator().make_workspace()); !status.ok())
+  if (const Status status = assembly.evaluator().predict(free, exact, {}, *assembly.evaluator().make_workspace());
+      !status.ok())
     throw std::runtime_error(status.reason());
   for (const auto& view : assembly.layout().channels)
     for (const Strip& strip : strips) {

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "text/wrapping.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::trial {
 namespace {

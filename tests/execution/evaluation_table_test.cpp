@@ -100,9 +100,9 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
     return trial::message_of<InputError>([&] { table.parse(line, parsed); });
   };
   EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 13"));
-  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is no run"));
+  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is not a run"));
   EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
   table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
   search::JournalEntry entry;
-  EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is no status"));
+  EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is not a status"));
 }

@@ -47,7 +47,9 @@ class Compass final : public Optimizer {
             trial[j] = std::clamp(trial[j] + sign * step, 0.0, 1.0);
             double objective = 0;
             if (!problem.evaluate(trial, objective).ok() || objective >= best) continue;
-            x = trial, best = objective, moved = true;
+            x = trial;
+            best = objective;
+            moved = true;
           }
       }
     }

@@ -43,7 +43,8 @@ TEST(RunDirectory, NeverOverwrites) {
   const trial::Folder folder;
   EXPECT_EQ(RunDirectory::create(folder.path() / "a" / "b", "x").path(), folder.path() / "a" / "b");
   folder.write("a/b/note.txt", "mine");
-  EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), HasSubstr("is not empty, and results are never overwritten"));
+  EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"),
+              HasSubstr("is not empty, and results are never overwritten"));
   EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), ::testing::Not(HasSubstr("--resume")));
   folder.write("a/b/checkpoint.json", "{}");
   EXPECT_THAT(directory_refusal(folder.path() / "a" / "b"), HasSubstr("go on with the run in it with --resume"));

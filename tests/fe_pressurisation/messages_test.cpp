@@ -56,7 +56,7 @@ TEST(FiniteElementMessages, TubesThatAreNoneAreRefusedByTheirName) {
 
 TEST(FiniteElementMessages, ModelsWithHistoryAreSentToTheLongTube) {
   const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
-  const Inflated out = inflate(*make_fe_tube({1}, {.elements = "[2, 2]"}), *viscous, {60, 0.8, 5}, bare_fe);
+  const Inflation out = inflate(*make_fe_tube({1}, {.elements = "[2, 2]"}), *viscous, {60, 0.8, 5}, bare_fe);
   EXPECT_EQ(out.status.kind(), Status::Kind::failed);
   EXPECT_SAYS(out.status.reason(), "a model with history cannot be simulated here yet");
 }

@@ -14,8 +14,8 @@ namespace {
 
 void expect_long_tube(const std::vector<double>& pressure, const std::vector<double>& stretches) {
   const auto gho = make_model("gho");
-  const Inflated exact = inflate(*make_tube(pressure, {.axial_stretches = stretches}), *gho, set_s);
-  const Inflated found = inflate(
+  const Inflation exact = inflate(*make_tube(pressure, {.axial_stretches = stretches}), *gho, set_s);
+  const Inflation found = inflate(
       *make_fe_tube(
           pressure,
           {.element = "quadrilateral_9", .elements = "[12, 2]", .ends = "sliding", .axial_stretches = stretches}),
@@ -47,7 +47,7 @@ TEST(FiniteElementProtocol, TakesNegativePressuresOnBothWaysOfSolving) {
 
 TEST(FiniteElementProtocol, RepeatedRowsAreTheSameRow) {
   const auto gho = make_model("gho");
-  const Inflated out = inflate(*make_fe_tube({5, 9, 5, 9, 5}, {.elements = "[4, 6]"}), *gho, set_s, bare_fe);
+  const Inflation out = inflate(*make_fe_tube({5, 9, 5, 9, 5}, {.elements = "[4, 6]"}), *gho, set_s, bare_fe);
   ASSERT_TRUE(out.status.ok());
   for (const std::size_t i : {2u, 4u}) EXPECT_EQ(out.values[i], out.values[0]);
   EXPECT_EQ(out.values[3], out.values[1]);
@@ -55,10 +55,10 @@ TEST(FiniteElementProtocol, RepeatedRowsAreTheSameRow) {
 
 TEST(FiniteElementProtocol, ChannelsAndDiagnosticsAreOneTube) {
   const auto gho = make_model("gho");
-  const Inflated out = inflate(*make_fe_tube({5, 15}, {.elements = "[4, 6]",
-                                                       .channels = {"outer_diameter", "outer_diameter_stretch",
-                                                                    "inner_diameter", "inner_diameter_stretch"}}),
-                               *gho, set_s, bare_fe);
+  const Inflation out = inflate(*make_fe_tube({5, 15}, {.elements = "[4, 6]",
+                                                        .channels = {"outer_diameter", "outer_diameter_stretch",
+                                                                     "inner_diameter", "inner_diameter_stretch"}}),
+                                *gho, set_s, bare_fe);
   ASSERT_TRUE(out.status.ok());
   for (const std::size_t i : {0u, 1u}) {
     EXPECT_DOUBLE_EQ(out.values[i], 2 * 5.77 * out.values[2 + i]);
@@ -71,8 +71,8 @@ TEST(FiniteElementProtocol, ChannelsAndDiagnosticsAreOneTube) {
 /// A wall that is thicker by 1+g at the same outer radius is that of another tube.
 TEST(FiniteElementProtocol, ImperfectionsAreThoseOfTheLongTube) {
   const auto gho = make_model("gho");
-  const Inflated exact = inflate(*make_tube({0, 6, 15}), *gho, set_s, {0, 0.03, 0, -0.1, 1});
-  const Inflated found =
+  const Inflation exact = inflate(*make_tube({0, 6, 15}), *gho, set_s, {0, 0.03, 0, -0.1, 1});
+  const Inflation found =
       inflate(*make_fe_tube({0, 6, 15}, {.element = "quadrilateral_9", .elements = "[12, 2]", .ends = "sliding"}), *gho,
               set_s, {0.03, -0.1});
   ASSERT_TRUE(exact.status.ok() && found.status.ok());

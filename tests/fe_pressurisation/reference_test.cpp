@@ -22,7 +22,7 @@ Deviation from_long_tube(const std::string& element, const std::string& elements
   const auto gho = make_model("gho");
   const auto tube =
       make_fe_tube(pressure, {.element = element, .elements = elements, .ends = "sliding", .options = options});
-  const Inflated found = inflate(*tube, *gho, set_s, bare_fe), exact = inflate(*make_tube(pressure), *gho, set_s);
+  const Inflation found = inflate(*tube, *gho, set_s, bare_fe), exact = inflate(*make_tube(pressure), *gho, set_s);
   EXPECT_TRUE(found.status.ok()) << found.status.reason();
   Deviation deviation;
   double largest = 0;
@@ -70,7 +70,7 @@ TEST(FiniteElementReference, ConvergesWithClampedEnds) {
   const auto curve = [&](const char* element, const char* elements) {
     Options uniform;
     uniform.set("grading", 1.);
-    const Inflated out = inflate(
+    const Inflation out = inflate(
         *make_fe_tube(pressure, {.element = element, .elements = elements, .options = uniform}), *gho, set_s, bare_fe);
     EXPECT_TRUE(out.status.ok()) << out.status.reason();
     return out.values;
@@ -101,7 +101,7 @@ TEST(FiniteElementReference, ClampedEndsGiveTheReferenceCurve) {
   };
   for (const Case& mesh : {Case{"quadrilateral_4", "[25, 50]", 7e-5}, Case{"quadrilateral_4", "[25, 100]", 7e-5},
                            Case{"quadrilateral_9", "[12, 25]", 1.5e-5}}) {
-    const Inflated out =
+    const Inflation out =
         inflate(*make_fe_tube(columns[0], {.element = mesh.element, .elements = mesh.elements}), *gho, set_s, bare_fe);
     ASSERT_TRUE(out.status.ok()) << out.status.reason();
     double worst = 0;

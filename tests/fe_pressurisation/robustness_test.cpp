@@ -26,16 +26,16 @@ TEST(FiniteElementRobustness, TheLimitPressureOfANeoHookeanTubeIsNoticed) {
   const auto model = make_model("neo_hooke");
   for (const char* element : {"quadrilateral_4", "quadrilateral_9"}) {
     const FeSetup setup{.element = element, .elements = "[12, 2]", .ends = "sliding"};
-    const Inflated below = inflate(*make_fe_tube({0.5 * limit, 0.9 * limit}, setup), *model, {mu}, bare_fe);
+    const Inflation below = inflate(*make_fe_tube({0.5 * limit, 0.9 * limit}, setup), *model, {mu}, bare_fe);
     EXPECT_TRUE(below.status.ok()) << below.status.reason();
-    const Inflated beyond = inflate(*make_fe_tube({0.5 * limit, 1.1 * limit}, setup), *model, {mu}, bare_fe);
+    const Inflation beyond = inflate(*make_fe_tube({0.5 * limit, 1.1 * limit}, setup), *model, {mu}, bare_fe);
     EXPECT_EQ(beyond.status.kind(), Status::Kind::failed);
     EXPECT_NE(beyond.status.reason().find("row 2 (pressure 24.2"), std::string::npos) << beyond.status.reason();
     const double reached = number_after(beyond.status.reason(), " after pressure ");
     EXPECT_GT(reached, 0.95 * limit) << beyond.status.reason();
     EXPECT_LT(reached, 1.01 * limit) << beyond.status.reason();
     // The same on the interpolated line.
-    const Inflated line = inflate(*make_fe_tube(evenly(0, 1.1 * limit, 40), setup), *model, {mu}, bare_fe);
+    const Inflation line = inflate(*make_fe_tube(evenly(0, 1.1 * limit, 40), setup), *model, {mu}, bare_fe);
     EXPECT_EQ(line.status.kind(), Status::Kind::failed);
     EXPECT_GT(number_after(line.status.reason(), " after pressure "), 0.95 * limit) << line.status.reason();
   }
@@ -59,7 +59,7 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
     const double lz = between(0.9, 1.6), top = between(1, 30);
     const FeSetup setup{.elements = "[4, 8]", .axial_stretch = lz};
     const auto start = std::chrono::steady_clock::now();
-    const Inflated out = inflate(*make_fe_tube({0, 0.5 * top, top}, setup), *model, p, bare_fe);
+    const Inflation out = inflate(*make_fe_tube({0, 0.5 * top, top}, setup), *model, p, bare_fe);
     longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     if (!out.status.ok()) {
       ++failed;
@@ -75,7 +75,7 @@ TEST(FiniteElementRobustness, AnyAdmissibleTubeConvergesOrSaysWhyNot) {
     if (draw % 4 != 0) continue;
     // Steps between, and (every other time) the line that is interpolated.
     const std::size_t rows = draw % 8 == 0 ? 13 : 41;
-    const Inflated finer = inflate(*make_fe_tube(evenly(0, top, rows), setup), *model, p, bare_fe);
+    const Inflation finer = inflate(*make_fe_tube(evenly(0, top, rows), setup), *model, p, bare_fe);
     if (!finer.status.ok()) {
       ++finer_failed;
       std::printf("  draw %d: %s\n", draw, finer.status.reason().c_str());

@@ -47,7 +47,7 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
       const auto at = [&](double steps) {
         std::vector<double> p = wall.parameters, q = own;
         (j < models ? p[j] : q[j - models]) += steps * h;
-        const Inflated out = inflate(tube, *model, p, q);
+        const Inflation out = inflate(tube, *model, p, q);
         EXPECT_TRUE(out.status.ok()) << out.status.reason();
         return out.values;
       };

@@ -61,16 +61,16 @@ class NativeInFiles : public ::testing::Test {
   trial::Folder folder;
 };
 
-struct Predicted {
+struct Prediction {
   std::vector<double> values, jacobian;
 };
 
 /// At set S, and whatever comes behind it.
-Predicted predict(const assembly::Assembly& assembly, const std::vector<double>& more) {
+Prediction predict(const assembly::Assembly& assembly, const std::vector<double>& more) {
   std::vector<double> at{18.668, 0.1367, 24.905, 0.2912, 46.44};
   at.insert(at.end(), more.begin(), more.end());
   EXPECT_EQ(assembly.layout().parameters.size(), at.size());
-  Predicted p{std::vector<double>(assembly.layout().prediction_count), {}};
+  Prediction p{std::vector<double>(assembly.layout().prediction_count), {}};
   p.jacobian.resize(p.values.size() * at.size());
   const auto workspace = assembly.evaluator().make_workspace();
   const Status status = assembly.evaluator().predict(at, p.values, p.jacobian, *workspace);
@@ -78,7 +78,7 @@ Predicted predict(const assembly::Assembly& assembly, const std::vector<double>&
   return p;
 }
 
-void expect_same_bits(const Predicted& a, const Predicted& b) {
+void expect_same_bits(const Prediction& a, const Prediction& b) {
   ASSERT_EQ(a.values.size(), b.values.size());
   EXPECT_EQ(std::memcmp(a.values.data(), b.values.data(), sizeof(double) * a.values.size()), 0);
   ASSERT_EQ(a.jacobian.size(), b.jacobian.size());
@@ -103,12 +103,12 @@ TEST_F(NativeInFiles, EachIsTheParameterOfTheTestAndFree) {
     SCOPED_TRACE(is.mechanism);
     const std::string named = fmt::format(R"("mechanisms": [{{"type": "{}"}}])", is.mechanism);
     const auto with = assemble(file(is.test, named));
-    EXPECT_EQ(with.parameters().back().name, fmt::format("a.{}.{}", is.mechanism, is.parameter));
+    EXPECT_EQ(with.layout().parameters.back().name, fmt::format("a.{}.{}", is.mechanism, is.parameter));
     // The parameter itself, set free by its bounds.
-    const auto& bounds = with.parameters().back();
+    const auto& bounds = with.layout().parameters.back();
     const auto own = assemble(file(is.test, fmt::format(R"("parameters": {{"{}": {{"min": {}, "max": {}}}}})",
                                                         is.native, bounds.min, bounds.max)));
-    EXPECT_EQ(own.parameters().back().name, fmt::format("a.{}", is.native));
+    EXPECT_EQ(own.layout().parameters.back().name, fmt::format("a.{}", is.native));
     expect_same_bits(predict(with, {is.value}), predict(own, {is.value}));
 
     const auto fixed = assemble(
@@ -124,7 +124,7 @@ TEST_F(NativeInFiles, AtItsNullEachIsTheTestWithoutIt) {
     const double null = catalogue().mechanisms().at(is.mechanism).factory.null;
     const auto with = assemble(file(is.test, fmt::format(R"("mechanisms": [{{"type": "{}"}}])", is.mechanism)));
     const auto bare = assemble(file(is.test, ""));
-    const Predicted a = predict(with, {null}), b = predict(bare, {});
+    const Prediction a = predict(with, {null}), b = predict(bare, {});
     EXPECT_EQ(std::memcmp(a.values.data(), b.values.data(), sizeof(double) * b.values.size()), 0);
     for (std::size_t i = 0; i < b.values.size(); ++i)
       for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(a.jacobian[i * 6 + j], b.jacobian[i * 5 + j]);
@@ -176,7 +176,7 @@ TEST_F(NativeInFiles, TestsMayShareOne) {
                                 clamped_tube, shared)));
   ASSERT_EQ(assembly.layout().parameters.size(), 6u);
   EXPECT_EQ(assembly.layout().parameters.back().name, "gain");
-  const Predicted p = predict(assembly, {0.1}), bare = predict(assembly, {0});
+  const Prediction p = predict(assembly, {0.1}), bare = predict(assembly, {0});
   for (std::size_t i = 0; i < 8; ++i) EXPECT_NE(p.values[i], bare.values[i]) << i;
 }
 

@@ -20,7 +20,7 @@ using testing::wrapped;
 const std::vector<double> stretches{1, 1.2, 1.4, 1.3, 1.1, 1, 1.15, 1.35, 1.4, 1.45, 1.6, 1.5, 1.2, 1};
 
 std::vector<double> values_of(const Test& test, const Model& model, const std::vector<double>& parameters) {
-  const testing::Predicted predicted = testing::predict(test, model, parameters);
+  const testing::Prediction predicted = testing::predict(test, model, parameters);
   EXPECT_TRUE(predicted.status.ok()) << predicted.status.reason();
   return predicted.values;
 }

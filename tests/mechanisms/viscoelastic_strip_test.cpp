@@ -12,7 +12,7 @@ namespace {
 using testing::make_strip;
 
 std::vector<double> values_of(const Test& test, const Model& model, const std::vector<double>& parameters) {
-  const testing::Predicted predicted = testing::predict(test, model, parameters);
+  const testing::Prediction predicted = testing::predict(test, model, parameters);
   EXPECT_TRUE(predicted.status.ok()) << predicted.status.reason();
   return predicted.values;
 }

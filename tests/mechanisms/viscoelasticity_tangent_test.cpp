@@ -27,7 +27,7 @@ class Regauged final : public Model {
     const std::size_t n = points.count;
     MaterialResponse bare = response;
     bare.state = {};
-    if (Status status = base_->evaluator().evaluate({n, points.C, points.parameters, {}, {}}, bare); !status.ok()) return status;
+    if (Status status = base_->evaluate({n, points.C, points.parameters, {}, {}}, bare); !status.ok()) return status;
     for (std::size_t i = 0; i < n; ++i) {
       const double tt = points.C[i], zz = points.C[n + i], rr = points.C[2 * n + i];
       const double tz = points.C[3 * n + i], zr = points.C[4 * n + i], tr = points.C[5 * n + i];

@@ -184,14 +184,14 @@ TEST(Gent, TrialsBeyondTheLimitDoNotBreakAStripThatCanBeSolved) {
       (bisect(p, 0.5 * (low + high)).excess < 0.999 * p[1] ? low : high) = 0.5 * (low + high);
     const std::vector<double> stretch = evenly(1, low, draw % 2 == 0 ? 6 : 40);
     for (const double misalignment : {0., 1e-9}) {
-      const Predicted out = predict(*make_strip(stretch), *model, p, misalignment);
+      const Prediction out = predict(*make_strip(stretch), *model, p, misalignment);
       ASSERT_TRUE(out.status.ok()) << out.status.reason() << " draw " << draw << ", misalignment " << misalignment;
       for (std::size_t i = 0; i < stretch.size(); ++i) {
         const double expected = bisect(p, stretch[i]).stress;
         ASSERT_NEAR(out.values[i], expected, 1e-7 * (p[0] + std::abs(expected))) << "draw " << draw << " row " << i;
       }
     }
-    const Predicted beyond = predict(*make_strip({1.0, 1 + 3 * (low - 1)}), *model, p);
+    const Prediction beyond = predict(*make_strip({1.0, 1 + 3 * (low - 1)}), *model, p);
     if (bisect(p, 1 + 3 * (low - 1)).excess >= p[1]) {
       EXPECT_EQ(beyond.status.kind(), Status::Kind::failed);
     }
@@ -200,7 +200,7 @@ TEST(Gent, TrialsBeyondTheLimitDoNotBreakAStripThatCanBeSolved) {
 
 TEST(Gent, ARowBeyondTheLimitIsAStatusThatNamesIt) {
   const auto model = make_model("gent");
-  const Predicted out = predict(*make_strip({1, 2, 3, 4}), *model, {300, 8});  // I1 − 3 = 8 is reached at 3.2
+  const Prediction out = predict(*make_strip({1, 2, 3, 4}), *model, {300, 8});  // I1 − 3 = 8 is reached at 3.2
   EXPECT_EQ(out.status.kind(), Status::Kind::failed);
   EXPECT_NE(out.status.reason().find("row 4 (stretch 4"), std::string::npos) << out.status.reason();
   EXPECT_TRUE(predict(*make_strip({1, 2, 3, 3.2}), *model, {300, 8}).status.ok());

@@ -29,8 +29,8 @@ TEST(Uniaxial, ReproducesTheReferenceValues) {
   for (const std::size_t filling : {0u, 40u}) {
     std::vector<double> stretch = filling > 0 ? evenly(1, 1.8, filling) : std::vector<double>{};
     for (const Reference& reference : references) stretch.push_back(reference.stretch);
-    const Predicted circ = predict(*make_strip(stretch), *model, set_s);
-    const Predicted axial = predict(*make_strip(stretch, {.direction = "axial"}), *model, set_s);
+    const Prediction circ = predict(*make_strip(stretch), *model, set_s);
+    const Prediction axial = predict(*make_strip(stretch, {.direction = "axial"}), *model, set_s);
     ASSERT_TRUE(circ.status.ok() && axial.status.ok());
     for (std::size_t i = 0; i < 4; ++i) {
       const Reference& r = references[i];
@@ -81,7 +81,7 @@ TEST(Uniaxial, ConvergesForAnyAdmissibleParametersOrSaysThatItOverflows) {
     const bool circumferential = unit(engine) < 0.5;
     const std::vector<double> stretch = evenly(draw % 4 == 0 ? 0.6 : 1, 1 + 1.5 * unit(engine), draw % 2 == 0 ? 5 : 40);
     const auto strip = make_strip(stretch, {.direction = circumferential ? "circumferential" : "axial"});
-    const Predicted out = predict(*strip, *model, p);
+    const Prediction out = predict(*strip, *model, p);
     if (!out.status.ok()) {
       ++failures;
       EXPECT_EQ(out.status.kind(), Status::Kind::failed);
@@ -137,7 +137,7 @@ TEST(Uniaxial, TensorsGiveWhatTheAxesGive) {
   const std::vector<double> p{22, 0.2, 0.4, 15, 0.5, 60}, stretch = evenly(0.9, 1.8, 30);
   for (const char* direction : {"circumferential", "axial"}) {
     const auto strip = make_strip(stretch, {.direction = direction, .channels = {"stress", "transverse_stretch"}});
-    const Predicted axes = predict(*strip, *model, p, 0, true), tensors = predict(*strip, *model, p, 1e-7, true);
+    const Prediction axes = predict(*strip, *model, p, 0, true), tensors = predict(*strip, *model, p, 1e-7, true);
     ASSERT_TRUE(axes.status.ok() && tensors.status.ok()) << tensors.status.reason();
     for (std::size_t i = 0; i < axes.values.size(); ++i) {
       EXPECT_NEAR(axes.values[i], tensors.values[i], 1e-9 * (1 + std::abs(axes.values[i])));
@@ -154,9 +154,9 @@ TEST(Uniaxial, SeesTheFamiliesApartOnAMisalignedSpecimen) {
   const auto model = make_model("gho");
   const std::vector<double> stretch = evenly(1, 1.6, 20);
   const auto circ = make_strip(stretch), axial = make_strip(stretch, {.direction = "axial"});
-  const Predicted plus = predict(*circ, *model, set_s, 7), minus = predict(*circ, *model, set_s, -7);
-  const Predicted straight = predict(*circ, *model, set_s), turned = predict(*circ, *model, set_s, 90),
-                  other = predict(*axial, *model, set_s);
+  const Prediction plus = predict(*circ, *model, set_s, 7), minus = predict(*circ, *model, set_s, -7);
+  const Prediction straight = predict(*circ, *model, set_s), turned = predict(*circ, *model, set_s, 90),
+                   other = predict(*axial, *model, set_s);
   for (std::size_t i = 1; i < stretch.size(); ++i) {
     EXPECT_NEAR(plus.values[i], minus.values[i], 1e-10 * plus.values[i]);
     EXPECT_GT(std::abs(plus.values[i] - straight.values[i]), 1e-5 * straight.values[i]);
@@ -167,9 +167,9 @@ TEST(Uniaxial, SeesTheFamiliesApartOnAMisalignedSpecimen) {
 TEST(Uniaxial, NeoHookeHasItsClosedForm) {
   const auto model = make_model("neo_hooke");
   const std::vector<double> stretch = evenly(0.5, 4, 50);
-  const Predicted cauchy = predict(*make_strip(stretch), *model, {7});
-  const Predicted nominal = predict(*make_strip(stretch, {.measure = "first_piola_kirchhoff"}), *model, {7});
-  const Predicted second = predict(*make_strip(stretch, {.measure = "second_piola_kirchhoff"}), *model, {7});
+  const Prediction cauchy = predict(*make_strip(stretch), *model, {7});
+  const Prediction nominal = predict(*make_strip(stretch, {.measure = "first_piola_kirchhoff"}), *model, {7});
+  const Prediction second = predict(*make_strip(stretch, {.measure = "second_piola_kirchhoff"}), *model, {7});
   for (std::size_t i = 0; i < stretch.size(); ++i) {
     const double l = stretch[i], exact = 7 * (l * l - 1 / l);
     EXPECT_NEAR(cauchy.values[i], exact, 1e-10 * (1 + std::abs(exact)));
@@ -187,7 +187,7 @@ TEST(Uniaxial, TakesOtherAbscissaeThanTheBoundOnes) {
   const double zero = 0;
   const std::span<const double> abscissa[] = {other};
   ASSERT_TRUE(strip->predict({*model, set_s, {&zero, 1}, abscissa}, {values, {}, {}, {}}).ok());
-  const Predicted direct = predict(*make_strip(other), *model, set_s);
+  const Prediction direct = predict(*make_strip(other), *model, set_s);
   for (std::size_t i = 0; i < 20; ++i) EXPECT_NEAR(values[i], direct.values[i], 1e-9 * (1 + direct.values[i]));
 }
 

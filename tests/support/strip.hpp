@@ -27,15 +27,15 @@ inline std::unique_ptr<Test> make_strip(const std::vector<double>& stretch, cons
   return plugins::create(catalogue().tests().at("uniaxial"), setup);
 }
 
-struct Predicted {
+struct Prediction {
   Status status;
   std::vector<double> values, jacobian, abscissa_derivative, diagnostics;
 };
 
-inline Predicted predict(const Test& test, const Model& model, const std::vector<double>& p, double misalignment = 0,
-                         bool derivatives = false) {
+inline Prediction predict(const Test& test, const Model& model, const std::vector<double>& p, double misalignment = 0,
+                          bool derivatives = false) {
   const std::size_t n = test.rows().count, rows = n * test.rows().channels.size();
-  Predicted out;
+  Prediction out;
   out.values.resize(rows);
   out.diagnostics.resize(n * test.describe().diagnostics.size());
   if (derivatives) {

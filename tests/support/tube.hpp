@@ -43,15 +43,15 @@ inline std::unique_ptr<Test> make_tube(const std::vector<double>& pressure, cons
   return plugins::create(entry, setup);
 }
 
-struct Inflated {
+struct Inflation {
   Status status;
   std::vector<double> values, diagnostics;  ///< channel by channel, as the test writes them
 };
 
-inline Inflated inflate(const Test& test, const Model& model, const std::vector<double>& p,
-                        const std::vector<double>& own = bare_tube, std::span<const Model* const> layers = {}) {
+inline Inflation inflate(const Test& test, const Model& model, const std::vector<double>& p,
+                         const std::vector<double>& own = bare_tube, std::span<const Model* const> layers = {}) {
   const std::size_t n = test.rows().count;
-  Inflated out;
+  Inflation out;
   out.values.resize(n * test.rows().channels.size());
   out.diagnostics.resize(n * test.describe().diagnostics.size());
   out.status = test.predict({model, p, own, {}, layers}, {out.values, {}, {}, out.diagnostics});

@@ -47,7 +47,7 @@ TEST(TubeImperfections, AnOpenedTubeUnloadedHasTheMeasuredRadius) {
   const auto model = make_model("gho");
   const auto tube = make_tube({0}, {.channels = {"outer_diameter", "inner_diameter"}, .axial_stretch = 1});
   for (const double angle : {-60., 0., 1., 80., 160., 300.}) {
-    const Inflated out = inflate(*tube, *model, set_s, with(opening_angle, angle));
+    const Inflation out = inflate(*tube, *model, set_s, with(opening_angle, angle));
     ASSERT_TRUE(out.status.ok()) << angle << out.status.reason();
     EXPECT_NEAR(out.values[0], 2 * outer, 1e-11) << angle;
     EXPECT_NEAR(out.values[1], 2 * inner, 1e-11) << angle;
@@ -76,10 +76,10 @@ TEST(TubeImperfections, AnOpenedTubeAgreesWithAnIndependentBisection) {
     (neo_hookean_pressure(middle, K, outer, 1) > 0 ? low : high) = middle;
   }
   const double sector2 = (low + high) / 2;
-  const Inflated out = inflate(*make_tube({6}), *make_model("neo_hooke"), {60}, with(opening_angle, 120));
+  const Inflation out = inflate(*make_tube({6}), *make_model("neo_hooke"), {60}, with(opening_angle, 120));
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   EXPECT_NEAR(neo_hookean_pressure(sector2, K, out.values[0] * outer, 1.2), 6, 1e-8);
-  const Inflated closed = inflate(*make_tube({6}), *make_model("neo_hooke"), {60});
+  const Inflation closed = inflate(*make_tube({6}), *make_model("neo_hooke"), {60});
   EXPECT_GT(std::abs(out.values[0] - closed.values[0]), 1e-4);
 }
 
@@ -89,7 +89,7 @@ TEST(TubeImperfections, ASectorAsThickAsTheWallKeepsItsThickness) {
   Options same;
   same.set("sector", std::string("same_thickness"));
   const auto tube = make_tube({0}, {.axial_stretch = 1, .options = same});
-  const Inflated out = inflate(*tube, *make_model("neo_hooke"), {60}, with(opening_angle, 120));
+  const Inflation out = inflate(*tube, *make_model("neo_hooke"), {60}, with(opening_angle, 120));
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   const double K = 1.5, sector = (K * (outer + inner) - (outer - inner)) / 2;
   EXPECT_NEAR(neo_hookean_pressure(sector * sector, K, out.values[0] * outer, 1), 0, 1e-9);
@@ -109,15 +109,15 @@ TEST(TubeImperfections, ResidualStressEvensOutTheWall) {
 
 TEST(TubeImperfections, AnAxialStretchErrorIsAnotherAxialStretch) {
   const auto model = make_model("gho");
-  const Inflated error = inflate(*make_tube({0, 9, 18}), *model, set_s, with(axial_stretch_error, 0.05));
-  const Inflated stretched = inflate(*make_tube({0, 9, 18}, {.axial_stretch = 1.2 + 0.05}), *model, set_s);
+  const Inflation error = inflate(*make_tube({0, 9, 18}), *model, set_s, with(axial_stretch_error, 0.05));
+  const Inflation stretched = inflate(*make_tube({0, 9, 18}, {.axial_stretch = 1.2 + 0.05}), *model, set_s);
   EXPECT_EQ(error.values, stretched.values);
 }
 
 TEST(TubeImperfections, AThicknessErrorMovesTheInnerRadius) {
   const auto model = make_model("gho");
-  const Inflated error = inflate(*make_tube({0, 9, 18}), *model, set_s, with(thickness_error, -0.1));
-  const Inflated thinner =
+  const Inflation error = inflate(*make_tube({0, 9, 18}), *model, set_s, with(thickness_error, -0.1));
+  const Inflation thinner =
       inflate(*make_tube({0, 9, 18}, {.inner_radius = outer - 0.9 * 2.06, .thickness = 0.9 * 2.06}), *model, set_s);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(error.values[i], thinner.values[i], 1e-9);
 }
@@ -126,12 +126,12 @@ TEST(TubeImperfections, TetheringIsAnOuterPressureThatGrowsWithTheDiameter) {
   // The wall alone at p − k (D/D0 − D/D0 at p = 0) has the same diameter; the force loses π p_o ro².
   const auto model = make_model("gho");
   constexpr double k = 12;
-  const Inflated out = inflate(*make_tube({0, 5, 15}), *model, set_s, with(tethering, k));
+  const Inflation out = inflate(*make_tube({0, 5, 15}), *model, set_s, with(tethering, k));
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   std::vector<double> wall;
   for (std::size_t i = 0; i < 3; ++i)
     wall.push_back(std::vector<double>{0, 5, 15}[i] - k * (out.values[i] - out.values[0]));
-  const Inflated bare = inflate(*make_tube(wall), *model, set_s);
+  const Inflation bare = inflate(*make_tube(wall), *model, set_s);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(out.values[i], bare.values[i], 1e-11) << i;
     const double ro = out.values[i] * outer, outside = k * (out.values[i] - out.values[0]);
@@ -144,12 +144,13 @@ TEST(TubeImperfections, TetheringIsZeroAtEachUnpressurisedStretch) {
   const auto model = make_model("gho");
   const std::vector<double> stretch{1.1, 1.3, 1.2, 1.1};
   const auto tube = make_tube({0, 0, 10, 10}, {.axial_stretches = stretch});
-  const Inflated bare = inflate(*tube, *model, set_s), held = inflate(*tube, *model, set_s, with(tethering, 20));
+  const Inflation bare = inflate(*tube, *model, set_s), held = inflate(*tube, *model, set_s, with(tethering, 20));
   ASSERT_TRUE(held.status.ok()) << held.status.reason();
   for (const std::size_t i : {0u, 1u}) EXPECT_NEAR(held.values[i], bare.values[i], 1e-12);
   for (const std::size_t i : {2u, 3u}) {
     EXPECT_LT(held.values[i], bare.values[i] - 1e-3);
-    const Inflated alone = inflate(*make_tube({10}, {.axial_stretch = stretch[i]}), *model, set_s, with(tethering, 20));
+    const Inflation alone =
+        inflate(*make_tube({10}, {.axial_stretch = stretch[i]}), *model, set_s, with(tethering, 20));
     EXPECT_NEAR(held.values[i], alone.values[0], 1e-11);
   }
 }
@@ -160,7 +161,7 @@ TEST(TubeImperfections, LayersOfANeoHookeanWallHaveTheirClosedForm) {
   constexpr double ratio = 3, f = 2. / 3, mu = 60;
   Options interface;
   interface.set("layer_interface", f);
-  const Inflated out =
+  const Inflation out =
       inflate(*make_tube({5}, {.options = interface}), *make_model("neo_hooke"), {mu}, with(layer_ratio, ratio));
   ASSERT_TRUE(out.status.ok());
   const double lz = 1.2, ro2 = std::pow(out.values[0] * outer, 2), a = ro2 - outer * outer / lz;
@@ -182,10 +183,10 @@ TEST(TubeImperfections, LayersOfANeoHookeanWallHaveTheirClosedForm) {
 TEST(TubeImperfections, ThatLeaveNoTubeAreAStatus) {
   const auto model = make_model("gho");
   const auto tube = make_tube({0, 5}, {.inner_radius = 0.5, .thickness = 2});
-  const Inflated solid = inflate(*tube, *model, set_s, with(thickness_error, 0.4));
+  const Inflation solid = inflate(*tube, *model, set_s, with(thickness_error, 0.4));
   EXPECT_EQ(solid.status.kind(), Status::Kind::failed);
   EXPECT_NE(solid.status.reason().find("leave no wall"), std::string::npos) << solid.status.reason();
-  const Inflated compressed =
+  const Inflation compressed =
       inflate(*make_tube({0}, {.axial_stretch = 0.1}), *model, set_s, with(axial_stretch_error, -0.15));
   EXPECT_NE(compressed.status.reason().find("no such tube at row 1"), std::string::npos) << compressed.status.reason();
 }

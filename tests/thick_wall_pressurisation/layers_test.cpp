@@ -41,10 +41,10 @@ TEST(TubeLayers, OfOneMaterialAreOneWall) {
         TubeSetup three = one;
         three.layers = {0.3, 0.9, wall - 1.2};
         const std::vector<double> pressure{0, 5, 13, 20};
-        const Inflated bare = inflate(*make_tube(pressure, one), *model, p, joined(own, {1}));
+        const Inflation bare = inflate(*make_tube(pressure, one), *model, p, joined(own, {1}));
         const std::vector<const Model*> twice{model.get(), model.get()}, thrice{model.get(), model.get(), model.get()};
-        const Inflated halves = inflate(*make_tube(pressure, two), *model, joined(p, p), own, twice);
-        const Inflated thirds = inflate(*make_tube(pressure, three), *model, joined(p, joined(p, p)), own, thrice);
+        const Inflation halves = inflate(*make_tube(pressure, two), *model, joined(p, p), own, twice);
+        const Inflation thirds = inflate(*make_tube(pressure, three), *model, joined(p, joined(p, p)), own, thrice);
         ASSERT_TRUE(bare.status.ok() && halves.status.ok() && thirds.status.ok()) << halves.status.reason();
         expect_near(halves.values, bare.values, 1e-12);
         expect_near(thirds.values, bare.values, 1e-12);
@@ -83,7 +83,7 @@ TEST(TubeLayers, OfNeoHookeMatchTheirClosedForm) {
     const auto tube = make_tube(pressure, {.channels = {"inner_diameter", "axial_force", "outer_diameter"},
                                            .axial_stretch = lz,
                                            .layers = {inside, wall - inside}});
-    const Inflated out = inflate(*tube, *media, {35, 140}, bare_layers, layers);
+    const Inflation out = inflate(*tube, *media, {35, 140}, bare_layers, layers);
     ASSERT_TRUE(out.status.ok()) << out.status.reason();
     for (std::size_t i = 0; i < pressure.size(); ++i) {
       const Shell first = neo_hookean_shell(35, inner, interface, out.values[i] / 2, lz);
@@ -122,12 +122,12 @@ TEST(TubeLayers, InAnOpenedTubeAgreeWithAnIndependentBisection) {
   const auto model = make_model("neo_hooke");
   const std::vector<const Model*> layers{model.get(), model.get()};
   const auto tube = make_tube({6, 11}, {.layers = {0.8, wall - 0.8}});
-  const Inflated out = inflate(*tube, *model, {30, 120}, {120, 0, 0, 0}, layers);
+  const Inflation out = inflate(*tube, *model, {30, 120}, {120, 0, 0, 0}, layers);
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   for (const std::size_t i : {0u, 1u})
     EXPECT_NEAR(opened_pressure((low + high) / 2, K, out.values[i] * outer, 1.2, interface, 30, 120), i == 0 ? 6 : 11,
                 1e-8);
-  const Inflated closed = inflate(*tube, *model, {30, 120}, bare_layers, layers);
+  const Inflation closed = inflate(*tube, *model, {30, 120}, bare_layers, layers);
   EXPECT_GT(std::abs(out.values[0] - closed.values[0]), 1e-4);
 }
 
@@ -218,14 +218,14 @@ TEST(TubeLayers, MayRememberTheirHistory) {
   TubeSetup halves = timed;
   halves.layers = {0.8, wall - 0.8};
   const std::vector<const Model*> twice{viscous.get(), viscous.get()}, mixed{elastic.get(), viscous.get()};
-  const Inflated whole = inflate(*make_tube(pressure, timed), *viscous, memory);
-  const Inflated same = inflate(*make_tube(pressure, halves), *viscous, joined(memory, memory), bare_layers, twice);
+  const Inflation whole = inflate(*make_tube(pressure, timed), *viscous, memory);
+  const Inflation same = inflate(*make_tube(pressure, halves), *viscous, joined(memory, memory), bare_layers, twice);
   ASSERT_TRUE(whole.status.ok() && same.status.ok()) << same.status.reason();
   expect_near(same.values, whole.values, 1e-9);
   // Beside fibres without memory the other layer creeps, until it is at equilibrium, as without time.
-  const Inflated creep = inflate(*make_tube(pressure, halves), *elastic, joined(set_s, memory), bare_layers, mixed);
+  const Inflation creep = inflate(*make_tube(pressure, halves), *elastic, joined(set_s, memory), bare_layers, mixed);
   halves.time = {};
-  const Inflated slow = inflate(*make_tube(pressure, halves), *elastic, joined(set_s, memory), bare_layers, mixed);
+  const Inflation slow = inflate(*make_tube(pressure, halves), *elastic, joined(set_s, memory), bare_layers, mixed);
   ASSERT_TRUE(creep.status.ok() && slow.status.ok()) << creep.status.reason() << slow.status.reason();
   EXPECT_LT(creep.values[1], creep.values[2] - 1e-4);
   EXPECT_LT(creep.values[2], creep.values[3] - 1e-6);

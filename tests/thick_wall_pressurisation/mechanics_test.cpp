@@ -55,7 +55,7 @@ class IndependentTube {
 TEST(Tube, AgreesWithAnIndependentBisection) {
   for (const double stretch : {1.05, 1.35}) {
     const std::vector<double> pressure{0, 3, 9, 18};
-    const Inflated out = inflate(*make_tube(pressure, {.axial_stretch = stretch}), *make_model("gho"), set_s);
+    const Inflation out = inflate(*make_tube(pressure, {.axial_stretch = stretch}), *make_model("gho"), set_s);
     ASSERT_TRUE(out.status.ok()) << out.status.reason();
     const IndependentTube independent(set_s, stretch);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -101,7 +101,7 @@ TEST(Tube, PressureDoesTheWorkThatTheWallStores) {
       weight.push_back(20. / parts * gauss_weight[m]);
     }
   pressure.insert(pressure.end(), {0, 20});
-  const Inflated out =
+  const Inflation out =
       inflate(*make_tube(pressure, {.channels = {"inner_diameter", "outer_diameter_stretch"}}), *model, set_s);
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   const std::size_t n = pressure.size();
@@ -124,7 +124,7 @@ TEST(Tube, PressureAndAxialForceTogetherDoTheWorkThatTheWallStores) {
     }
   stretch.insert(stretch.end(), {1.05, 1.3});
   const std::size_t n = stretch.size();
-  const Inflated out = inflate(
+  const Inflation out = inflate(
       *make_tube(std::vector<double>(n, 10.),
                  {.channels = {"inner_diameter", "outer_diameter_stretch", "axial_force"}, .axial_stretches = stretch}),
       *model, set_s);
@@ -151,7 +151,7 @@ TEST(Tube, AThinWallObeysLaplace) {
     const double thickness = k == 0 ? 0.02 : 0.01, Ri = 4 - thickness / 2, Ro = 4 + thickness / 2;
     const auto [hoop, axial] = sheet_stress(1.3, 1.2);
     const double t = thickness / (1.3 * 1.2), r = 1.3 * 4, pressure = hoop * t / r;
-    const Inflated out =
+    const Inflation out =
         inflate(*make_tube({pressure}, {.channels = {"outer_diameter", "inner_diameter", "axial_force"},
                                         .inner_radius = Ri,
                                         .thickness = thickness}),
@@ -169,7 +169,7 @@ TEST(Tube, AThinWallObeysLaplace) {
 
 TEST(Tube, MeanStressesAreTheIntegralsOverTheWall) {
   const auto model = make_model("gho");
-  const Inflated out = inflate(*make_tube({12}), *model, set_s);
+  const Inflation out = inflate(*make_tube({12}), *model, set_s);
   ASSERT_TRUE(out.status.ok());
   const double ro = out.values[0] * outer, lz = 1.2, Ri2 = inner * inner;
   const double ri = std::sqrt(ro * ro - (outer * outer - Ri2) / lz);
@@ -196,14 +196,14 @@ TEST(Tube, MeanStressesAreTheIntegralsOverTheWall) {
 TEST(Tube, RelaxesUnderPressureTowardsTheEquilibriumDiameter) {
   const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
   const std::vector<double> p{60, 0.8, 5}, held(7, 8.);
-  const Inflated creep = inflate(*make_tube(held, {.time = {0, 0.5, 2, 10, 40, 400, 800}}), *viscous, p);
-  const Inflated elastic = inflate(*make_tube({8}), *make_model("neo_hooke"), {60});
-  const Inflated stiff = inflate(*make_tube({8}), *make_model("neo_hooke"), {60 * 1.8});
+  const Inflation creep = inflate(*make_tube(held, {.time = {0, 0.5, 2, 10, 40, 400, 800}}), *viscous, p);
+  const Inflation elastic = inflate(*make_tube({8}), *make_model("neo_hooke"), {60});
+  const Inflation stiff = inflate(*make_tube({8}), *make_model("neo_hooke"), {60 * 1.8});
   ASSERT_TRUE(creep.status.ok() && elastic.status.ok() && stiff.status.ok()) << creep.status.reason();
   for (std::size_t i = 1; i < 7; ++i) EXPECT_GT(creep.values[i], creep.values[i - 1]);
   EXPECT_NEAR(creep.values[0], stiff.values[0], 1e-9);  // at once: the branch is a second, parallel spring
   EXPECT_NEAR(creep.values[6], elastic.values[0], 1e-6);
-  const Inflated clockless = inflate(*make_tube(held), *viscous, p);
+  const Inflation clockless = inflate(*make_tube(held), *viscous, p);
   ASSERT_TRUE(clockless.status.ok());
   EXPECT_NEAR(clockless.values[3], elastic.values[0], 1e-10);
 }
@@ -230,7 +230,7 @@ TEST(Tube, ShowsTheStressThroughItsWall) {
     EXPECT_EQ(found[0].row, 1u);
     EXPECT_TRUE(found[0].cells.empty());
     ASSERT_EQ(found[0].section[5].name, "circumferential_stress");
-    const Inflated out = inflate(*tube, *model, set_s, own);
+    const Inflation out = inflate(*tube, *model, set_s, own);
     const double ro = out.values[1] / 2, ri = out.values[3] / 2;
     const auto& radial = found[0].section[7].values;
     EXPECT_NEAR(radial.front(), -12, 0.1);

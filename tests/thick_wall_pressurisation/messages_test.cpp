@@ -17,10 +17,10 @@ std::string refusal(const std::vector<double>& pressure, const TubeSetup& setup)
   }
   return {};
 }
-Options lengths(double inner, double outer, double thickness) {
+Options lengths(double inside, double outside, double thickness) {
   Options options;
-  options.set("inner_radius", inner);
-  options.set("outer_radius", outer);
+  options.set("inner_radius", inside);
+  options.set("outer_radius", outside);
   options.set("thickness", thickness);
   return options;
 }
@@ -78,7 +78,7 @@ TEST(TubeMessages, PathsWithHistoryHaveNoJacobian) {
   const Status status = make_tube({1})->predict({*viscous, {{60, 0.8, 5}}, bare_tube}, {{}, jacobian, {}, {}});
   EXPECT_EQ(status.kind(), Status::Kind::failed);
   EXPECT_SAYS(status.reason(), "no exact Jacobian along the path of a model with history");
-  const Inflated burst = inflate(*make_tube({1, 400}), *viscous, {60, 0.8, 5});
+  const Inflation burst = inflate(*make_tube({1, 400}), *viscous, {60, 0.8, 5});
   EXPECT_SAYS(burst.status.reason(), "no equilibrium at row 2 (pressure 400 kPa, axial stretch 1.2)");
 }
 

@@ -38,7 +38,7 @@ constexpr Reference references[] = {
 TEST(Tube, ReproducesTheReferenceCurve) {
   std::vector<double> pressure;
   for (const Reference& row : references) pressure.push_back(row.pressure);
-  const Inflated out = inflate(*make_tube(pressure), *make_model("gho"), set_s);
+  const Inflation out = inflate(*make_tube(pressure), *make_model("gho"), set_s);
   ASSERT_TRUE(out.status.ok()) << out.status.reason();
   const std::size_t n = pressure.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -53,10 +53,10 @@ TEST(Tube, FindsTheSameStatesOneByOneAndInAnyOrder) {
   const auto model = make_model("gho");
   std::vector<double> backwards;
   for (const Reference& row : references) backwards.insert(backwards.begin(), row.pressure);
-  const Inflated all = inflate(*make_tube(backwards), *model, set_s);
+  const Inflation all = inflate(*make_tube(backwards), *model, set_s);
   ASSERT_TRUE(all.status.ok()) << all.status.reason();
   for (std::size_t i = 0; i < backwards.size(); ++i) {
-    const Inflated one = inflate(*make_tube({backwards[i]}), *model, set_s);
+    const Inflation one = inflate(*make_tube({backwards[i]}), *model, set_s);
     ASSERT_TRUE(one.status.ok()) << one.status.reason();
     EXPECT_NEAR(one.values[0], all.values[i], 1e-12) << i;
     EXPECT_NEAR(one.values[1], all.values[backwards.size() + i], 1e-9) << i;

@@ -18,7 +18,7 @@ TEST(TubeRobustness, TheLimitPressureOfANeoHookeanTubeIsNoticed) {
   const double limit = mu / lz * std::log(5.77 / 3.71);
   const auto model = make_model("neo_hooke");
   EXPECT_TRUE(inflate(*make_tube({0.5 * limit, 0.98 * limit}), *model, {mu}).status.ok());
-  const Inflated out = inflate(*make_tube({0.5 * limit, 1.01 * limit}), *model, {mu});
+  const Inflation out = inflate(*make_tube({0.5 * limit, 1.01 * limit}), *model, {mu});
   EXPECT_EQ(out.status.kind(), Status::Kind::failed);
   const std::string& reason = out.status.reason();
   EXPECT_NE(reason.find("no equilibrium at row 2 (pressure 22.3"), std::string::npos) << reason;
@@ -61,7 +61,7 @@ TEST(TubeRobustness, ATubeThatSnapsToAWiderStateFailsAtTheLimitPressure) {
   const TubeSetup setup{.axial_stretch = 1.1, .inner_radius = 3, .thickness = 1};
   EXPECT_TRUE(inflate(*make_tube({0.99 * maximum}, setup), *model, p).status.ok());
   for (const double beyond : {1.01, 1.2}) {
-    const Inflated out = inflate(*make_tube({0.5 * maximum, beyond * maximum}, setup), *model, p);
+    const Inflation out = inflate(*make_tube({0.5 * maximum, beyond * maximum}, setup), *model, p);
     EXPECT_EQ(out.status.kind(), Status::Kind::failed) << beyond;
     const auto at = out.status.reason().find("(limit pressure): ");
     ASSERT_NE(at, std::string::npos) << out.status.reason();
@@ -115,7 +115,7 @@ TEST(TubeRobustness, AnyTubeOfDispersedFibresConverges) {
     if (draw % 4 < 2) own[tethering] = 0;
     const auto tube = make_tube(evenly(0, top, draw % 3 == 0 ? 4 : 30),
                                 {.axial_stretch = lz, .inner_radius = Ri, .thickness = thickness});
-    const Inflated out = inflate(*tube, *model, p, own);
+    const Inflation out = inflate(*tube, *model, p, own);
     ASSERT_TRUE(out.status.ok()) << draw << ": " << out.status.reason();
     for (const double value : out.values) ASSERT_TRUE(std::isfinite(value)) << draw;
     if (own != bare_tube) continue;
@@ -151,9 +151,9 @@ TEST(TubeRobustness, RowsOfFallingPressureFindTheStatesOfRisingOnes) {
     own[opening_angle] = between(0, 150);
     const TubeSetup setup{.axial_stretch = between(1.02, 1.3), .inner_radius = 1.531, .thickness = 0.77};
     std::vector<double> pressure = evenly(0, between(1, 3.3), draw % 3 == 0 ? 2 : 12);
-    const Inflated up = inflate(*make_tube(pressure, setup), *model, p, own);
+    const Inflation up = inflate(*make_tube(pressure, setup), *model, p, own);
     std::reverse(pressure.begin(), pressure.end());
-    const Inflated down = inflate(*make_tube(pressure, setup), *model, p, own);
+    const Inflation down = inflate(*make_tube(pressure, setup), *model, p, own);
     ASSERT_TRUE(up.status.ok()) << draw << ": " << up.status.reason();
     ASSERT_TRUE(down.status.ok()) << draw << ": " << down.status.reason();
     for (std::size_t i = 0, n = pressure.size(); i < n; ++i)

@@ -34,7 +34,8 @@ std::optional<Information> information(const assembly::Assembly& assembly, exper
       for (std::size_t k = 0; k < own.size; ++k) squares += residuals[own.offset + k] * residuals[own.offset + k];
       deviance += squares;
     } else {
-      ++estimated, ++parameters;
+      ++estimated;
+      ++parameters;
       for (std::size_t i = 0; i < channel.count; ++i)
         if (channel.fitted[i]) squares += std::pow(predictions[channel.offset + i] - channel.measured[i], 2);
       deviance += static_cast<double>(count) * std::log(squares / static_cast<double>(count));

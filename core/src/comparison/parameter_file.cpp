@@ -66,7 +66,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
       values = from_result(values, model, chosen, file);
       origin = fmt::format("run '{}' of {}", chosen, file);
     } else if (!run.empty()) {
-      throw InputError(fmt::format("{}: is no result.json, so it has no run '{}'; leave out --run", file, run));
+      throw InputError(fmt::format("{}: is not a result.json, so it has no run '{}'; leave out --run", file, run));
     }
   } catch (const json::exception& problem) {
     throw InputError(
@@ -79,7 +79,10 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   const auto& fixed = assembly.layout().fixed_parameters;
   std::vector<double> free;
   std::vector<std::string> known;
-  for (const auto& parameter : parameters) free.push_back(parameter.initial), known.push_back(parameter.name);
+  for (const auto& parameter : parameters) {
+    free.push_back(parameter.initial);
+    known.push_back(parameter.name);
+  }
   for (const auto& parameter : fixed) known.push_back(parameter.name);
   // A run of the model alone has names without it, where this one, with layers of other models, says whose they are.
   const bool several = assembly.models().count() > 1;

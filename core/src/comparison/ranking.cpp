@@ -39,7 +39,10 @@ bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& g
   std::set<std::optional<double>> targets;
   std::size_t count = 0;
   for (const auto& run : runs)
-    if (run.group == group) targets.insert(run.target), ++count;
+    if (run.group == group) {
+      targets.insert(run.target);
+      ++count;
+    }
   return count > 1 && targets.size() == 1 && targets.begin()->has_value();
 }
 

@@ -20,7 +20,7 @@ std::size_t row_number(const std::string& word, const std::string& text) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), row);
   if (error != std::errc() || end != word.data() + word.size() || row == 0)
     throw InputError(
-        fmt::format("--fields {}: '{}' is no row; rows are counted from 1, for example tube:1,18,35", text, word));
+        fmt::format("--fields {}: '{}' is not a row; rows are counted from 1, for example tube:1,18,35", text, word));
   return row - 1;
 }
 

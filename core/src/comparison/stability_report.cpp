@@ -176,7 +176,10 @@ std::string stability_table(const Summary& summary) {
   std::size_t width = 5;
   bool any = false;
   for (const auto& run : summary.runs)
-    if (run.stability) any = true, width = std::max(width, text::columns(run.label));
+    if (run.stability) {
+      any = true;
+      width = std::max(width, text::columns(run.label));
+    }
   if (!any) return {};
   constexpr std::size_t widest_label = 17, widest_constraint = 10;  // so that the row fits into 80 columns
   width = std::min(width, widest_label);

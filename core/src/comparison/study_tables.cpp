@@ -39,9 +39,9 @@ std::vector<std::uint64_t> shown(const execution::RealisationResult& realisation
                       end = realisation.tally.evaluations;
   std::vector<std::uint64_t> at{first, last, end};
   for (int k = 0;; ++k) {
-    const auto grid = static_cast<std::uint64_t>(std::ceil(std::pow(10, k / 20.0)));
-    if (grid >= end) break;
-    if (grid > first) at.push_back(grid);
+    const auto decade = static_cast<std::uint64_t>(std::ceil(std::pow(10, k / 20.0)));
+    if (decade >= end) break;
+    if (decade > first) at.push_back(decade);
   }
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end()), at.end());

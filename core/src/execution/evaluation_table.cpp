@@ -138,7 +138,7 @@ void EvaluationTable::parse(std::string_view line, Row& row) const {
     throw InputError(fmt::format("{} cells where the header has {}: '{}'", row.cells.size(), expected, line));
   const auto label = std::find(quoted_labels_.begin(), quoted_labels_.end(), row.cells[1]);
   if (label == quoted_labels_.end())
-    throw InputError(fmt::format("'{}' is no run of this experiment: '{}'", row.cells[1], line));
+    throw InputError(fmt::format("'{}' is not a run of this experiment: '{}'", row.cells[1], line));
   row.run = static_cast<std::size_t>(label - quoted_labels_.begin());
   row.realisation = read_number<std::uint64_t>(row.cells[2], 0);
   const auto id = read_number<std::uint64_t>(row.cells[0], 0);
@@ -170,7 +170,7 @@ void EvaluationTable::values(const Row& row, search::JournalEntry& entry) const 
   else if (word == "failed")
     entry.status = Status::failed(std::move(reason));
   else
-    throw InputError(fmt::format("'{}' is no status", word));
+    throw InputError(fmt::format("'{}' is not a status", word));
   entry.seconds = read_number(row.cells[cell + 4], 0.0);
 }
 

@@ -28,7 +28,7 @@ ParameterSetting read_setting(const Node& node, const std::string& name, std::st
   setting.initial = value("initial");
   setting.fixed = value("fixed");
   if (const auto scale = node.find("scale"))
-    setting.scale = value_in(scale_names, scale->one_of(names_in(scale_names), "scale"));
+    setting.scale = *text::value_of(scale_names, scale->one_of(names_in(scale_names), "scale"));
   if (const auto share = node.find("share")) {
     setting.share = share->text("the name of a share group");
     share->check_name(*setting.share, "share group");
@@ -166,7 +166,8 @@ void check_shared(const std::vector<SharedParameter>& shared) {
       compare("upper bounds", member->setting.max, first.setting.max);
       compare("initial values", member->setting.initial, first.setting.initial);
       if (member->setting.scale && first.setting.scale && *member->setting.scale != *first.setting.scale)
-        conflict("scales", name_in(scale_names, *member->setting.scale), name_in(scale_names, *first.setting.scale));
+        conflict("scales", text::code_of(scale_names, *member->setting.scale),
+                 text::code_of(scale_names, *first.setting.scale));
       if (member->setting.prior && first.setting.prior &&
           (member->setting.prior->mean != first.setting.prior->mean ||
            member->setting.prior->sd != first.setting.prior->sd))

@@ -11,8 +11,8 @@ namespace tunica::experiment {
 namespace {
 
 template <class Enumeration, std::size_t count>
-Enumeration read_choice(const Node& node, const EnumNames<Enumeration, count>& table, std::string_view noun) {
-  return value_in(table, node.one_of(names_in(table), noun));
+Enumeration read_choice(const Node& node, const text::Codes<Enumeration, count>& table, std::string_view noun) {
+  return *text::value_of(table, node.one_of(names_in(table), noun));
 }
 
 // The sub-critical factor h of the stability constraint: a number, or a table over stretch.

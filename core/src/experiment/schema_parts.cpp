@@ -78,7 +78,7 @@ Json parameters_schema(const std::vector<Parameter>& parameters) {
   for (const Parameter& p : parameters)
     properties[p.name] =
         reference("parameter", fmt::format("{}. Default: {} within {} to {}, scale {}.{}{}", with_unit(p.doc, p.unit),
-                                           p.initial, p.min, p.max, name_in(scale_names, p.scale),
+                                           p.initial, p.min, p.max, text::code_of(scale_names, p.scale),
                                            p.reference.empty() ? "" : " ", p.reference));
   return object_schema("Bounds, start, scale of parameters, by name; what is left out keeps its default.",
                        std::move(properties));

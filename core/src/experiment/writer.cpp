@@ -27,7 +27,7 @@ Json to_json(const ParameterSetting& setting) {
   add("max", setting.max);
   add("initial", setting.initial);
   add("fixed", setting.fixed);
-  if (setting.scale) json["scale"] = name_in(scale_names, *setting.scale);
+  if (setting.scale) json["scale"] = text::code_of(scale_names, *setting.scale);
   if (setting.share) json["share"] = *setting.share;
   if (setting.prior) json["prior"] = {{"mean", setting.prior->mean}, {"sd", setting.prior->sd}};
   return json;
@@ -137,7 +137,7 @@ Json to_json(const RunEntry& run) {
   json["realisations"] = run.realisations;
   json["initial"] = run.random_start ? "random" : "given";
   json["tests"] = run.tests;
-  json["objective"] = name_in(objective_names, run.objective);
+  json["objective"] = text::code_of(objective_names, run.objective);
   json["constraints"] = std::move(constraints);
   json["stop"] = to_json(run.stop);
   return json;
@@ -182,7 +182,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const TestEntry& entry : experiment.tests) json["tests"][entry.name] = writer.test(entry);
   for (const OptimizerEntry& entry : experiment.optimizers) json["optimizers"][entry.name] = writer.optimizer(entry);
   for (const RunEntry& run : experiment.runs) json["runs"].push_back(to_json(run));
-  json["on_failure"] = {{"policy", name_in(on_failure_names, experiment.on_failure)},
+  json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)},
                         {"max_rate", experiment.max_failure_rate}};
   if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);

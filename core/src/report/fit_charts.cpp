@@ -26,13 +26,15 @@ std::size_t swept(const Table& table, const std::vector<std::size_t>& rows, std:
     for (const std::size_t row : rows) {
       const double value = table.number(row, column);
       if (!std::isfinite(value)) continue;
-      low = std::min(low, value), high = std::max(high, value);
+      low = std::min(low, value);
+      high = std::max(high, value);
       way += std::isfinite(last) ? std::abs(value - last) : 0;
       last = value;
     }
     const double range = high - low, size = std::max(std::abs(low), std::abs(high));
     if (!(range > 1e-3 * size) || way / range > least / 1.5) continue;
-    best = column, least = way / range;
+    best = column;
+    least = way / range;
   }
   return best;
 }
@@ -48,7 +50,8 @@ struct Channel {
       : table(of), test(std::move(name)), over(abscissa), measured(column), predicted(fit) {
     const std::string& observable = table.columns()[measured].name;
     ci95 = table.find(observable + ".ci95");
-    lowest = table.find(observable + ".lowest"), highest = table.find(observable + ".highest");
+    lowest = table.find(observable + ".lowest");
+    highest = table.find(observable + ".highest");
   }
 };
 
@@ -98,12 +101,21 @@ std::size_t add_curve(Chart& chart, const Channel& channel, const std::vector<st
     };
     const double x = channel.table.number(row, channel.over), y = channel.table.number(row, channel.predicted);
     const double half = at(channel.ci95), low = at(channel.lowest), high = at(channel.highest);
-    curve.x.push_back(x), curve.y.push_back(y);
-    curve.low.push_back(y - half), curve.high.push_back(y + half);
-    range.x.push_back(x), range.y.push_back(y), range.low.push_back(low), range.high.push_back(high);
-    interval |= std::isfinite(half), spread |= high > low;
+    curve.x.push_back(x);
+    curve.y.push_back(y);
+    curve.low.push_back(y - half);
+    curve.high.push_back(y + half);
+    range.x.push_back(x);
+    range.y.push_back(y);
+    range.low.push_back(low);
+    range.high.push_back(high);
+    interval |= std::isfinite(half);
+    spread |= high > low;
   }
-  if (!interval) curve.low.clear(), curve.high.clear();
+  if (!interval) {
+    curve.low.clear();
+    curve.high.clear();
+  }
   std::size_t left_out = thin(curve);
   if (spread) {
     left_out += thin(range);

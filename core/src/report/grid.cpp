@@ -60,7 +60,10 @@ std::optional<Grid> Grid::read(const std::filesystem::path& file, std::string& p
     boost::property_tree::read_xml(file.string(), tree);
     const Tree& piece = tree.get_child("VTKFile.UnstructuredGrid.Piece");
     const auto points = numbers(piece.get_child("Points.DataArray").data());
-    for (std::size_t i = 0; i + 2 < points.size(); i += 3) grid.x.push_back(points[i]), grid.y.push_back(points[i + 1]);
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+      grid.x.push_back(points[i]);
+      grid.y.push_back(points[i + 1]);
+    }
     for (const auto& array : fields(piece.get_child("Cells")))
       if (array.title == "connectivity")
         for (const double point : array.values)

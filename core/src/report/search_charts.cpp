@@ -132,7 +132,10 @@ void add_profile(Page& page, const Folder& folder, const char* file, const char*
   int style = 0;
   double least = INFINITY, most = 0;
   for (std::size_t row = 0; row < table->rows(); ++row)
-    if (const double x = table->number(row, column); x > 0) least = std::min(least, x), most = std::max(most, x);
+    if (const double x = table->number(row, column); x > 0) {
+      least = std::min(least, x);
+      most = std::max(most, x);
+    }
   for (const auto& [optimizer, rows] : table->groups("optimizer")) {
     Series series{optimizer, "step", style++};
     for (const std::size_t row : rows) {

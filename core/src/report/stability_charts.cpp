@@ -163,7 +163,10 @@ void add_map(Page& page, const Folder& folder, const std::string& file) {
     for (const std::size_t row : entry->second) {
       const double value = table->number(row, "worst_slope");
       line[column.at(table->text(row, std::size_t{0}))] = value;
-      if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+      if (std::isfinite(value)) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
     }
     chart.values.push_back(std::move(line));
   }

@@ -103,7 +103,8 @@ Series arc(const std::string& name, double radius, int style) {
   constexpr int steps = 48;
   for (int k = 0; k <= steps; ++k) {
     const double angle = std::numbers::pi / 2 * k / steps;
-    line.x.push_back(radius * std::cos(angle)), line.y.push_back(radius * std::sin(angle));
+    line.x.push_back(radius * std::cos(angle));
+    line.y.push_back(radius * std::sin(angle));
   }
   return line;
 }
@@ -195,10 +196,16 @@ void add_outline(Chart& chart, const Grid& grid) {
     double a = INFINITY, b = -INFINITY, c = INFINITY, d = -INFINITY;
     for (std::size_t i = 0; i < grid.x.size(); ++i) {
       const double r = grid.x[i] - moved->values[3 * i], z = grid.y[i] - moved->values[3 * i + 1];
-      a = std::min(a, r), b = std::max(b, r), c = std::min(c, z), d = std::max(d, z);
+      a = std::min(a, r);
+      b = std::max(b, r);
+      c = std::min(c, z);
+      d = std::max(d, z);
     }
     chart.series.push_back({"unloaded", "line", -1, {a, b, b, a, a}, {c, c, d, d, c}});
-    r0 = std::min(r0, a), r1 = std::max(r1, b), z0 = std::min(z0, c), z1 = std::max(z1, d);
+    r0 = std::min(r0, a);
+    r1 = std::max(r1, b);
+    z0 = std::min(z0, c);
+    z1 = std::max(z1, d);
   }
   const double margin = 0.03 * std::max(r1 - r0, z1 - z0);
   chart.x = {"radius [mm]", false, {}, {{r0 - margin, r1 + margin}}};

@@ -270,7 +270,7 @@ void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const bool is_force = k == positions.size();
     std::vector<double>& z = weights[k].right;
-    &a = weights[k].moved;
+    std::vector<double>& a = weights[k].moved;
     a.assign(size, 0);
     weights[k].dilation.resize(dq_.size());
     if (!is_force) a[positions[k]] = 1;

@@ -25,7 +25,7 @@ class Misread final : public Test {
     std::vector<double> values(size);
     out.values = values;
     if (!output.jacobian.empty()) out.jacobian = output.jacobian.first(output.jacobian.size() - size);
-    if (Status status = base_->evaluator().predict(bare, out); !status.ok()) return status;
+    if (Status status = base_->predict(bare, out); !status.ok()) return status;
     constexpr double mmHg = 0.133322387415;
     const auto scaled = [&](double value) { return value / mmHg * (1 + gain) * mmHg; };
     for (std::size_t i = 0; i < output.values.size(); ++i) output.values[i] = scaled(values[i]);

@@ -34,7 +34,7 @@ class Rippled final : public Test {
     const std::size_t size = shape_.size(), bare = output.jacobian.empty() ? 0 : output.jacobian.size() - size;
     TestInput inner = input;
     inner.test_parameters = input.test_parameters.first(input.test_parameters.size() - 1);
-    Status status = base_->evaluator().predict(
+    Status status = base_->predict(
         inner, {output.values, output.jacobian.first(bare), output.abscissa_derivative, output.diagnostics});
     if (!status.ok()) return status;
     for (std::size_t i = 0; i < size && !output.jacobian.empty(); ++i) output.jacobian[bare + i] = shape_[i];

@@ -9,9 +9,9 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
-#include "uncertainty/refit.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "tunica/random.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -139,7 +139,8 @@ SettledFit settle_noise(const Inquiry& inquiry, const Preparation& prepared, con
     return {prepared.experiment, prepared.base, fit};
   SettledFit settled{with_noise_levels(prepared.experiment, *prepared.base, predicted), nullptr, fit};
   settled.base = std::make_shared<const assembly::Assembly>(settled.experiment, prepared.run, inquiry.catalogue);
-  Fit again = least_squares(*settled.base, all_variables(*settled.base), fit.free, *settled.base->evaluator().make_workspace());
+  Fit again =
+      least_squares(*settled.base, all_variables(*settled.base), fit.free, *settled.base->evaluator().make_workspace());
   if (again.status.ok()) settled.fit = std::move(again);
   return settled;
 }

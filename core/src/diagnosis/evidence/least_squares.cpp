@@ -171,8 +171,8 @@ class Descent {
 
 }  // namespace
 
-Status whitened(const assembly::Assembly& assembly, std::span<const double> free,
-                assembly::Workspace& workspace, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
+Status whitened(const assembly::Assembly& assembly, std::span<const double> free, assembly::Workspace& workspace,
+                Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian) {
   const auto rows = static_cast<Eigen::Index>(assembly.layout().residual_count);
   const auto columns = static_cast<Eigen::Index>(free.size());
   residuals.resize(rows);
@@ -180,14 +180,14 @@ Status whitened(const assembly::Assembly& assembly, std::span<const double> free
   RowMajor J;
   if (jacobian) J.resize(rows, columns);
   Status status = assembly.evaluator().evaluate(free, objective, {}, {residuals.data(), static_cast<std::size_t>(rows)},
-                                    {J.data(), static_cast<std::size_t>(J.size())}, workspace);
+                                                {J.data(), static_cast<std::size_t>(J.size())}, workspace);
   if (status.ok() && jacobian) *jacobian = J;
   return status;
 }
 
 Fit least_squares(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
-                  std::span<const double> start, assembly::Workspace& workspace,
-                  std::size_t max_evaluations, const DataVariant& data) {
+                  std::span<const double> start, assembly::Workspace& workspace, std::size_t max_evaluations,
+                  const DataVariant& data) {
   return Descent(assembly, variables, start, workspace, data).run(max_evaluations);
 }
 

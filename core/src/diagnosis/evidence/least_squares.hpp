@@ -39,12 +39,12 @@ struct DataVariant {
 /// Why not an optimiser plugin: a diagnosis makes hundreds of fits of a few milliseconds with variables tied and others
 /// held, and one Jacobian of a model with history costs as much as twenty evaluations.
 Fit least_squares(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
-                  std::span<const double> start, assembly::Workspace& workspace,
-                  std::size_t max_evaluations = 60, const DataVariant& data = {});
+                  std::span<const double> start, assembly::Workspace& workspace, std::size_t max_evaluations = 60,
+                  const DataVariant& data = {});
 
 /// Residuals, and unless `jacobian` is null the Jacobian by all free parameters in base units.
-Status whitened(const assembly::Assembly& assembly, std::span<const double> free,
-                assembly::Workspace& workspace, Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian);
+Status whitened(const assembly::Assembly& assembly, std::span<const double> free, assembly::Workspace& workspace,
+                Eigen::VectorXd& residuals, Eigen::MatrixXd* jacobian);
 
 /// Every free parameter by itself.
 std::vector<Variable> all_variables(const assembly::Assembly& assembly);

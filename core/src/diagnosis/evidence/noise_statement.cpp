@@ -206,7 +206,7 @@ std::vector<double> row_deviations(const assembly::MeasuredChannel& view) {
   noise.gross.clear();
   std::vector<std::string> warnings;
   return assembly::noise_model({view.observable, view.unit, view.measured, {}, noise}, view.abscissa, view.fitted,
-                                  view.test, warnings)
+                               view.test, warnings)
       .sd;
 }
 

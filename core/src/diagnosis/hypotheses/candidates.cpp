@@ -129,7 +129,8 @@ class CandidateSearch {
         for (const auto& [name, value] : settings[s])
           if (name == mechanism.parameters[k + 1].name)
             for (const std::size_t member : part.nuisance[k])
-              null[member] = std::clamp(value, assembly.layout().parameters[member].min, assembly.layout().parameters[member].max);
+              null[member] =
+                  std::clamp(value, assembly.layout().parameters[member].min, assembly.layout().parameters[member].max);
       const bool exact = assembly.layout().jacobian_is_exact;
       // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
       if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
@@ -161,7 +162,8 @@ class CandidateSearch {
     std::vector<double> values;
     for (const std::size_t j : extended.base())
       for (std::size_t k = 0; k < fitted_.size(); ++k)
-        if (base_.layout().parameters[k].name == extended.assembly().layout().parameters[j].name) values.push_back(fitted_[k]);
+        if (base_.layout().parameters[k].name == extended.assembly().layout().parameters[j].name)
+          values.push_back(fitted_[k]);
     return values;
   }
 
@@ -187,8 +189,7 @@ class CandidateSearch {
   /// The signature at half a plausible amplitude on one side, where a refit leaves another shape of it than of the
   /// tangent: then it is one more place to look at.
   void add_secant(const Extension& extended, const Hypothesis& tangent, double sign, const std::vector<double>& null,
-                  const Eigen::VectorXd& bare, assembly::Workspace& workspace,
-                  std::vector<Hypothesis>& into) const {
+                  const Eigen::VectorXd& bare, assembly::Workspace& workspace, std::vector<Hypothesis>& into) const {
     const MechanismFactory& mechanism = *tangent.mechanism;
     if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
     // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.

@@ -24,8 +24,8 @@ Admissibility admissibility_at(const assembly::Assembly& assembly, std::span<con
   std::vector<std::string> lost;  // what and where
   bool all = true;
   for (std::size_t m = 0; m < assembly.models().count(); ++m) {
-    const auto verdict =
-        stability::judge_admissibility(assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
+    const auto verdict = stability::judge_admissibility(
+        assembly.models().model(m), assembly.models().parameters(m, free), comparison::domain_of(assembly, m));
     const auto transverse = verdict.transversely_stable();
     const bool elliptic = !verdict.ellipticity.first_lost;
     if (transverse == false)

@@ -28,7 +28,8 @@ struct RowDeviation {
 std::optional<RowDeviation> deviation_of(const Refit& refit, const GrossRow& row) {
   const assembly::Assembly& assembly = refit.extension->assembly();
   std::vector<double> predicted(assembly.layout().prediction_count);
-  if (!assembly.evaluator().predict(refit.fit.free, predicted, {}, *assembly.evaluator().make_workspace()).ok()) return std::nullopt;
+  if (!assembly.evaluator().predict(refit.fit.free, predicted, {}, *assembly.evaluator().make_workspace()).ok())
+    return std::nullopt;
   for (const assembly::MeasuredChannel& view : assembly.layout().channels) {
     if (view.test != row.test || view.observable != row.channel) continue;
     const auto before = static_cast<std::size_t>(

@@ -19,7 +19,7 @@ constexpr std::size_t quick_pairs = 8, full_pairs = 24;  ///< at finite amplitud
 constexpr std::size_t pool_of_each = 2;                  ///< hypotheses of a candidate that enter pairs
 constexpr std::size_t beside = 3;                        ///< of the best, and of what is left after each: seeds
 constexpr std::size_t triples_tried = 6;
-constexpr double short_of = 3;  ///< of ln w: what a score may underrate a refit by
+constexpr double short_of = 3;             ///< of ln w: what a score may underrate a refit by
 constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
 
 class GroupSearch {

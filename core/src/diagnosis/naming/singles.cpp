@@ -15,9 +15,9 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-constexpr std::size_t quick_refits = 10;   ///< candidates
+constexpr std::size_t quick_refits = 10;           ///< candidates
 constexpr std::size_t singles_searched_again = 6;  ///< refits, the best
-constexpr double quick_reach = 9;          ///< of ln w, beyond the first four
+constexpr double quick_reach = 9;                  ///< of ln w, beyond the first four
 
 double log_side(Side side, double T) {
   return side == Side::both ? 0 : std::log(std::erfc(-std::sqrt(std::max(T, 0.0) / 2)));
@@ -134,7 +134,7 @@ class SingleSearch {
     }
     std::vector<std::size_t>& chosen = common.empty() ? single : common;
     std::stable_sort(chosen.begin(), chosen.end(), [&](auto a, auto b) { return scores_[a].T > scores_[b].T; });
-    chosen.resize(std::min<std::size_t>(chosen.size(), 2));
+    if (chosen.size() > 2) chosen.erase(chosen.begin() + 2, chosen.end());
     return chosen;
   }
   [[nodiscard]] double far_amplitude(std::size_t direction) const {

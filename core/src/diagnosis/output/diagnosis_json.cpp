@@ -296,7 +296,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
       {"format", 1},
       {"name", experiment.name},
       {"warnings", texts(warnings)},
-      {"warning_codes", codes(warnings)},
+      {"warning_details", details(warnings)},
       {"ranking", json::array()},
       {"identifiability", json::array()},
       {"runs", json::array()},

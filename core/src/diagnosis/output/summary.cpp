@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "text/wrapping.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::diagnosis {
 namespace {

@@ -25,7 +25,8 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
   std::vector<double> without = claim.best->fit.free;
   for (const std::size_t member : part.amplitude) without[member] = part.null;
   Eigen::VectorXd residuals;
-  if (!whitened(extension.assembly(), without, *extension.assembly().evaluator().make_workspace(), residuals, nullptr).ok())
+  if (!whitened(extension.assembly(), without, *extension.assembly().evaluator().make_workspace(), residuals, nullptr)
+           .ok())
     return nothing;
   return d.analysis.hypotheses.projection.off(claim.best->fit.residuals - residuals);
 }

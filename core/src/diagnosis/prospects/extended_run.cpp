@@ -19,7 +19,8 @@ std::optional<Warning> noise_difference(const Inquiry& inquiry, const Evidence& 
     for (auto& [channel, noise] : test.data.noise) noise.level.clear();
   const assembly::Assembly assembly(experiment, evidence.run, inquiry.catalogue);
   Eigen::VectorXd residuals;
-  if (!whitened(assembly, best.fit.free, *assembly.evaluator().make_workspace(), residuals, nullptr).ok()) return std::nullopt;
+  if (!whitened(assembly, best.fit.free, *assembly.evaluator().make_workspace(), residuals, nullptr).ok())
+    return std::nullopt;
   constexpr double alike = 1e-3;
   const double run = residuals.squaredNorm();
   if (!(std::abs(run - best.fit.chi2) > alike * best.fit.chi2)) return std::nullopt;
