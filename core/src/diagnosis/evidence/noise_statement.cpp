@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "assembly/channels.hpp"
 #include "assembly/noise.hpp"
 
 namespace tunica::diagnosis {

@@ -174,7 +174,7 @@ class CandidateSearch {
     };
     Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(base_.layout().residual_count));
     Eigen::Index at = 0;
-    for (const assembly::MeasuredChannel& view : from.channels()) {
+    for (const assembly::MeasuredChannel& view : from.layout().channels) {
       Eigen::Index into = 0;
       for (const assembly::MeasuredChannel& own : base_.layout().channels) {
         if (own.test == view.test && own.observable == view.observable)

@@ -32,7 +32,7 @@ const Hypothesis* hypothesis_of(const Hypotheses& hypotheses, const Addition& ad
 /// The values of a smaller refit in the place of parameters of the same name.
 void take_over(const Refit& from, const assembly::Assembly& onto, std::vector<double>& start) {
   const auto& names = from.extension->assembly().layout().parameters;
-  const auto& parameters = onto.parameters();
+  const auto& parameters = onto.layout().parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j)
     for (std::size_t k = 0; k < names.size(); ++k)
       if (names[k].name == parameters[j].name)
