@@ -132,14 +132,14 @@ TEST(Assembly, ReportsDiagnosticsAndHashes) {
 TEST(Assembly, TranslatesCombinationsToFreeParameters) {
   Bench bench("valley");
   bench.add_test("t", {0, 1, 2}, {1, 2, 3});
-  EXPECT_EQ(bench.assemble().combinations()[0].value(std::vector<double>{3, 4, 5}), 10);
+  EXPECT_EQ(bench.assemble().layout().combinations[0].value(std::vector<double>{3, 4, 5}), 10);
   bench.parameter("p").fixed = 7;
   const Assembly assembly = bench.assemble();
   ASSERT_EQ(assembly.layout().combinations.size(), 1u);
   EXPECT_THAT(assembly.layout().combinations[0].arguments, testing::ElementsAre(0u));
   EXPECT_EQ(assembly.layout().combinations[0].value(std::vector<double>{4, 5}), 18);
   bench.parameter("q").fixed = 1;
-  EXPECT_TRUE(bench.assemble().combinations().empty());
+  EXPECT_TRUE(bench.assemble().layout().combinations.empty());
 }
 
 struct Refusal {

@@ -7,7 +7,7 @@ namespace tunica {
 namespace {
 
 /// Linear and logarithmic by turns.
-std::vector<assembly::FreeParameter> parameters(std::size_t count) {
+std::vector<assembly::FreeParameter> mixed_scales(std::size_t count) {
   std::vector<assembly::FreeParameter> all;
   for (std::size_t j = 0; j < count; ++j) {
     const double max = 2.0 + static_cast<double>(j);
@@ -18,7 +18,7 @@ std::vector<assembly::FreeParameter> parameters(std::size_t count) {
 
 TEST(UnitBox, ScalesEveryColumnOfAJacobianByItsSlope) {
   for (const std::size_t n : {1u, 5u, 16u, 17u, 40u}) {
-    const assembly::UnitBox box(parameters(n));
+    const assembly::UnitBox box(mixed_scales(n));
     std::vector<double> free(n), jacobian(3 * n, 1.0);
     box.from_unit(std::vector<double>(n, 0.3), free);
     box.jacobian_to_unit(free, jacobian);
@@ -27,7 +27,7 @@ TEST(UnitBox, ScalesEveryColumnOfAJacobianByItsSlope) {
 }
 
 TEST(UnitBox, HasTheSlopeOfItsMap) {
-  const assembly::UnitBox box(parameters(4));
+  const assembly::UnitBox box(mixed_scales(4));
   const std::vector<double> x(4, 0.3), ahead(4, 0.3 + 1e-6), behind(4, 0.3 - 1e-6);
   std::vector<double> at(4), above(4), below(4);
   box.from_unit(x, at);

@@ -24,7 +24,7 @@ struct Provenance {
 
 std::string version();
 Provenance provenance_of(const execution::Plan& plan);
-/// Of what was made from an experiment without a plan; `data` as Assembly::data_hashes() has them.
+/// Of what was made from an experiment without a plan; `data` as Layout::data_hashes has them.
 Provenance provenance_of(const experiment::Experiment& experiment, std::vector<std::string> plugins,
                          std::vector<std::string> data);
 

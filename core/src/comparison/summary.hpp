@@ -75,7 +75,7 @@ struct RunSummary {
   std::vector<Estimate> parameters;
   std::vector<assembly::FixedParameter> fixed;
   std::vector<Quality> quality;
-  /// Of all predictions of the best point, by Assembly::channels(): half width of the 95 % interval that the noise of
+  /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;
   std::vector<std::string> identifiability;  ///< sentences
