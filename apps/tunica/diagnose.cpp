@@ -113,7 +113,7 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found), page.string(),
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found).shown_on(STDOUT_FILENO), page.string(),
              (directory.path() / "result.json").string());
   if (found.explanation.claim.best)
     fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());

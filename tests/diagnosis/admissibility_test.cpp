@@ -35,7 +35,7 @@ TEST(Admissibility, LostStabilityIsACauseWhereItIsAskedFor) {
   ASSERT_TRUE(found.explanation.claim.best);
   EXPECT_GT(found.explanation.p_after, 0.01) << "what the extension leaves is noise";
   EXPECT_LE(found.prospects.gain->after, found.prospects.gain->before + 6);
-  EXPECT_THAT(summary(found), HasSubstr("fibre_dispersion restores it"));
+  EXPECT_THAT(summary(found).plain(), HasSubstr("fibre_dispersion restores it"));
 }
 
 TEST(Admissibility, WhatMendsItIsNotTheWholeCauseWhereTheCurvesAreStillWrong) {
@@ -54,7 +54,7 @@ TEST(Admissibility, IsReportedAndChangesNothingWhereItIsNot) {
   EXPECT_EQ(found.explanation.admissibility.remedy, "");
   EXPECT_EQ(found.explanation.verdict, Verdict::nothing_detected);
   EXPECT_FALSE(found.explanation.claim.best);
-  EXPECT_THAT(summary(found), HasSubstr("the base fit loses transverse stability"));
+  EXPECT_THAT(summary(found).plain(), HasSubstr("the base fit loses transverse stability"));
 }
 
 }  // namespace

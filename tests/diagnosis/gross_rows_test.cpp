@@ -33,7 +33,7 @@ TEST(GrossRows, AWrongRowIsSuspectData) {
   EXPECT_EQ(written["causes"][0]["id"], "outliers");
   EXPECT_EQ(written["causes"][0]["target"]["row"], 14);
   EXPECT_EQ(written["causes"][0]["target"]["channel"], "stress");
-  EXPECT_THAT(diagnosis::summary(found), AllOf(HasSubstr("SUSPECT DATA"), HasSubstr("row 14")));
+  EXPECT_THAT(diagnosis::summary(found).plain(), AllOf(HasSubstr("SUSPECT DATA"), HasSubstr("row 14")));
 }
 
 // Only causes that a single row is none of are asked for; the row is said all the same, and nothing is named for it.
@@ -104,7 +104,7 @@ TEST(GrossRows, AWrongRowBesideACauseIsNamedWithIt) {
   EXPECT_THAT(diagnosis::extended_experiment(found, testing::catalogue()),
               AllOf(HasSubstr("axial_fibres"), HasSubstr("\"14:15:1\"")));
   EXPECT_THAT(
-      in_one_line(diagnosis::summary(found)),
+      in_one_line(diagnosis::summary(found).plain()),
       HasSubstr(
           "NAMED: consistent with axial_fibres and outliers in the channel 'stress' of the test 'circumferential', "
           "row 14"));

@@ -36,18 +36,18 @@ struct Asked {
   Progress silent;
 };
 
-trial::Measured more_fibres() {
-  trial::Measured measured({trial::Strip{}});
-  measured.measure(41, [](nlohmann::json& truth) {
-    truth["models"]["gho"]["mechanisms"] = {trial::mechanism("circumferential_fibres", "k", 5)};
-  });
-  return measured;
-}
+/// A circumferential strip alone, of a wall with more circumferential fibres than gho has.
+struct MoreFibres : trial::Measured {
+  MoreFibres() : Measured({trial::Strip{}}) {
+    measure(41, [](nlohmann::json& truth) {
+      truth["models"]["gho"]["mechanisms"] = {trial::mechanism("circumferential_fibres", "k", 5)};
+    });
+  }
+};
 
-/// A circumferential strip alone, of a wall with more circumferential fibres than gho has, and these explanations of
-/// it.
+/// These explanations of it.
 struct Rivals {
-  explicit Rivals(const std::vector<Addition>& additions) : measured(more_fibres()), asked(measured) {
+  explicit Rivals(const std::vector<Addition>& additions) : asked(measured) {
     analysis.evidence = evidence_of(asked.inquiry(), {});
     for (const Addition& addition : additions) {
       auto refit = fit_with(asked.inquiry(), analysis, {addition}, std::array{1.0});
@@ -61,7 +61,7 @@ struct Rivals {
   }
   [[nodiscard]] const Refit& first() const { return explanation.claim.rivals.front(); }
 
-  trial::Measured measured;
+  MoreFibres measured;
   Asked asked;
   Analysis analysis;
   Explanation explanation;
@@ -104,7 +104,9 @@ TEST(NextExperiment, ConfirmsASingleCause) {
 TEST(NextExperiment, IsNotAskedForWithoutACause) {
   Explanation unknown;
   unknown.verdict = Verdict::unknown;
-  EXPECT_FALSE(next_experiment(Asked(more_fibres()).inquiry(), {}, unknown));
+  const MoreFibres measured;
+  const Asked asked(measured);
+  EXPECT_FALSE(next_experiment(asked.inquiry(), {}, unknown));
 }
 
 /// What the data leave of every parameter, in ln p or in shares of its box, with the box as a prior.

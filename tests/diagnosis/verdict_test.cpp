@@ -47,7 +47,7 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
     EXPECT_EQ(entry.absent.empty(), std::isfinite(entry.detectable)) << entry.id << ": " << entry.absent;
   EXPECT_EQ(detectable(found, "viscoelasticity").absent, "the data have no time");
   EXPECT_EQ(detectable(found, "pressure_offset").absent, "no test that it applies to");
-  const std::string words = in_one_line(diagnosis::summary(found));
+  const std::string words = in_one_line(diagnosis::summary(found).plain());
   EXPECT_THAT(
       words, AllOf(HasSubstr("NOTHING DETECTED"), HasSubstr("no trace in these data: "), HasSubstr("viscoelasticity")));
 }
@@ -60,7 +60,7 @@ TEST(Verdict, DoubtsAmplitudesOfCausesAndRivals) {
   found.explanation.claim.causes[0].id = "first", found.explanation.claim.causes[1].id = "second";
   found.explanation.claim.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
   found.explanation.claim.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
-  const std::string words = in_one_line(diagnosis::summary(found));
+  const std::string words = in_one_line(diagnosis::summary(found).plain());
   EXPECT_THAT(words, HasSubstr("value = 3 kPa (2 … 4), at its bound; probability 0.00"));
   EXPECT_THAT(words, HasSubstr("second (0.00, beyond what is plausible)"));
 }
@@ -78,7 +78,7 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   found.explanation.claim.alternatives = {{name, name}, {name, name}};
   found.explanation.claim.causes.resize(2);
   for (auto& cause : found.explanation.claim.causes) cause.id = name;
-  std::istringstream stream(diagnosis::summary(found));
+  std::istringstream stream(diagnosis::summary(found).plain());
   int lines = 0;
   for (std::string line; std::getline(stream, line); ++lines) EXPECT_LE(text::columns(line), 80u) << line;
   EXPECT_GT(lines, 8);
@@ -173,8 +173,9 @@ TEST(Verdict, NoiseThatIsStatedTooLargeIsToldOf) {
   EXPECT_THAT(warning_texts(measured.diagnose()), ::testing::IsEmpty());
   measured.experiment["tests"]["axial"]["data"]["noise"]["absolute"] = 3;
   EXPECT_THAT(warning_texts(measured.diagnose()),
-              ::testing::ElementsAre(AllOf(HasSubstr("the residuals are smaller than the stated noise implies"),
-                                           HasSubstr(": axial, stress (0."), HasSubstr("That σ is too large"))));
+              ::testing::ElementsAre(
+                  AllOf(HasSubstr("the residuals are smaller than the stated noise implies (1 σ is expected)"),
+                        HasSubstr(": axial, stress (0."), HasSubstr("That σ is too large"))));
 }
 
 TEST(Verdict, ConstraintsOfTheRunAreSaidNotToBind) {
@@ -205,7 +206,7 @@ TEST(Verdict, AmplitudesThatCouldHideHaveTheUnitOfTheirChannelAndStandAroundThei
   const Diagnosis found = measured.diagnose();
   EXPECT_EQ(detectable(found, "outliers").unit, "kPa");
   EXPECT_EQ(detectable(found, "fibre_recruitment").null, 1);
-  const std::string words = in_one_line(diagnosis::summary(found));
+  const std::string words = in_one_line(diagnosis::summary(found).plain());
   EXPECT_THAT(words, HasSubstr("May hide: "));
   for (const auto& entry : found.prospects.detectable) {
     const bool beyond = entry.absent.empty() && entry.detectable >= entry.reach;
@@ -279,7 +280,7 @@ TEST(Verdict, TwoThatOnlyTogetherExplainAnUnlistedEffectAreNotNamed) {
   ASSERT_EQ(found.explanation.verdict, Verdict::indistinguishable);
   EXPECT_TRUE(found.explanation.unlisted);
   EXPECT_GE(found.explanation.claim.named, 2u);
-  EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("an effect that the catalogue does not list"));
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()), HasSubstr("an effect that the catalogue does not list"));
   EXPECT_EQ(diagnosis::diagnosis_json(found)["unlisted"], true);
 }
 
@@ -289,12 +290,12 @@ TEST(Verdict, LookAlikesCountAsOneExplanation) {
   measured.measure(
       38, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("matrix_stiffening", "b", 0.05)}; });
   const Diagnosis found = measured.diagnose();
-  ASSERT_EQ(found.explanation.verdict, Verdict::indistinguishable) << diagnosis::summary(found);
+  ASSERT_EQ(found.explanation.verdict, Verdict::indistinguishable) << diagnosis::summary(found).plain();
   ASSERT_FALSE(found.explanation.claim.look_alikes.empty());
   EXPECT_THAT(found.explanation.claim.look_alikes.front(),
               ::testing::IsSupersetOf({"matrix_stiffening", "chain_extensibility"}));
   EXPECT_LE(found.explanation.claim.look_alikes.size(), 4u);
-  EXPECT_THAT(in_one_line(diagnosis::summary(found)), HasSubstr("much the same here)"));
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()), HasSubstr("much the same here)"));
 }
 
 TEST(Verdict, AModelWithoutFreeParametersIsDiagnosedAsWell) {

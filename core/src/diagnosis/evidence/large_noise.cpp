@@ -40,7 +40,7 @@ std::optional<Warning> large_noise_warning(const Evidence& evidence, const Fit& 
                                   [](const NoiseSource& source) { return source.kind == NoiseSource::Kind::stated; });
   return Warning{
       WarningKind::noise_too_large,
-      fmt::format("the residuals are smaller than the stated noise implies: {} (1 σ is expected). That σ is too large, "
+      fmt::format("the residuals are smaller than the stated noise implies (1 σ is expected): {}. That σ is too large, "
                   "and misfits can hide below it. {}",
                   fmt::join(small, "; "),
                   stated ? "State the noise within one test, without differences between specimens and protocols"

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "diagnosis/diagnosis.hpp"
+#include "text/styled.hpp"
 
 namespace tunica::diagnosis {
 
@@ -23,7 +24,7 @@ std::vector<std::string> explanations(const Claim& claim);
 
 /// What a person reads on the terminal: what is wrong and where, the cause and how sure, what else it could be, what
 /// was gained, what to measure next.
-std::string summary(const Diagnosis& diagnosis);
+text::StyledText summary(const Diagnosis& diagnosis);
 
 /// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the
 /// text of extended.json. Empty without an extension.

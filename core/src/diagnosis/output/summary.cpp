@@ -203,15 +203,16 @@ std::vector<std::string> explanations(const Claim& claim) {
   return all.empty() ? claim.ambiguity_set : all;
 }
 
-std::string summary(const Diagnosis& d) {
+text::StyledText summary(const Diagnosis& d) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
   const bool wrong = explanation.verdict != Verdict::nothing_detected;
-  std::vector<std::string> lines;
+  text::StyledText lines;
+  lines.add(text::hanging("Verdict:  ", verdict_line(d)), text::Emphasis::heading);
+  lines += "\n";
   const auto line = [&lines](const char* lead, const std::string& text) {
-    if (!text.empty()) lines.push_back(text::hanging(lead, text));
+    if (!text.empty()) lines += text::hanging(lead, text) + '\n';
   };
-  line("Verdict:  ", verdict_line(d));
   line("Alarm:    ", alarm_line(d.analysis));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
@@ -222,7 +223,7 @@ std::string summary(const Diagnosis& d) {
   line("Material: ", material_line(explanation.admissibility));
   if (d.prospects.next) line("Next:     ", d.prospects.next->description);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
-  return fmt::format("{}\n", fmt::join(lines, "\n"));
+  return lines;
 }
 
 }  // namespace tunica::diagnosis
