@@ -14,8 +14,8 @@ using ::testing::Pair;
 
 namespace {
 
-execution::RealisationResult realisation_of(std::uint64_t number, std::vector<execution::Improvement> trace,
-                                            std::uint64_t evaluations) {
+execution::RealisationResult ended_search(std::uint64_t number, std::vector<execution::Improvement> trace,
+                                          std::uint64_t evaluations) {
   execution::RealisationResult result;
   result.realisation = number;
   result.trace = std::move(trace);
@@ -37,10 +37,10 @@ struct Study {
     laboratory.add_run("compass", 100);
     plan.emplace(laboratory.plan());
     results.resize(2);
-    results[0].realisations = {realisation_of(1, {{1, 9}, {40, 1.0005}, {60, 1}}, 100),
-                               realisation_of(2, {{3, 5}, {80, 1}}, 100), realisation_of(3, {{10, 4}, {90, 2}}, 100),
-                               realisation_of(4, {{20, 1.0002}}, 70)};
-    results[1].realisations = {realisation_of(1, {{5, 7}, {30, 1}}, 30)};
+    results[0].realisations = {ended_search(1, {{1, 9}, {40, 1.0005}, {60, 1}}, 100),
+                               ended_search(2, {{3, 5}, {80, 1}}, 100), ended_search(3, {{10, 4}, {90, 2}}, 100),
+                               ended_search(4, {{20, 1.0002}}, 70)};
+    results[1].realisations = {ended_search(1, {{5, 7}, {30, 1}}, 30)};
     summary = comparison::summarise(*plan, results, {});
   }
   trial::Laboratory laboratory;
@@ -52,12 +52,12 @@ struct Study {
 }  // namespace
 
 TEST(Success, IsCountedFromTheFirstEvaluationAtTheThreshold) {
-  const auto realisation = realisation_of(1, {{1, 9}, {40, 1.0005}, {60, 1}}, 100);
+  const auto realisation = ended_search(1, {{1, 9}, {40, 1.0005}, {60, 1}}, 100);
   EXPECT_EQ(comparison::evaluations_to(realisation, 9), 1u);
   EXPECT_EQ(comparison::evaluations_to(realisation, 8.9), 40u);
   EXPECT_EQ(comparison::evaluations_to(realisation, 1), 60u);
   EXPECT_FALSE(comparison::evaluations_to(realisation, 0.99));
-  EXPECT_FALSE(comparison::evaluations_to(realisation_of(1, {}, 100), 5));
+  EXPECT_FALSE(comparison::evaluations_to(ended_search(1, {}, 100), 5));
 }
 
 TEST(Success, GivesTheExpectedRunningTimeOfAugerAndHansen) {
@@ -95,7 +95,7 @@ TEST(Profiles, CountShareSolvedOverCostRelativeToTheBestOptimizer) {
 
 TEST(StudyTables, HaveOneRowARunWhateverBecameOfIt) {
   Study study;
-  study.results[1].realisations = {realisation_of(1, {}, 30)};
+  study.results[1].realisations = {ended_search(1, {}, 30)};
   study.results[1].realisations[0].tally.first_failure = "row 1: no root, none";
   study.results[1].realisations[0].tally.failures = 30;
   const auto summary = comparison::summarise(*study.plan, study.results, {});

@@ -114,5 +114,4 @@ TEST(Figures, AreShortAndCountsAreWhole) {
   EXPECT_EQ(report::amount(2.5, "1"), "2.5");
   EXPECT_EQ(report::chance(1e-9), "p < 0.0001");
   EXPECT_EQ(report::share(0.5), "0.5");
-  EXPECT_EQ(report::joined({"a", "b", "c"}), "a, b and c");
 }

@@ -100,8 +100,7 @@ std::vector<std::string> next_words(const Json& diagnosis) {
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
     lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));
   if (lines.empty() && verdict == "nothing_detected")
-    lines.emplace_back(
-        "The fitted parameters can be used. Reach lists what could still hide below the noise.");
+    lines.emplace_back("The fitted parameters can be used. Reach lists what could still hide below the noise.");
   return lines;
 }
 
@@ -133,11 +132,10 @@ void add_verdict(Page& page, const Folder& folder) {
                                             chance(p), figure(number(diagnosis, "alpha")))};
   if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
     const std::string remainder = word(diagnosis, "remainder");
-    sure.push_back(
-        fmt::format("With the cause added, the remaining misfit would be noise with {}{}.", chance(after),
-                    remainder == "clean"       ? "; nothing is left to explain"
-                    : remainder == "not_clean" ? "; something is still left to explain"
-                                               : ""));
+    sure.push_back(fmt::format("With the cause added, noise alone would leave this much with {}{}.", chance(after),
+                               remainder == "clean"       ? "; nothing is left to explain"
+                               : remainder == "not_clean" ? "; something is still left to explain"
+                                                          : ""));
   }
   const auto one = [](std::string text) {
     return text.empty() ? std::vector<std::string>{} : std::vector{std::move(text)};
