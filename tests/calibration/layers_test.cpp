@@ -143,8 +143,9 @@ TEST_F(Layered, ConstraintsAreAskedOfTheModelsThatDeclareThem) {
 TEST_F(Layered, AModelAndATestWithOneNameAreRefused) {
   bench.experiment.models[1].name = "stack";
   stack().layers = {{"stack", 1}, {"m", 1}};
-  EXPECT_THAT(fakes::message_of([&] { static_cast<void>(bench.assemble()); }),
-              HasSubstr("a model and a test are called 'stack', and in a run with several models 'stack.…' would be"));
+  EXPECT_THAT(
+      fakes::message_of([&] { static_cast<void>(bench.assemble()); }),
+      HasSubstr("a model and a test are both called 'stack'; in a run with several models 'stack.…' would name"));
 }
 
 TEST_F(Layered, AParameterThatLayersExcludeIsRefused) {
