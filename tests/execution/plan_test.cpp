@@ -103,5 +103,8 @@ TEST(Plan, NamesATypeThatNoPluginProvides) {
 TEST(Plan, WarnsOfRealisationsThatAreAllTheSame) {
   trial::Laboratory laboratory;
   laboratory.add_run("compass", 100, 5);
-  EXPECT_THAT(laboratory.plan().warnings, ElementsAre(HasSubstr("its 5 realisations are all the same")));
+  const auto warnings = laboratory.plan().warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings.front().kind, execution::WarningKind::equal_realisations);
+  EXPECT_THAT(warnings.front().text(), HasSubstr("its 5 realisations are all the same"));
 }
