@@ -15,9 +15,10 @@ using ::testing::IsEmpty;
 /// Signatures at these angles in a plane, in degrees.
 std::vector<Direction> at_angles(const std::vector<double>& angles) {
   std::vector<Direction> directions(angles.size());
-  for (std::size_t k = 0; k < angles.size(); ++k)
-    directions[k].candidate = k,
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    directions[k].candidate = k;
     directions[k].unit = Eigen::Vector2d(std::cos(angles[k] * M_PI / 180), std::sin(angles[k] * M_PI / 180));
+  }
   return directions;
 }
 

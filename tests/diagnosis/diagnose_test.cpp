@@ -76,7 +76,8 @@ TEST(Diagnose, WritesTheSameWithOneThreadAsWithTwo) {
     ASSERT_EQ(ended.code, 0) << ended.err;
   }
   json one = result(measured, "1"), two = result(measured, "2");
-  one["provenance"].erase("date"), two["provenance"].erase("date");
+  one["provenance"].erase("date");
+  two["provenance"].erase("date");
   EXPECT_EQ(one.dump(1), two.dump(1));
   for (const char* file : {"extended.json", "residuals.csv", "confusability.csv", "input.json"}) {
     EXPECT_EQ(text_of(measured.folder.path() / "1" / file), text_of(measured.folder.path() / "2" / file)) << file;

@@ -35,7 +35,9 @@ Candidate candidate(Side side, const std::vector<Eigen::VectorXd>& signatures, d
   Candidate made;
   for (const auto& s : signatures) {
     Hypothesis hypothesis;
-    hypothesis.signature = s, hypothesis.side = side, hypothesis.sign = sign;
+    hypothesis.signature = s;
+    hypothesis.side = side;
+    hypothesis.sign = sign;
     made.hypotheses.push_back(hypothesis);
   }
   return made;
@@ -46,7 +48,10 @@ Candidate candidate(Side side, const std::vector<Eigen::VectorXd>& signatures, d
 struct Linear {
   explicit Linear(double freedom = 0) {
     Curve curve;
-    curve.test = "t", curve.channel = "y", curve.count = rows, curve.noise.freedom = freedom;
+    curve.test = "t";
+    curve.channel = "y";
+    curve.count = rows;
+    curve.noise.freedom = freedom;
     for (Eigen::Index i = 0; i < rows; ++i) curve.abscissa.push_back(static_cast<double>(i) / (rows - 1));
     curves = {curve};
     detector.emplace(projection, directions, candidates.size(), smooth_shapes(curves, rows),
@@ -78,7 +83,8 @@ struct Linear {
 
 TEST(Projection, LeavesWhatIsOrthogonalToEveryColumn) {
   Eigen::MatrixXd J = base_jacobian();
-  J.col(1) *= 1e4, J.col(3) *= 1e-5;  // kPa and degrees
+  J.col(1) *= 1e4;
+  J.col(3) *= 1e-5;  // kPa and degrees
   J.conservativeResize(rows, 5);
   J.col(4) = 2 * J.col(1) + 3e5 * J.col(0);  // no new direction
   const Projection projection(J);
@@ -146,7 +152,9 @@ TEST(Detector, HasUniformPValuesWhereThereIsNothingToFind) {
   std::vector<double> together, smooth, mechanisms;
   for (std::size_t k = 0; k < count; ++k) {
     const auto detection = linear.detector->test(linear.noise(generator));
-    together.push_back(detection.p), smooth.push_back(detection.smooth), mechanisms.push_back(detection.mechanisms);
+    together.push_back(detection.p);
+    smooth.push_back(detection.smooth);
+    mechanisms.push_back(detection.mechanisms);
   }
   for (auto* p : {&together, &smooth, &mechanisms}) {
     std::sort(p->begin(), p->end());
@@ -201,7 +209,8 @@ TEST(Detector, AllowsForNoiseThatIsOnlyEstimated) {
   constexpr int count = 2000;
   for (int k = 0; k < count; ++k) {
     const Eigen::VectorXd r = estimated.noise(generator, 12);
-    alarms += estimated.detector->test(r).p <= 0.05, blind += known.detector->test(r).p <= 0.05;
+    alarms += estimated.detector->test(r).p <= 0.05;
+    blind += known.detector->test(r).p <= 0.05;
   }
   EXPECT_LT(alarms, 0.07 * count);
   EXPECT_GT(alarms, 0.03 * count);

@@ -54,10 +54,12 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
 
 TEST(Verdict, DoubtsAmplitudesOfCausesAndRivals) {
   Diagnosis found;
-  found.explanation.verdict = Verdict::indistinguishable, found.explanation.claim.named = 1;
+  found.explanation.verdict = Verdict::indistinguishable;
+  found.explanation.claim.named = 1;
   found.explanation.claim.ambiguity_set = {"first", "second"};
   found.explanation.claim.causes = {diagnosis::Cause(), diagnosis::Cause()};
-  found.explanation.claim.causes[0].id = "first", found.explanation.claim.causes[1].id = "second";
+  found.explanation.claim.causes[0].id = "first";
+  found.explanation.claim.causes[1].id = "second";
   found.explanation.claim.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
   found.explanation.claim.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
   const std::string words = in_one_line(diagnosis::summary(found).plain());
@@ -73,8 +75,11 @@ TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   found.explanation.verdict = Verdict::indistinguishable;
   found.explanation.claim.ambiguity_set = {name, name, name};
   found.explanation.misfit.resize(2);
-  for (auto& misfit : found.explanation.misfit)
-    misfit.test = name, misfit.channel = "stress", misfit.where = "rows 3 to 18 " + name;
+  for (auto& misfit : found.explanation.misfit) {
+    misfit.test = name;
+    misfit.channel = "stress";
+    misfit.where = "rows 3 to 18 " + name;
+  }
   found.explanation.claim.alternatives = {{name, name}, {name, name}};
   found.explanation.claim.causes.resize(2);
   for (auto& cause : found.explanation.claim.causes) cause.id = name;
@@ -247,7 +252,10 @@ TEST(Verdict, BlocksThatWereLeftOutAgreeWithTheRightExtension) {
                      [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
     const Diagnosis found = measured.diagnose();
     ASSERT_TRUE(found.prospects.gain);
-    for (const auto& block : found.prospects.gain->held_out) ++blocks, rejected += block.p_value < 0.05;
+    for (const auto& block : found.prospects.gain->held_out) {
+      ++blocks;
+      rejected += block.p_value < 0.05;
+    }
   }
   EXPECT_GE(blocks, 24);
   EXPECT_LE(rejected, 7);

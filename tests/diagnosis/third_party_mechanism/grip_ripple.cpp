@@ -58,7 +58,8 @@ TUNICA_PLUGIN("our_machine", "0.3") {
   mechanism.applies_to = {"uniaxial"};
   mechanism.parameters = {{"height", "kPa", 0, -20, 20, Scale::linear, "Height of the ripple.", ""}};
   mechanism.side = MechanismFactory::Side::both;
-  mechanism.plausible_min = -5, mechanism.plausible_max = 5;
+  mechanism.plausible_min = -5;
+  mechanism.plausible_max = 5;
   mechanism.look_alikes = {"signal_drift"};
   mechanism.isolated_by = "a run with a spring in the grips";
   mechanism.reference = "our machine's manual";

@@ -19,7 +19,8 @@ Shapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows) {
       const std::size_t from = i > 0 ? i - 1 : 0, to = i > 0 ? i : std::min<std::size_t>(1, curve.abscissa.size() - 1);
       const double step = curve.abscissa[to] - curve.abscissa[from];
       direction[i] = step > 0 ? 1 : step < 0 ? -1 : i > 0 ? direction[i - 1] : 0;
-      up |= step > 0, down |= step < 0;
+      up |= step > 0;
+      down |= step < 0;
     }
     for (int degree = 0; degree < (up && down ? 5 : 3); ++degree) {
       Eigen::VectorXd column = Eigen::VectorXd::Zero(rows);
@@ -29,7 +30,8 @@ Shapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows) {
         const double legendre[] = {1, u, 1.5 * u * u - 0.5};
         column[curve.first + i] = degree < 3 ? legendre[degree] : legendre[degree - 3] * direction[k];
       }
-      columns.push_back(std::move(column)), shapes.curve.push_back(c);
+      columns.push_back(std::move(column));
+      shapes.curve.push_back(c);
     }
   }
   shapes.columns.resize(rows, static_cast<Eigen::Index>(columns.size()));

@@ -204,7 +204,9 @@ class CandidateSearch {
       if (!whitened(extended.assembly(), free, workspace, there, nullptr).ok()) continue;
       Hypothesis secant = tangent;
       secant.signature = embedded((there - bare) / (share * reach), extended.assembly());
-      secant.side = MechanismFactory::Side::positive, secant.sign = sign, secant.at_large = true;
+      secant.side = MechanismFactory::Side::positive;
+      secant.sign = sign;
+      secant.at_large = true;
       const Eigen::VectorXd a = projection_.off(secant.signature), b = projection_.off(tangent.signature);
       constexpr double another_shape = 0.97;
       if (std::abs(a.dot(b)) < another_shape * a.norm() * b.norm()) into.push_back(std::move(secant));
