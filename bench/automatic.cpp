@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an energy costs whose derivatives are all automatic, beside gho whose law is differentiated by hand: objective
 // and Jacobian of two strips of 40 points. `of_gho` is time/time of gho in the same run; asked for are 4 at most.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "assembly/assembly.hpp"
 #include "experiment/experiment.hpp"

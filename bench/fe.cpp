@@ -6,13 +6,13 @@
 // Peers on this kind of machine: general finite-element programs 9.9 s (nearly incompressible) and 22.8 s
 // (incompressible), CalculiX 35 s. Floors: throw-away prototypes with the baseline instruction set, 32 ms (25×50
 // four-node), 66 ms (25×100), 63 ms (12×25 nine-node).
-#include <fmt/format.h>
-
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <ctime>
 #include <functional>
 #include <vector>
+
+#include <Eigen/SparseCholesky>
+#include <fmt/format.h>
 
 #include "plugins.hpp"
 #include "simulation.hpp"

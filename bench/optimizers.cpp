@@ -3,10 +3,10 @@
 // then with active constraints against published figures. ISRES as its authors report it (Runarsson & Yao 2005,
 // 350 000 evaluations, 100 runs): g04 −30665.539, g06 −6961.814, g07 24.306, g09 680.630, g10 7049.248, median and
 // worst alike but for 7049.270.   bench_optimizers [seeds] [evaluations] [evaluations with constraints]
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
+
+#include <fmt/format.h>
 
 #include "conformance/functions.hpp"
 #include "conformance/g_suite.hpp"

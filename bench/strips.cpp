@@ -5,12 +5,12 @@
 // Peer: the authors' public numba code, 184 µs for the objective. Floor: throw-away prototypes with the baseline
 // instruction set, 1.8 µs (objective) and 2.05 µs (with the 5-parameter Jacobian). Both were measured on this kind
 // of machine; `speed_up` is peer/time, `of_floor` time/floor.
-#include <benchmark/benchmark.h>
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <chrono>
 #include <map>
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
 
 #include "lamb_aorta.hpp"
 #include "search/calibration_problem.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Success over seeds on the real lamb aorta: how often each run of the example reaches 66.101 (optimum 66.1000)
 // within its own budget from random starts, and after how many evaluations.   bench_success [seeds]
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cstdlib>
+
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
-#include <cstdlib>
+#include <fmt/format.h>
 
 #include "lamb_aorta.hpp"
 #include "search/calibration_problem.hpp"

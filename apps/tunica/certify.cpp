@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/certify.hpp"
 
-#include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 
 #include "execution/files.hpp"
 #include "execution/plan.hpp"

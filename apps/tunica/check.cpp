@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <unistd.h>
+#include "check.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "check.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "exit_codes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "describe.hpp"
 
 #include <cmath>
 #include <memory>
@@ -7,8 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "data/nearest.hpp"
-#include "describe.hpp"
 #include "exit_codes.hpp"
 #include "plugins/guarded.hpp"
 #include "text/wrapping.hpp"

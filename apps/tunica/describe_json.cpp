@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstdint>
+
+#include <fmt/format.h>
 
 #include "describe.hpp"
 #include "plugins/guarded.hpp"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fresh_process.hpp"
 
+#include <array>
+#include <cerrno>
+#include <cstring>
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
 
 namespace tunica::app {
 

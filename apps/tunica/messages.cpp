@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "messages.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "data/nearest.hpp"
 #include "text/terminal.hpp"

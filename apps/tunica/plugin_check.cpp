@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
+#include "conformance/plugin_check.hpp"
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "conformance/plugin_check.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "plugin.hpp"

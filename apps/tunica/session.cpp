@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "messages.hpp"
 #include "tunica/error.hpp"

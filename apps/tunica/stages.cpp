@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages.hpp"
 
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <cstdio>
 
 #include "execution/progress.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unfinished_folder.hpp"
 
-#include <unistd.h>
-
 #include <csignal>
+
+#include <unistd.h>
 
 #include "exit_codes.hpp"
 

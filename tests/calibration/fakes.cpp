@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/fakes.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <fstream>
@@ -10,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace tunica::fakes {
 namespace {

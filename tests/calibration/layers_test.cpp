@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of several models: names, chain rule, constraints, where layers of a test name models of their own.
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "assembly/assembly.hpp"
 #include "calibration/fakes.hpp"

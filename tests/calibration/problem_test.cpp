@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "search/calibration_problem.hpp"
-
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -11,6 +9,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "calibration/recording.hpp"
+#include "search/calibration_problem.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica {

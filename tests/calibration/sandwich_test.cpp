@@ -2,8 +2,8 @@
 #include <cmath>
 #include <random>
 
-#include <gtest/gtest.h>
 #include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include "calibration/fakes.hpp"
 #include "uncertainty/identifiability.hpp"

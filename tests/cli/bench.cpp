@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/bench.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <sstream>
+
+#include <fmt/format.h>
 
 namespace tunica::trial {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tunica diagnose` leaves behind, and what it does not.
-#include <gmock/gmock.h>
-#include <signal.h>
-
 #include <chrono>
 #include <thread>
+
+#include <gmock/gmock.h>
+#include <signal.h>
 
 #include "cli/bench.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "cli/bench.hpp"
 

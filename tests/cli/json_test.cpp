@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What scripts read: one JSON document on stdout, and nothing else there.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"
 

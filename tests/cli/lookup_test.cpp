@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/bench.hpp"

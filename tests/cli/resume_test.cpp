@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
-#include <signal.h>
-
 #include <chrono>
 #include <thread>
+
+#include <gmock/gmock.h>
+#include <signal.h>
 
 #include "cli/bench.hpp"
 

@@ -2,7 +2,6 @@
 #include "comparison/certificate.hpp"
 
 #include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "comparison/certify.hpp"

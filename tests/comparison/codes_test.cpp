@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The codes of result.json are those that its schema lists.
-#include <gmock/gmock.h>
-
 #include <fstream>
+
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "comparison/certificate.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/hold_out.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
+
+#include <gmock/gmock.h>
 
 #include "comparison/ranking_table.hpp"
 

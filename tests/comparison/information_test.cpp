@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/information.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "calibration/fakes.hpp"
 #include "comparison/ranking.hpp"

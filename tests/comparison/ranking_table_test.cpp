@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/ranking_table.hpp"
-#include "text/wrapping.hpp"
+
+#include <sstream>
 
 #include <gmock/gmock.h>
 
-#include <sstream>
+#include "text/wrapping.hpp"
 
 using namespace tunica::comparison;
 using ::testing::HasSubstr;

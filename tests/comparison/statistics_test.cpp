@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/statistics.hpp"
 
-#include <gtest/gtest.h>
-
 #include <vector>
+
+#include <gtest/gtest.h>
 
 using namespace tunica::comparison;
 

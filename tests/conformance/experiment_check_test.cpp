@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `tunica plugin check --experiment`: tests and mechanisms as a file has them, with its data.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
 #include "execution/folder.hpp"

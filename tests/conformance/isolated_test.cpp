@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/isolated.hpp"
 
-#include <gmock/gmock.h>
-
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <thread>
+
+#include <gmock/gmock.h>
 
 #include "conformance/captured_output.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The means of comparison: a suite that is wrong itself would blame the plugins.
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <limits>
+
+#include <gmock/gmock.h>
 
 #include "conformance/concurrency.hpp"
 #include "conformance/declarations.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plugins that break one promise each, through the command line: the right property is named.
-#include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
 #include "execution/folder.hpp"

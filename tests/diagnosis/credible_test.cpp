@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which explanations count as one.
-#include <gmock/gmock.h>
+#include "diagnosis/naming/credible.hpp"
 
 #include <cmath>
 
-#include "diagnosis/naming/credible.hpp"
+#include <gmock/gmock.h>
 
 namespace tunica::diagnosis {
 namespace {

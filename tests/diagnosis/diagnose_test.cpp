@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `tunica diagnose` from outside, as a user has it.
-#include <gmock/gmock.h>
-
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "cli/process.hpp"
 #include "diagnosis/measured.hpp"

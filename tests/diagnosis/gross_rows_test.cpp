@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single rows that are wrong. Every seed is fixed; where a verdict could be missed by bad luck, it says how likely that
 // was.
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"

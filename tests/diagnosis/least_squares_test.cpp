@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/evidence/least_squares.hpp"
 
-#include <gmock/gmock.h>
-
 #include <numeric>
+
+#include <gmock/gmock.h>
 
 #include "calibration/fakes.hpp"
 #include "diagnosis/measured.hpp"

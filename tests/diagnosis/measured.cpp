@@ -2,7 +2,6 @@
 #include "diagnosis/measured.hpp"
 
 #include <random>
-
 #include <regex>
 
 #include <fmt/format.h>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/prospects/next_experiment.hpp"
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <cmath>
 
 #include <Eigen/LU>
+#include <gmock/gmock.h>
 
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/measured.hpp"

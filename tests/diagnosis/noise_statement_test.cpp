@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/evidence/noise_statement.hpp"
 
-#include <gmock/gmock.h>
-
 #include <fstream>
 #include <random>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "calibration/fakes.hpp"
 #include "execution/folder.hpp"

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/detection/detector.hpp"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <functional>
 #include <random>
 
 #include <Eigen/QR>
+#include <gtest/gtest.h>
 
+#include "diagnosis/detection/detector.hpp"
 #include "diagnosis/detection/noise_draws.hpp"
 
 namespace tunica::diagnosis {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signatures of the whole catalogue against differences of what the extension predicts.
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <set>
+
+#include <gmock/gmock.h>
 
 #include "diagnosis/evidence/evidence.hpp"
 #include "diagnosis/hypotheses/candidates.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mechanism that tunica has never heard of, in a plugin of somebody else's, takes part in a diagnosis as its own do.
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <gmock/gmock.h>
 
 #include "cli/process.hpp"
 #include "diagnosis/measured.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Data of which the truth is known, and what the diagnosis says of them. Every seed is fixed; where a verdict could be
 // missed by bad luck, it says how likely that was.
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <map>
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The generator from outside, and what its cases promise.
-#include <gmock/gmock.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
 #include "execution/folder.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Truths are opened by their seal, and verdicts read from result.json.
 #include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "execution/folder.hpp"

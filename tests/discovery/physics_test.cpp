@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Generator and program share no line, and yet mean the same physics: noise-free cases of the one are simulated by the
 // other, base model and every mechanism of the catalogue at the true amplitude.
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/process.hpp"
 #include "execution/folder.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "seal.hpp"
 
+#include <array>
+#include <cstdint>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nettle/sha2.h>
-
-#include <array>
-#include <cstdint>
 
 namespace blind {
 

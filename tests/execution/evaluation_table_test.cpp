@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/evaluation_table.hpp"
 
-#include <gmock/gmock.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <gmock/gmock.h>
 
 #include "execution/folder.hpp"
 #include "tunica/error.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/files.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cerrno>
+
+#include <gmock/gmock.h>
 
 #include "execution/folder.hpp"
 #include "tunica/error.hpp"

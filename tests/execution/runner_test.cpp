@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/runner.hpp"
 
-#include <gmock/gmock.h>
-
 #include <csignal>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "execution/folder.hpp"
 #include "execution/interrupt.hpp"

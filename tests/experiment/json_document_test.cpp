@@ -2,7 +2,6 @@
 #include "experiment/json_document.hpp"
 
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "data/written_file.hpp"

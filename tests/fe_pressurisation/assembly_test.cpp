@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "assembly.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "kernel.hpp"
 

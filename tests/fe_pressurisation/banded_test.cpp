@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "banded.hpp"
 
-#include <gtest/gtest.h>
+#include <random>
 
 #include <Eigen/Dense>
-#include <random>
+#include <gtest/gtest.h>
 
 namespace tunica::testing::banded_test {
 namespace {

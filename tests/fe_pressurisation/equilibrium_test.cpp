@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "kernel.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "material.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "support/tensors_only.hpp"
 #include "support/tube.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "kernel.hpp"
 #include "support/fe_tube.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <cmath>
 #include <map>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "support/fe_tube.hpp"
 #include "support/strip.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "conformance/test_properties.hpp"
 #include "support/fe_tube.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shelf as a whole: every mechanism of the catalogue is there, and says all that diagnosis and a person need.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "shelf.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mechanisms that stand for native imperfections, in experiment files: read, checked and run.
+#include <algorithm>
+#include <cstring>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstring>
 
 #include "assembly/assembly.hpp"
 #include "cli/process.hpp"

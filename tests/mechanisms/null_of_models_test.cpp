@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every mechanism that acts on a model promises: at its null it is the bare model, and what it predicts is smooth
 // there on its admissible side. One seed each, so the outcome is deterministic, and was a pass when this was committed.
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "conformance/mechanism_properties.hpp"
 #include "deformations.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every mechanism that acts on a test promises, on every type of test that it applies to: at its null it is the
 // bare test, derivatives there and elsewhere are those of what it predicts.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "conformance/mechanism_properties.hpp"
 #include "subject.hpp"

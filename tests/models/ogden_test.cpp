@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ogden's model where it is something else in closed form, and the tangent where principal stretches come together.
-#include <gtest/gtest.h>
+#include <cmath>
 
 #include <Eigen/Dense>
-#include <cmath>
+#include <gtest/gtest.h>
 
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"

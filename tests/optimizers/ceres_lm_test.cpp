@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
-#include <Eigen/Dense>
 #include <limits>
 #include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include "conformance/functions.hpp"
 #include "optimizers/lamb_aorta.hpp"

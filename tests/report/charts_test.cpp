@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the report draws of a folder's tables.
 #include <gmock/gmock.h>
-
 #include <nlohmann/json.hpp>
 
 #include "report/grid.hpp"

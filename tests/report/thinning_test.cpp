@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/thinning.hpp"
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <gmock/gmock.h>
 
 using namespace tunica::report;
 using ::testing::ElementsAre;

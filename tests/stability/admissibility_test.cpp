@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "stability/admissibility.hpp"
 
 #include <cmath>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "mechanisms/shelf.hpp"
-#include "stability/admissibility.hpp"
 
 namespace tunica {
 namespace {

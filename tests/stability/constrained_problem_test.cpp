@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constraints on the way to an optimiser, on the real strips of examples/lamb_aorta_stable.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <cmath>
+#include <utility>
 
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
-#include <cmath>
-#include <utility>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "calibration/recording.hpp"
 #include "mechanisms/shelf.hpp"

@@ -3,11 +3,11 @@
 // P = 2 (λ − 1/λ²)(W1 + W2/λ) in uniaxial tension, 2 (λ − 1/λ⁵)(W1 + λ² W2) in equibiaxial tension (each direction) and
 // 2 (λ − 1/λ³)(W1 + W2) in pure shear (Treloar 1975, The Physics of Rubber Elasticity, ch. 5); for Ogden's energy
 // Σ μ (λ^(α−1) − λ^(β α − 1)) with β = −½, −2, −1 (Ogden 1972).
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <functional>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "support/sheet.hpp"
 #include "support/strip.hpp"

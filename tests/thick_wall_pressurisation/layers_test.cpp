@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers with models of their own: against one layer, against closed forms, and in what they refuse.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
+
+#include <gtest/gtest.h>
 
 #include "conformance/test_properties.hpp"
 #include "support/strip.hpp"

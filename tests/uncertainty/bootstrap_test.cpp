@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uncertainty/bootstrap.hpp"
 
-#include <gmock/gmock.h>
-
 #include <atomic>
 #include <cmath>
+
+#include <gmock/gmock.h>
 
 #include "comparison/statistics.hpp"
 #include "uncertainty/local.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
-
-#include <atomic>
 
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/local.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <vector>
+
+#include <tbb/task_arena.h>
 
 #include "calibration/fakes.hpp"
 #include "support/loaded.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uncertainty/profile.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
+
+#include <gmock/gmock.h>
 
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/local.hpp"

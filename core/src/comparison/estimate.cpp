@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/estimate.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "assembly/quality.hpp"
 #include "comparison/hold_out.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/fit_table.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/hold_out.hpp"
-#include "text/units.hpp"
-#include "text/wrapping.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+
+#include "text/units.hpp"
+#include "text/wrapping.hpp"
 
 namespace tunica::comparison {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/performance.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "comparison/success.hpp"
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/provenance.hpp"
 
-#include <fmt/chrono.h>
-#include <fmt/format.h>
-#include <spdlog/version.h>
-#include <tbb/version.h>
+#include <chrono>
+#include <set>
+#include <utility>
 
 #include <Eigen/Core>
 #include <boost/version.hpp>
-#include <chrono>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <utility>
+#include <spdlog/version.h>
+#include <tbb/version.h>
 
 #include "data/sha256.hpp"
 #include "tunica/plugin.hpp"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/ranking.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
+
+#include <fmt/format.h>
 
 namespace tunica::comparison {
 

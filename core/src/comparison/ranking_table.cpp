@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/ranking_table.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "comparison/hold_out.hpp"
 #include "comparison/ranking.hpp"

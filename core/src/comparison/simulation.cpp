@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/simulation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <tuple>
+
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
-#include <tuple>
+#include <fmt/format.h>
 
 #include "assembly/assembly.hpp"
 #include "comparison/parameter_file.hpp"

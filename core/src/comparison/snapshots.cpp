@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/snapshots.hpp"
 
-#include <fmt/format.h>
-#include <fmt/os.h>
-
 #include <algorithm>
 #include <charconv>
 #include <limits>
+
+#include <fmt/format.h>
+#include <fmt/os.h>
 
 #include "stability/ellipticity.hpp"
 #include "tunica/error.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/uncertainty.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/uncertainty_tables.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/wall_tables.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "comparison/fit_table.hpp"
 #include "comparison/snapshots.hpp"

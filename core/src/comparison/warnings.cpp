@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/warnings.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "text/lists.hpp"
 #include "text/units.hpp"

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/concurrency.hpp"
 
-#include <pthread.h>
-#include <signal.h>
-#include <sys/time.h>
-#include <time.h>
-
 #include <algorithm>
 #include <atomic>
 #include <barrier>
@@ -16,6 +11,11 @@
 #include <random>
 #include <thread>
 #include <vector>
+
+#include <pthread.h>
+#include <signal.h>
+#include <sys/time.h>
+#include <time.h>
 
 namespace tunica::conformance {
 namespace {

@@ -45,7 +45,7 @@ std::vector<Material> models_of(const experiment::Experiment& experiment, const 
 }
 
 std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,
-                                     const plugins::Catalogue& catalogue) {
+                                       const plugins::Catalogue& catalogue) {
   std::vector<TestCase> all;
   for (const experiment::TestEntry& entry : experiment.tests) {
     if (std::find(types.begin(), types.end(), entry.type) == types.end()) continue;
@@ -60,7 +60,8 @@ std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment,
         test_case.layers.push_back(one.model);
         if (!test_case.material.model) test_case.material.model = one.model;
         test_case.material.name += (test_case.material.name.empty() ? "" : "+") + one.name;
-        test_case.material.parameters.insert(test_case.material.parameters.end(), one.parameters.begin(), one.parameters.end());
+        test_case.material.parameters.insert(test_case.material.parameters.end(), one.parameters.begin(),
+                                             one.parameters.end());
       }
     }
     all.push_back(std::move(test_case));

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/isolated.hpp"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -16,8 +10,13 @@
 #include <limits>
 #include <string>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace tunica::conformance {
 namespace {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "conformance/differences.hpp"
 #include "conformance/material_point.hpp"

@@ -51,7 +51,8 @@ std::vector<Finding> check_plugin(const Contents& contents, const plugins::Catal
                                   const CheckSettings& settings, const std::function<void(const Finding&)>& show) {
   const CheckContext context{catalogue, settings};
   Jobs all;
-  const auto append = [&](const std::vector<std::string>& names, Jobs (*make)(const std::string&, const CheckContext&)) {
+  const auto append = [&](const std::vector<std::string>& names,
+                          Jobs (*make)(const std::string&, const CheckContext&)) {
     for (const std::string& name : names)
       for (Job& job : make(name, context)) all.push_back(std::move(job));
   };

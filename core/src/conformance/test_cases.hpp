@@ -51,7 +51,7 @@ TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std
 
 /// The tests of these types as they stand in an experiment, each with the model of the first run that has it.
 std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,
-                                     const plugins::Catalogue& catalogue);
+                                       const plugins::Catalogue& catalogue);
 /// The models of an experiment, at the initial values of their parameters.
 std::vector<Material> models_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 

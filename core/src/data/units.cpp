@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data/units.hpp"
 
-#include <udunits2.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <udunits2.h>
 
 #include "data/nearest.hpp"
 #include "tunica/error.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/checkpoint.hpp"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "data/sha256.hpp"
 #include "execution/files.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/evaluation_table.hpp"
 
-#include <fmt/compile.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
+
+#include <fmt/compile.h>
 
 #include "text/csv.hpp"
 #include "tunica/error.hpp"

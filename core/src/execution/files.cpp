@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/files.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "tunica/error.hpp"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/interrupt.hpp"
 
-#include <csignal>
-
 #include <atomic>
+#include <csignal>
 
 namespace tunica::execution {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/plan.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"

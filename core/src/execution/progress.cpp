@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/progress.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include "text/wrapping.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/realisation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
 #include "tunica/random.hpp"

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/run_directory.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cctype>
 #include <charconv>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "tunica/error.hpp"
 

@@ -3,14 +3,14 @@
 
 #define BOOST_DLL_USE_STD_FS
 #include <algorithm>
-#include <boost/dll/runtime_symbol_info.hpp>
-#include <boost/dll/shared_library.hpp>
 #include <cstdlib>
 #include <exception>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <boost/dll/shared_library.hpp>
 #include <dlfcn.h>
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/html.hpp"
 
+#include <array>
+#include <cctype>
+
 #include <fmt/format.h>
 #include <nettle/base64.h>
 #include <nettle/sha2.h>
-
-#include <array>
-#include <cctype>
 
 namespace tunica::report {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/table.hpp"
-#include "text/units.hpp"
 
 #include <charconv>
 #include <cmath>
 
+#include "text/units.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::report {

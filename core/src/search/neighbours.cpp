@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <Eigen/Eigenvalues>
 
 namespace tunica::search {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <Eigen/QR>
 
 #include "assembly/whitening.hpp"
 #include "tunica/random.hpp"

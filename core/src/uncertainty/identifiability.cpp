@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <Eigen/SVD>
 
 #include "assembly/whitening.hpp"
 #include "uncertainty/sandwich.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "target.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
 #include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tunica/error.hpp"
 #include "tunica/tests/decorated_test.hpp"

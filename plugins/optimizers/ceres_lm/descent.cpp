@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "descent.hpp"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <ceres/ceres.h>
 
 #include "tunica/optimizers/augmented_lagrangian.hpp"
 

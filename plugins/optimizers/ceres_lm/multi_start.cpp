@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "multi_start.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <fmt/core.h>
 
 #include "descent.hpp"
 #include "starts.hpp"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "starts.hpp"
 
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/sobol.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/sobol.hpp>
 
 namespace tunica::ceres_lm {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evolution_strategy.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
+
+#include <fmt/core.h>
 
 #include "search.hpp"
 

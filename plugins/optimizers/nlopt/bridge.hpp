@@ -3,9 +3,10 @@
 
 #include <exception>
 #include <limits>
-#include <nlopt.hpp>
 #include <string>
 #include <vector>
+
+#include <nlopt.hpp>
 
 #include "tunica/optimizer.hpp"
 

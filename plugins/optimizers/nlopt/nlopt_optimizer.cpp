@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nlopt_optimizer.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <fmt/core.h>
 
 #include "search.hpp"
 #include "tunica/random.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tunica/plugin.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
+
+#include <fmt/core.h>
 
 #include "nlopt_optimizer.hpp"
 

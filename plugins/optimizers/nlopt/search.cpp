@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "search.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "tunica/optimizers/augmented_lagrangian.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pagmo_optimizer.hpp"
 
-#include <fmt/core.h>
-
 #include <cmath>
+
+#include <fmt/core.h>
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+
 #include <pagmo/algorithm.hpp>
 
 #include "search.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tunica/plugin.hpp"
 
-#include <fmt/core.h>
-
 #include <limits>
+
+#include <fmt/core.h>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/de1220.hpp>
 #include <pagmo/algorithms/pso_gen.hpp>

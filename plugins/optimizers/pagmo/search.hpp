@@ -2,9 +2,10 @@
 #pragma once
 
 #include <limits>
-#include <pagmo/types.hpp>
 #include <string>
 #include <vector>
+
+#include <pagmo/types.hpp>
 
 #include "tunica/optimizer.hpp"
 

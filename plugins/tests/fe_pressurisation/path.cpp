@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "path.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace tunica::fe {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace tunica::fe {
 namespace {

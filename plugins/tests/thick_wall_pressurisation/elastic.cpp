@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "elastic.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <numbers>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "tunica/detail/safeguarded_newton.hpp"
 

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include <boost/math/special_functions/legendre.hpp>
 
 namespace tunica::thick_wall {
 

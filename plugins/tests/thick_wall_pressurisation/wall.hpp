@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ceres/jet.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include <ceres/jet.h>
 
 #include "tube.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tube_rows.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <span>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "tunica/error.hpp"
 

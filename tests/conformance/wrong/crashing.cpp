@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ends the process for a batch of more than a hundred points.
-#include "right.hpp"
-
 #include <csignal>
+
+#include "right.hpp"
 
 namespace {
 

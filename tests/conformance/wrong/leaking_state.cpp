@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Begins where the call before has ended, as an iteration may that is not taken to its end.
-#include "right.hpp"
-
 #include <atomic>
 #include <cmath>
+
+#include "right.hpp"
 
 namespace {
 

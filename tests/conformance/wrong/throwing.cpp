@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Throws where it should answer with a status.
-#include "right.hpp"
-
 #include <stdexcept>
+
+#include "right.hpp"
 
 namespace {
 

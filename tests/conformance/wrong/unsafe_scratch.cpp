@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invariants in a member, which every thread writes to.
-#include "right.hpp"
-
 #include <algorithm>
 #include <array>
+
+#include "right.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes cases of the blind benchmark of diagnosis: experiment files and data with an effect hidden in them, the truth
 // apart. Nothing of tunica is in it. The same orders give the same cases; those that are there are left alone.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "sealed_case.hpp"
 

@@ -2,9 +2,10 @@
 #include "oracle.hpp"
 
 #include <algorithm>
+#include <cmath>
+
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/special_functions/legendre.hpp>
-#include <cmath>
 
 namespace blind {
 namespace {

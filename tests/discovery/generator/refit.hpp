@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <span>
+
+#include <Eigen/Dense>
 
 #include "world.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
+
+#include <boost/math/tools/roots.hpp>
 
 namespace blind {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sealed_case.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cmath>
 #include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "seal.hpp"
 

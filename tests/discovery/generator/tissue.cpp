@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tissue.hpp"
 
-#include <Eigen/Dense>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include <Eigen/Dense>
+#include <boost/math/tools/roots.hpp>
 
 namespace blind {
 namespace {

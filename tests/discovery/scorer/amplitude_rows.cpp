@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
 
 #include "rows.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "seal.hpp"

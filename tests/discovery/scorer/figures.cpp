@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of the table of the blind benchmark. What a row counts, and what it does not, stands beside it.
-#include "rows.hpp"
+#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include "rows.hpp"
 
 namespace blind::score {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scores verdicts on the cases of the blind benchmark; opens the sealed truths once all verdicts are on disk.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "table.hpp"
 

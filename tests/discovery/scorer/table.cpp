@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "table.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace blind::score {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "diagnosis/evidence/projection.hpp"
 #include "tunica/random.hpp"

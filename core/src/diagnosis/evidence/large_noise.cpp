@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "diagnosis/evidence/projection.hpp"
 

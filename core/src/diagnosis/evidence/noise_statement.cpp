@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
 
 #include "assembly/channels.hpp"
 #include "assembly/noise.hpp"

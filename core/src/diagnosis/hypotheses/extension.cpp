@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "diagnosis/hypotheses/extension.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "diagnosis/hypotheses/extension.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::diagnosis {

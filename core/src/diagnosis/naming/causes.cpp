@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
 #include <Eigen/QR>
 #include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
 
 #include "diagnosis/hypotheses/places.hpp"
 

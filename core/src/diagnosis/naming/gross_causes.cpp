@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include <fmt/format.h>
 #include <boost/math/distributions/normal.hpp>
+#include <fmt/format.h>
 
 #include "diagnosis/evidence/gross_rows.hpp"
 #include "diagnosis/naming/causes.hpp"

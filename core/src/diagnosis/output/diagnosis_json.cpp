@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/output/outputs.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +8,7 @@
 #include "comparison/result_json.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
+#include "diagnosis/output/outputs.hpp"
 
 namespace tunica::diagnosis {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/output/outputs.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "diagnosis/output/outputs.hpp"
 #include "experiment/reader.hpp"
 
 namespace tunica::diagnosis {

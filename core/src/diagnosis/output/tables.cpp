@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnosis/output/outputs.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "diagnosis/naming/credible.hpp"
+#include "diagnosis/output/outputs.hpp"
 #include "execution/files.hpp"
 
 namespace tunica::diagnosis {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <boost/math/distributions/chi_squared.hpp>
 
 namespace tunica::diagnosis {
 namespace {

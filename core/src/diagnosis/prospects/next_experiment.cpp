@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
-#include <Eigen/QR>
 
 #include "diagnosis/prospects/designs.hpp"
 #include "diagnosis/prospects/undetermined.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <Eigen/Cholesky>
 
 #include "diagnosis/prospects/designs.hpp"
 
