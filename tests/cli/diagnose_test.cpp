@@ -43,8 +43,10 @@ TEST(Diagnose, LeavesNoFolderAfterAnError) {
   bench.experiment["models"]["gho"]["parameters"]["k2"] = {{"fixed", 1e6}};  // exp(k2 E²) beyond all numbers
   auto ended = bench.tunica({"diagnose", "experiment.json"});
   EXPECT_EQ(ended.code, 1) << ended.err;
-  EXPECT_THAT(ended.err, AllOf(HasSubstr("error: diagnosis: the base model cannot be evaluated from any of"),
-                               HasSubstr("`tunica check experiment.json` evaluates the initial point")));
+  EXPECT_THAT(
+      ended.err,
+      AllOf(HasSubstr("error: diagnosis: the base model cannot be evaluated from any of"),
+            HasSubstr("Run `tunica check experiment.json`, which evaluates the initial point and shows what fails")));
   EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
   // A folder that was there before stays.
   std::filesystem::create_directory(bench.path("mine"));
@@ -65,8 +67,8 @@ TEST(Diagnose, LeavesNoFolderAfterCtrlC) {
   const auto ended = process.wait();
   if (ended.code == 0) GTEST_SKIP() << "it came to its end before the signal";
   EXPECT_EQ(ended.code, 130) << ended.err;
-  EXPECT_THAT(ended.err, AllOf(HasSubstr("interrupted; a diagnosis that is not finished leaves nothing behind"),
-                               Not(HasSubstr("\033"))));
+  EXPECT_THAT(ended.err,
+              AllOf(HasSubstr("interrupted; an unfinished diagnosis leaves nothing behind"), Not(HasSubstr("\033"))));
   EXPECT_EQ(ended.out, "");
   EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
 }

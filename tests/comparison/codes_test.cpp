@@ -17,8 +17,9 @@ namespace {
 
 std::vector<std::string> listed(const char* definition) {
   std::ifstream file(TUNICA_SOURCE_DIR "/schemas/tunica-result.schema.json");
+  const nlohmann::json schema = nlohmann::json::parse(file);
   std::vector<std::string> codes;
-  for (const auto& one : nlohmann::json::parse(file).at("definitions").at(definition).at("oneOf"))
+  for (const auto& one : schema.at("definitions").at(definition).at("oneOf"))
     if (one.at("const").is_string()) codes.push_back(one.at("const"));
   return codes;
 }

@@ -66,8 +66,9 @@ TEST(NoiseStatement, ReadsConstantNoiseOffReplicatesAndNoMore) {
   EXPECT_EQ(source.noise.relative, 0);
   EXPECT_EQ(source.noise.correlation, 0);
   EXPECT_EQ(source.correlation_sd, 0);
-  ASSERT_EQ(bench.experiment.tests[0].data.noise.size(), 1u);
-  EXPECT_EQ(bench.experiment.tests[0].data.noise[0].second.absolute, source.noise.absolute);
+  const auto stated = with_noise(bench.experiment, bench.run.tests, {source});
+  ASSERT_EQ(stated.tests[0].data.noise.size(), 1u);
+  EXPECT_EQ(stated.tests[0].data.noise[0].second.absolute, source.noise.absolute);
 }
 
 // Seed 3; as above, and the levels of y, 1 … 101, hold the two parts apart to a factor of two in precision: 6e-5.
@@ -111,9 +112,10 @@ TEST(NoiseStatement, CountsOnlyTheDifferencesThatItTook) {
 
 TEST(NoiseStatement, RefusesIdenticalReplicates) {
   Replicated bench({0}, 3, 5);
-  EXPECT_THAT(trial::message_of<InputError>([&] { bench.stated(); }),
-              HasSubstr("channel 'y': the replicates are identical, so that they say nothing about noise; state "
-                        "noise.absolute or noise.relative"));
+  EXPECT_THAT(
+      trial::message_of<InputError>([&] { bench.stated(); }),
+      HasSubstr("channel 'y': the replicates are identical and say nothing about noise. State noise.absolute or "
+                "noise.relative"));
 }
 
 TEST(NoiseStatement, LeavesTestsOfOtherRunsAlone) {

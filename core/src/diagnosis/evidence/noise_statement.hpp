@@ -27,7 +27,7 @@ struct NoiseSource {
 ///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
 ///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over channels and
 ///               over the tests that agree on it, where it exceeds twice its standard deviation;
-///   else:       deviations from the line through neighbouring rows (calibration/noise.hpp), uncorrelated.
+///   else:       deviations from the line through neighbouring rows (assembly/noise.hpp), uncorrelated.
 ///
 /// Rows that are held out and `gross` ones take no part in those differences. Throws InputError where nothing can be
 /// known.
