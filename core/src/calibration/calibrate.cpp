@@ -2,6 +2,8 @@
 #include "calibration/calibrate.hpp"
 
 #include <algorithm>
+#include <system_error>
+#include <utility>
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -42,13 +44,25 @@ void write_tables(const execution::Plan& plan, const std::vector<execution::RunR
   comparison::write_study_tables(directory, plan, results, summary);
 }
 
+/// A file that is gone when it is no longer needed, after an error too.
+struct TemporaryFile {
+  const std::filesystem::path path;
+
+  explicit TemporaryFile(std::filesystem::path file) : path(std::move(file)) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code left;  // of one that cannot be removed the results do not depend
+    std::filesystem::remove(path, left);
+  }
+};
+
 /// The fresh process knows the experiment and the best points, nothing else.
 void certify(const std::filesystem::path& directory, const Options& options, comparison::Summary& summary) {
   if (!options.certify) return comparison::add_certificates("", "--no-certificate was given", summary);
-  const auto points = directory / "best_points.json";
-  execution::write_atomically(points, comparison::best_points_json(summary));
-  const Certified certified = options.certify(directory, points);
-  std::filesystem::remove(points);
+  const TemporaryFile points(directory / "best_points.json");
+  execution::write_atomically(points.path, comparison::best_points_json(summary));
+  const Certified certified = options.certify(directory, points.path);
   comparison::add_certificates(certified.answer, certified.missing, summary);
 }
 
