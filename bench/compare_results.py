@@ -53,7 +53,7 @@ class Comparison:
 
     def see_lists(self, path, old, new):
         if len(old) != len(new) and all(isinstance(one, str) for one in old + new):
-            self.sentences.append((path, old, new))
+            (self.codes if all(CODE.fullmatch(one) for one in old + new) else self.sentences).append((path, old, new))
             return
         if len(old) != len(new):
             self.missing.append((path, f"{len(old)} entries", f"{len(new)} entries"))
