@@ -16,7 +16,6 @@ import hashlib
 import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -68,13 +67,14 @@ def fingerprint(files):
 
 
 def look_alikes(build):
-    """Declared look-alikes of every mechanism, as `tunica describe` tells them."""
-    run = lambda *words: subprocess.run([*tunica(build), *words], check=True, capture_output=True, text=True).stdout
-    ids = re.findall(r"^  (\S+)", run("list", "mechanisms"), re.MULTILINE)
+    """Declared look-alikes of every mechanism."""
+    def ask(*words):
+        return json.loads(subprocess.run([*tunica(build), *words, "--json"], check=True, capture_output=True, text=True).stdout)
+
     declared = {}
-    for name in ids:
-        told = re.search(r"looks like:(.*?)(?:isolated by:|\Z)", run("describe", name), re.DOTALL)
-        declared[name] = re.findall(r"\w+", told.group(1)) if told else []
+    for entry in ask("list", "mechanisms")["mechanisms"]:
+        name = entry["name"]
+        declared[name] = ask("describe", name)["mechanism"]["look_alikes"]
         if len(declared[name]) > 3:
             sys.exit(f"discovery.py: {name} declares {len(declared[name])} look-alikes, and at most three count")
     return declared

@@ -23,8 +23,8 @@ case.mkdir(parents=True, exist_ok=True)
 (case / "truth.sha256").write_text("0")
 """
 TUNICA = NOTE + """
-if "list" in sys.argv: print("mechanisms (1)\\n  active_tone   The muscle.")
-if "describe" in sys.argv: print("  looks like: force_offset,\\n              residual_stress\\n  isolated by: a bath")
+if "list" in sys.argv: print('{"mechanisms": [{"name": "active_tone"}]}')
+if "describe" in sys.argv: print('{"mechanism": {"look_alikes": ["force_offset", "residual_stress"]}}')
 if "diagnose" in sys.argv:
     for seal in pathlib.Path(sys.argv[-1]).glob("*/truth.sha256"):
         if not (seal.parent / "result.json").exists(): (seal.parent / "result.json").write_text("{}")
@@ -121,7 +121,7 @@ class Driver(unittest.TestCase):
                                                "<!-- blind benchmark: end -->\nafter\n")
 
     def test_more_than_three_look_alikes_are_refused(self):
-        self.write("tunica", TUNICA.replace("force_offset,", "a, b, c, d,"))
+        self.write("tunica", TUNICA.replace('"force_offset",', '"a", "b", "c", "d",'))
         self.assertIn("active_tone declares 5 look-alikes, and at most three count", self.run_driver("--reduced").stderr)
 
 
