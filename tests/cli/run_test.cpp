@@ -85,7 +85,9 @@ TEST(Run, CertifiesItsOptimaInAFreshProcess) {
   const trial::Bench bench;
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   ASSERT_EQ(ended.code, 0) << ended.err;
-  for (const auto& run : bench.result("out")["runs"]) {
+  const auto result = bench.result("out");
+  EXPECT_EQ(result["runs"].size(), 2u);
+  for (const auto& run : result["runs"]) {
     const auto& certificate = run["best"]["certificate"];
     ASSERT_TRUE(certificate["fresh_process"].is_object()) << certificate.dump();
     EXPECT_LT(std::abs(certificate["fresh_process"]["difference"].get<double>()), 1e-9);
