@@ -55,7 +55,8 @@ std::vector<Layer> layers(const std::vector<MechanismEntry>& entries, const plug
     found.push_back({&entry, &mechanism});
   }
   std::stable_sort(found.begin(), found.end(), [](const Layer& a, const Layer& b) {
-    return a.mechanism->factory.stage < b.mechanism->factory.stage;
+    const MechanismFactory &one = a.mechanism->factory, &other = b.mechanism->factory;
+    return std::pair(one.stage, one.memory) < std::pair(other.stage, other.memory);
   });
   return found;
 }

@@ -13,8 +13,16 @@ namespace {
 using experiment::MechanismEntry;
 
 /// Defaults of its options, with what the addition says: number options of the setting, channel and row of the place.
+/// The bounds of an amplitude whose size depends on the specimen are written down with it.
 MechanismEntry entry_of(const Addition& addition, const MechanismFactory& mechanism) {
   MechanismEntry entry{addition.id, {}, {}};
+  if (addition.range) {
+    const AmplitudeRange& range = *addition.range;
+    experiment::ParameterSetting& amplitude = entry.parameters[mechanism.parameters.front().name];
+    amplitude.min = range.min;
+    amplitude.max = range.max;
+    amplitude.initial = std::clamp(0.1 * range.plausible_max + 0.9 * mechanism.null, range.min, range.max);
+  }
   for (const Option& option : mechanism.options) {
     if (option.fallback) entry.options.set(option.name, *option.fallback);
     if (option.name == "channel") entry.options.set("channel", addition.place.channel);

@@ -41,7 +41,7 @@ json amplitude_json(const Amplitude& amplitude) {
           {"plausible", amplitude.plausible}};
 }
 
-json cause_json(const Cause& cause) {
+json cause_json(const Cause& cause, const Explanation& explanation) {
   json nuisance = json::array(), shifts = json::array();
   for (const Amplitude& one : cause.nuisance) nuisance.push_back(amplitude_json(one));
   for (const Cause::Shift& shift : cause.shifts)
@@ -52,6 +52,7 @@ json cause_json(const Cause& cause) {
           {"target", place_json(cause.place)},
           {"p_value", cause.p_value},
           {"probability", cause.probability},
+          {"standing", code_of(standing_of(cause, explanation))},
           {"amplitude", amplitude_json(cause.amplitude)},
           {"nuisance", std::move(nuisance)},
           {"retained_fraction", std::min(1.0, cause.retained)},
@@ -120,7 +121,8 @@ json detectable_json(const std::vector<Detectable>& detectable) {
                    {"retained_fraction", std::min(1.0, one.retained)},
                    {"closest", one.closest.empty() ? json(nullptr) : json(one.closest)},
                    {"correlation", one.correlation},
-                   {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)}});
+                   {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)},
+                   {"absence", code_of(one.absence)}});
   return all;
 }
 
@@ -242,7 +244,7 @@ json diagnosis_json(const Diagnosis& d) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
   json causes = json::array(), alternatives = json::array();
-  for (const Cause& cause : all_causes(explanation)) causes.push_back(cause_json(cause));
+  for (const Cause& cause : all_causes(explanation)) causes.push_back(cause_json(cause, explanation));
   for (const auto& ids : claim.alternatives)
     if (ids.size() == 2) alternatives.push_back(ids);
   json result = {{"verdict", code_of(explanation.verdict)},
