@@ -12,6 +12,7 @@
 #include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/measured.hpp"
 #include "diagnosis/output/outputs.hpp"
+#include "experiment/reader.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::trial {
@@ -163,6 +164,23 @@ TEST(Priors, AnExtensionHasTheBoundsThatTheDataAllow) {
   const json& c2 = extended["models"]["rubber"]["mechanisms"][0]["parameters"]["c2"];
   EXPECT_GT(c2["max"].get<double>(), 300);
   EXPECT_NEAR(c2["initial"].get<double>(), amplitude.value, 1e-9 * amplitude.value);
+}
+
+TEST(Priors, TwoOfAKindHaveParametersOfTheirOwn) {
+  Rubber measured;
+  measured.experiment["models"]["rubber"]["mechanisms"] = {{{"type", "viscoelasticity"}}};
+  const experiment::Experiment file = measured.read();
+  diagnosis::Addition second{"viscoelasticity", {}, {{"tau", 50.0}}};
+  second.as = "viscoelasticity_2";
+  const diagnosis::Extension extended(file, file.runs.front(), {second}, testing::catalogue());
+  std::vector<std::string> names;
+  for (const auto& parameter : extended.assembly().layout().parameters) names.push_back(parameter.name);
+  EXPECT_THAT(names, ::testing::ElementsAre("c10", "c20", "c30", "viscoelasticity.g", "viscoelasticity.tau",
+                                            "viscoelasticity_2.g", "viscoelasticity_2.tau"));
+  EXPECT_EQ(extended.parts().front().amplitude, diagnosis::Variable{5});
+  EXPECT_EQ(extended.parts().front().nuisance_start.front(), 50);
+  const std::string text = experiment::write_input(extended.experiment(), testing::catalogue());
+  EXPECT_EQ(json::parse(text)["models"]["rubber"]["mechanisms"][1]["as"], "viscoelasticity_2");
 }
 
 TEST(Priors, EveryMechanismBelongsToTheMaterialOrToTheRig) {

@@ -8,7 +8,7 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr double beyond_plausible = 5;  ///< bounds, over the largest plausible distance from the null
-constexpr double small_step = 1e-4;      ///< of the declared reach, for a difference
+constexpr double small_step = 1e-4;     ///< of the declared reach, for a difference
 
 double span_of(const assembly::MeasuredChannel& view) {
   const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());

@@ -15,7 +15,7 @@ using experiment::MechanismEntry;
 /// Defaults of its options, with what the addition says: number options of the setting, channel and row of the place.
 /// The bounds of an amplitude whose size depends on the specimen are written down with it.
 MechanismEntry entry_of(const Addition& addition, const MechanismFactory& mechanism) {
-  MechanismEntry entry{addition.id, {}, {}};
+  MechanismEntry entry{addition.id, {}, {}, addition.as};
   if (addition.range) {
     const AmplitudeRange& range = *addition.range;
     experiment::ParameterSetting& amplitude = entry.parameters[mechanism.parameters.front().name];
@@ -70,7 +70,7 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
       Variable variable;
       const auto add = [&](const std::string& owner) {
         const auto index =
-            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.id, mechanism.parameters[k].name));
+            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.name(), mechanism.parameters[k].name));
         if (!index)
           throw plugins::PluginFailure(
               fmt::format("the mechanism '{}' declares the parameter '{}' but does not have it", addition.id,

@@ -23,6 +23,10 @@ struct Addition {
   Place place;
   MechanismFactory::Setting setting;         ///< nuisance parameters and number options where the search begins
   std::optional<AmplitudeRange> range = {};  ///< from the data; none: as the mechanism declares
+  std::string as = {};                       ///< of several side by side, the name; empty = the id
+
+  /// The prefix of its parameters.
+  [[nodiscard]] const std::string& name() const { return as.empty() ? id : as; }
 };
 
 /// One amplitude that may differ from its null, and what the data would show of it.

@@ -193,7 +193,7 @@ json base_json(const Evidence& evidence) {
 json extension_json(const Explanation& explanation) {
   json mechanisms = json::array();
   for (const Addition& addition : explanation.claim.best->additions)
-    mechanisms.push_back({{"type", addition.id}, {"target", place_json(addition.place)}});
+    mechanisms.push_back({{"type", addition.id}, {"as", addition.name()}, {"target", place_json(addition.place)}});
   for (const Cause& row : explanation.left_out)
     mechanisms.push_back({{"type", row.id}, {"target", place_json(row.place)}});
   return {{"mechanisms", std::move(mechanisms)}, {"experiment", "extended.json"}};

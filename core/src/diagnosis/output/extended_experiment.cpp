@@ -21,7 +21,7 @@ experiment::ParameterSetting* setting_of(Experiment& experiment, const std::vect
     const auto dot = rest.find('.');
     if (dot == std::string::npos) return nullptr;
     for (MechanismEntry& entry : mechanisms)
-      if (entry.type == rest.substr(0, dot)) return &entry.parameters[rest.substr(dot + 1)];
+      if (entry.name() == rest.substr(0, dot)) return &entry.parameters[rest.substr(dot + 1)];
     return nullptr;
   };
   for (auto& test : experiment.tests) {
@@ -109,8 +109,9 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
     if (addition.place.tests.size() < 2) continue;
     for (const Parameter& parameter : catalogue.mechanisms().at(addition.id).factory.parameters)
       for (const std::string& test : addition.place.tests)
-        if (auto* setting = setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.id, parameter.name)))
-          setting->share = addition.id + "_" + parameter.name;
+        if (auto* setting =
+                setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.name(), parameter.name)))
+          setting->share = addition.name() + "_" + parameter.name;
   }
   add_gross_rows(experiment, d.explanation.left_out, catalogue);
   for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
