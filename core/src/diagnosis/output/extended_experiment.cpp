@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -89,7 +90,12 @@ void add_gross_rows(Experiment& experiment, const std::vector<Cause>& rows, cons
         if (option.fallback) entry.options.set(option.name, *option.fallback);
       entry.options.set("channel", row.place.channel);
       entry.options.set("rows", fmt::format("{}:{}:1", *row.place.row, *row.place.row + 1));
-      entry.parameters[row.amplitude.name].initial = row.amplitude.value;
+      experiment::ParameterSetting& shift = entry.parameters[row.amplitude.name];
+      shift.initial = row.amplitude.value;
+      if (const double wide = 5 * std::abs(row.amplitude.value); wide > 0) {
+        shift.min = -wide;
+        shift.max = wide;
+      }
       test.mechanisms.push_back(std::move(entry));
     }
 }
