@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include "numerics/cholesky.hpp"
+#include "numerics/singular.hpp"
 
 namespace tunica::uncertainty {
 namespace {
@@ -81,16 +81,14 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
   const auto priors = static_cast<Eigen::Index>(noise.priors.size());
   M += weighted.bottomRows(priors).transpose() * weighted.bottomRows(priors);
 
-  const Eigen::LDLT<Matrix> solver(H);
-  const Eigen::LLT<Matrix> root(M);
-  if (solver.info() != Eigen::Success || !solver.isPositive() || root.info() != Eigen::Success)
-    return Status::failed("the objective's curvature is singular in directions that the data see");
-  const Matrix spread = width.asDiagonal() * solver.solve(Matrix(root.matrixL()));
-  const Eigen::JacobiSVD<Matrix> svd(spread, Eigen::ComputeFullU);
-  const Matrix V = spectrum.V(Eigen::all, seen) * svd.matrixU();
+  const std::optional<Matrix> half = numerics::half_sandwich(H, M);
+  if (!half) return Status::failed("the objective's curvature is singular in directions that the data see");
+  const Matrix spread = width.asDiagonal() * *half;
+  const numerics::SingularVectors singular = numerics::left_singular_vectors(spread);
+  const Matrix V = spectrum.V(Eigen::all, seen) * singular.vectors;
   for (Eigen::Index a = 0; a < k; ++a) {  // singular values fall, so widths in reverse
     const Eigen::Index from = k - 1 - a, to = seen[static_cast<std::size_t>(a)];
-    const double sd = svd.singularValues()[from];
+    const double sd = singular.values[from];
     spectrum.V.col(to) = V.col(from);
     spectrum.values[to] = 1 / sd;
     spectrum.variance[to] = sd * sd;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include "assembly/channels.hpp"
 #include "assembly/noise.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -135,8 +135,7 @@ void pool(std::vector<Correlation>& correlations) {
   }
   double spread = 0;
   for (const Correlation& one : correlations) spread += std::pow((one.value() - all.value()) / one.sd(), 2);
-  const boost::math::chi_squared expected(static_cast<double>(correlations.size() - 1));
-  if (spread > boost::math::quantile(expected, 0.95)) return;
+  if (spread > numerics::chi_squared_quantile(0.95, static_cast<double>(correlations.size() - 1))) return;
   for (Correlation& one : correlations) {
     one.products = all.products;
     one.squares = all.squares;
