@@ -60,6 +60,49 @@ const char* code_of(ReasonKind kind) {
   return "restored_by_larger";
 }
 
+const char* code_of(CauseGroup group) { return group == CauseGroup::material ? "material" : "rig"; }
+
+const char* code_of(Standing standing) {
+  switch (standing) {
+    case Standing::probable:
+      return "probable";
+    case Standing::at_bound:
+      return "at_bound";
+    case Standing::implausible:
+      return "implausible";
+    case Standing::rest_is_left:
+      break;
+  }
+  return "rest_is_left";
+}
+
+const char* code_of(Absence absence) {
+  switch (absence) {
+    case Absence::none:
+      return "none";
+    case Absence::no_trace:
+      return "no_trace";
+    case Absence::absorbed:
+      return "absorbed";
+    case Absence::no_clock:
+      return "no_clock";
+    case Absence::already_there:
+      return "already_there";
+    case Absence::no_place:
+      return "no_place";
+    case Absence::not_applicable:
+      return "not_applicable";
+    case Absence::isotropic:
+      break;
+  }
+  return "isotropic";
+}
+
+bool can_hide(Absence absence) {
+  return absence == Absence::none || absence == Absence::no_trace || absence == Absence::absorbed ||
+         absence == Absence::no_clock;
+}
+
 const char* code_of(WarningKind kind) {
   switch (kind) {
     case WarningKind::channel_without_weight:

@@ -79,6 +79,7 @@ class Writer {
     Json list = Json::array();
     for (const MechanismEntry& entry : entries) {
       Json json = {{"type", entry.type}};
+      if (!entry.as.empty()) json["as"] = entry.as;
       add_options(json, entry.options, catalogue_.mechanisms().find(entry.type)->second.factory.options);
       json["parameters"] = to_json(entry.parameters);
       list.push_back(std::move(json));

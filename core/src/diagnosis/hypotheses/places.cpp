@@ -19,6 +19,15 @@ bool takes(const MechanismFactory& mechanism, const std::string& option) {
                      [&](const Option& declared) { return declared.name == option; });
 }
 
+CauseGroup group_of(const MechanismFactory& mechanism) {
+  using Origin = MechanismFactory::Origin;
+  if (mechanism.origin == Origin::by_stage)
+    return mechanism.stage < Stage::test ? CauseGroup::material : CauseGroup::rig;
+  return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
+}
+
+bool has_memory(const MechanismFactory& mechanism) { return mechanism.stage == Stage::history || mechanism.memory; }
+
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
   for (const std::string& name : run.tests) {
@@ -71,17 +80,6 @@ std::vector<Place> single_places(const MechanismFactory& mechanism, const Experi
         places.push_back({{name}, view.observable});
   }
   return places;
-}
-
-std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
-                                          const Place& place) {
-  if (place.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
-  for (const assembly::MeasuredChannel& view : base.layout().channels)
-    if (view.test == place.tests.front() && view.observable == place.channel) {
-      const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
-      return {*low - *high, *high - *low};
-    }
-  return {-INFINITY, INFINITY};
 }
 
 void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {

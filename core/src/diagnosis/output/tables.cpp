@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -47,7 +48,11 @@ std::string residual_table(const Diagnosis& d) {
   std::string text =
       "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,residual_"
       "extended";
-  for (const Cause& cause : claim.causes) text += ",signature_" + cause.id;
+  std::map<std::string, int> of_a_kind;
+  for (const Cause& cause : claim.causes) {
+    const int number = ++of_a_kind[cause.id];
+    text += ",signature_" + cause.id + (number > 1 ? fmt::format("_{}", number) : "");
+  }
   text += '\n';
   std::size_t c = 0;
   for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
