@@ -267,8 +267,11 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
     if (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end())
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());
-  tbb::parallel_for(std::size_t{0}, asked.size(),
-                    [&](std::size_t k) { found[k] = search.find(asked[k]->factory.id, asked[k]->factory); });
+  const auto done = inquiry.steps("signatures of the mechanisms", 0.1, 0.2, asked.size());
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t k) {
+    found[k] = search.find(asked[k]->factory.id, asked[k]->factory);
+    done();
+  });
   return found;
 }
 

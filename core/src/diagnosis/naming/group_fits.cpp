@@ -31,20 +31,26 @@ void sort_by_weight(std::vector<Group>& groups) {
                    [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
 }
 
-std::vector<Group> GroupFits::refitted(std::vector<Group> groups) const {
+std::vector<Group> GroupFits::refitted(std::vector<Group> groups, double from, double to) const {
   const std::vector<Direction>& directions = analysis_.hypotheses.directions;
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    Group& group = groups[g];
+  const auto done = inquiry_.steps("fitting mechanisms together", from, to, 2 * groups.size());
+  const auto fit = [&](Group& group) {
     group.refit = fit_with(inquiry_, analysis_, group.additions, group.amplitudes, group.begun_from.get());
     if (!group.refit) return;
     group.refit = searched_again(inquiry_, analysis_, std::move(*group.refit));
     group.log_weight = (analysis_.evidence.fit.chi2 - group.refit->fit.chi2) / 2;
     for (const std::size_t k : group.directions) group.log_weight += log_prior(directions[k]);
+  };
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    fit(groups[g]);
+    done();
   });
   std::erase_if(groups, [](const Group& group) { return !group.refit; });
   sort_by_weight(groups);
-  tbb::parallel_for(std::size_t{0}, groups.size(),
-                    [&](std::size_t g) { groups[g].losses = losses_of(groups[g], g < groups_searched_again); });
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    groups[g].losses = losses_of(groups[g], g < groups_searched_again);
+    done();
+  });
   std::erase_if(groups, [](const Group& group) { return group.losses.empty(); });
   return groups;
 }

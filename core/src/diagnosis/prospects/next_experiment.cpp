@@ -82,14 +82,17 @@ NextExperiment confirming(const Inquiry& inquiry, const Evidence& evidence, cons
 }
 
 /// The smallest distance between any two of the rivals in each design.
-std::vector<double> smallest_distances(const std::vector<Design>& library, const std::vector<Refit>& rivals) {
+std::vector<double> smallest_distances(const Inquiry& inquiry, const std::vector<Design>& library,
+                                       const std::vector<Refit>& rivals) {
   std::vector<double> smallest(library.size(), 0);
+  const auto done = inquiry.steps("the next experiment", 0.9, 1, library.size() + 1);
   tbb::parallel_for(std::size_t{0}, library.size(), [&](std::size_t k) {
     double least = INFINITY;
     for (std::size_t a = 0; a < rivals.size(); ++a)
       for (std::size_t b = 0; b < rivals.size(); ++b)
         if (a != b) least = std::min(least, distance(library[k], rivals[a], rivals[b]));
     smallest[k] = std::isfinite(least) ? least : 0;
+    done();
   });
   return smallest;
 }
@@ -100,7 +103,7 @@ NextExperiment separating(const Inquiry& inquiry, const Evidence& evidence, cons
   next.separates = claim.ambiguity_set;
   const std::string switches = isolating(inquiry, claim.ambiguity_set);
   const std::vector<Design> library = designs(inquiry, evidence, claim.rivals.front());
-  const std::vector<double> smallest = smallest_distances(library, claim.rivals);
+  const std::vector<double> smallest = smallest_distances(inquiry, library, claim.rivals);
   const auto best = std::max_element(smallest.begin(), smallest.end());
   if (best == smallest.end() || *best * most_repeats < separated) {
     next.description = fmt::format(
