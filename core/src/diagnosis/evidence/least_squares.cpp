@@ -13,6 +13,8 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 constexpr double promised = 1e-6;  ///< of |r|², in noise units
 constexpr double edge = 1e-9;      ///< of the unit box
+constexpr double hopeless = 0.01;  ///< of what is missing to a wanted |r|²
+constexpr int patience = 2;        ///< such steps
 
 class Descent {
  public:
@@ -71,6 +73,8 @@ class Descent {
         damping /= 10;
         continue;
       }
+      slow_ = squares > data_.wanted && expected < hopeless * (squares - data_.wanted) ? slow_ + 1 : 0;
+      if (slow_ > patience) break;
       move_to(trial);
       Eigen::VectorXd r;
       Eigen::MatrixXd J;
@@ -167,6 +171,7 @@ class Descent {
   Eigen::MatrixXd J_;
   std::size_t evaluations_ = 0;
   double gained_ = 0;
+  int slow_ = 0;  ///< steps in a row that promise too little
 };
 
 }  // namespace

@@ -111,7 +111,11 @@ class CandidateSearch {
     std::erase_if(places, [&](const Place& place) {
       return already_there(experiment_.test(place.tests.front()).mechanisms, id);
     });
-    return places.empty() ? nowhere(Absence::no_place, "no test that it applies to") : places;
+    if (places.empty()) return nowhere(Absence::no_place, "no test that it applies to");
+    // On a first loading a memory is part of what the base model says.
+    if (mechanism.memory)
+      std::erase_if(places, [&](const Place& place) { return !unloads(base_, place.tests.front()); });
+    return places.empty() ? nowhere(Absence::no_trace, "no test takes the load off again") : places;
   }
 
   /// On each place by itself, where the mechanism is shared with one amplitude on all of them, and on single rows.

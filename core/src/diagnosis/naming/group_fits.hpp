@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "diagnosis/naming/groups.hpp"
@@ -20,7 +21,8 @@ class GroupFits {
 
  private:
   [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes,
-                                    bool again) const;
+                                    bool again, double enough) const;
+  void weigh_members(std::vector<Group>& groups, const std::function<void()>& done) const;
   [[nodiscard]] std::vector<double> losses_of(const Group& group, bool again) const;
 
   const Inquiry& inquiry_;
