@@ -147,11 +147,11 @@ TEST(Generator, AddsTheNoiseThatItStates) {
   }
 }
 
-// 20 nulls of 450 (sheets) and 135 (rubber) observations, seed 3: χ² with 9000 and 2700 degrees of freedom, sd 134 and
-// 73; within four of them with probability 0.99994.
+// 20 nulls of 220 (sheets) and 89 (rubber) observations, seed 3: χ² with 4400 and 1780 degrees of freedom, sd 94 and
+// 60; within four of them with probability 0.99994.
 TEST(Generator, AddsTheNoiseThatItStatesToSheetsAndRubber) {
   for (const auto& [base, protocol, count] :
-       {std::tuple(blind::Base::gho, "sheets", 450), {blind::Base::ogden, "rubber", 135}}) {
+       {std::tuple(blind::Base::gho, "sheets", 220), {blind::Base::ogden, "rubber", 89}}) {
     double squares = 0;
     for (std::size_t index = 0; index < 20; ++index) {
       const blind::SealedCase made = blind::make({3, "nulls", "", 0, index, {"white"}, base, protocol});

@@ -341,13 +341,15 @@ TEST(Scorer, KeepsOtherClassesOutOfTheMainTable) {
   EXPECT_EQ(figure(cases, "false alarms at α = 0.05").cases, 19U);
   const Figure own = class_figure(cases, "yeoh × rubber: false alarms");
   EXPECT_EQ(own.cases, 1U);
-  EXPECT_TRUE(own.missed());
+  EXPECT_FALSE(own.missed()) << "one case says nothing of its class";
+  EXPECT_TRUE(class_figure(together({cases, times(49, rubber)}), own.name).missed());
+  EXPECT_TRUE(class_figure(cases, "these classes together: false alarms").missed());
   Case found = single("a", 60, "named", {"a"});
   found.truth.base = "gho";
   found.oracle = Oracle{true, "b", {}, {}};
   Case not_found = found;
   not_found.verdict = single("a", 60, "named", {"c"}).verdict;
-  const Figure right = class_figure(together({times(3, found), times(1, not_found)}),
+  const Figure right = class_figure(together({times(39, found), times(13, not_found)}),
                                     "gho × artery: right name first given detection, Λ 60");
   EXPECT_NEAR(right.value, 0.75, 1e-12);
   EXPECT_TRUE(right.missed());

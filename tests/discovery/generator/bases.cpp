@@ -30,7 +30,7 @@ const List& fitted(Base base) {
            {"c30", &Tissue::c30, -5, 5, false, 0.1}},
       ogden{{"mu_1", &Tissue::mu_1, 10, 5000},
             {"alpha_1", &Tissue::alpha_1, 0.3, 6, false},
-            {"mu_2", &Tissue::mu_2, -500, 0, false, 10},
+            {"mu_2", &Tissue::mu_2, -500, -0.5, false, 10},
             {"alpha_2", &Tissue::alpha_2, -6, -0.3, false}};
   switch (base) {
     case Base::gho:

@@ -96,16 +96,17 @@ Json experiment(const SealedCase& made, const std::string& name) {
       test["data"] = data(made, sheet.name, {"stretch", "stress"}, channel, count);
     channel += count;
   }
-  const std::string& base = name_of(made.specimen.tissue.base);
-  Json model{{"type", base}, {"parameters", parameters(made.specimen.tissue)}};
-  if (made.specimen.tissue.base == Base::ogden) model["terms"] = 2;
+  const Tissue& tissue = made.specimen.tissue;
+  const std::string& base = name_of(tissue.base);
+  Json model{{"type", base}, {"parameters", parameters(tissue)}};
+  if (tissue.base == Base::ogden) model["terms"] = 2;
   return {{"format", 1},
           {"name", name},
           {"seed", 1},
           {"models", {{base, model}}},
           {"tests", tests},
           {"objective", "least_squares"},
-          {"optimizers", {{"lm", {{"type", "ceres_lm"}, {"starts", 4}}}}},
+          {"optimizers", {{"lm", {{"type", "ceres_lm"}, {"starts", fitted(tissue.base).size() > 4 ? 12 : 4}}}}},
           {"stop", {{"max_evaluations", 2000}}},
           {"runs", {{{"model", base}, {"optimizer", "lm"}}}},
           {"diagnosis", {{"model", base}, {"optimizer", "lm"}, {"alpha", 0.05}, {"mechanisms", "all"}}}};
