@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/misfit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+
+namespace tunica::assembly {
+
+double Misfit::times() const { return judged() ? std::sqrt(per_freedom()) : 0; }
+
+Misfit misfit(const Assembly& assembly, NoiseKind kind, std::span<const double> predictions,
+              std::span<const double> measured) {
+  Misfit found;
+  double fitted = 0;
+  for (const MeasuredChannel& view : assembly.layout().channels) {
+    if (!(view.weight > 0)) continue;
+    const auto count = static_cast<std::size_t>(std::count(view.fitted.begin(), view.fitted.end(), true));
+    fitted += static_cast<double>(count);
+    const ChannelNoise& noise = view.sigma;
+    if (count == 0 || !noise.known() || noise.stated() != (kind == NoiseKind::stated)) continue;
+    found.rows += count;
+    found.noise_freedom += noise.freedom;
+    double before = 0;
+    for (std::size_t i = 0, k = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      const std::size_t at = view.offset + i;
+      const double e = (predictions[at] - (measured.empty() ? view.measured[i] : measured[at])) / noise.rows.sd[k];
+      const double phi = noise.rows.neighbour.empty() ? 0 : noise.rows.neighbour[k];
+      found.chi_square += std::pow(e - phi * before, 2) / (1 - phi * phi);
+      before = e;
+      ++k;
+    }
+  }
+  if (found.rows == 0) return found;
+  const double parameters = static_cast<double>(assembly.layout().parameters.size());
+  found.freedom = static_cast<double>(found.rows) * (1 - parameters / fitted);
+  if (!found.judged() || !std::isfinite(found.chi_square)) return found;
+  using namespace boost::math;
+  found.chance = found.noise_freedom > 0
+                     ? cdf(complement(fisher_f(found.freedom, found.noise_freedom), found.per_freedom()))
+                     : cdf(complement(chi_squared(found.freedom), found.chi_square));
+  return found;
+}
+
+}  // namespace tunica::assembly
