@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/channel_noise.hpp"
 #include "data/dataset.hpp"
 #include "experiment/experiment.hpp"
 #include "tunica/model.hpp"
@@ -51,6 +52,7 @@ struct MeasuredChannel {
   std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
+  ChannelNoise sigma = {};           ///< of the fitted rows, stated or not: what everything that needs a noise reads
 };
 
 /// What a run consists of; nothing in it depends on parameter values.
@@ -62,6 +64,7 @@ struct Layout {
   /// Known invariances of the models, arguments as indices into `parameters`; value() takes the free values.
   std::vector<Combination> combinations;
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;        ///< what should be known, and worries nobody
   std::vector<std::string> data_hashes;  ///< "circ.csv sha256:…"
   std::size_t test_count = 0;            ///< tests of the run: entries of per_test
   std::size_t prediction_count = 0;      ///< Σ channel counts, held-out rows included

@@ -45,6 +45,7 @@ struct Examination {
   const experiment::Experiment& experiment;
   execution::Plan plan;
   std::vector<execution::Warning> warnings;
+  std::vector<std::string> notes;  ///< what should be known, and worries nobody
   std::vector<PosedProblem> problems;
 
   [[nodiscard]] bool good() const;

@@ -30,4 +30,8 @@ double f_below(double x, double freedom, double freedom_below) {
   return math::cdf(math::fisher_f(freedom, freedom_below), x);
 }
 
+double f_above(double x, double freedom, double freedom_below) {
+  return math::cdf(math::complement(math::fisher_f(freedom, freedom_below), x));
+}
+
 }  // namespace tunica::numerics

@@ -11,7 +11,8 @@ double chi_squared_quantile(double probability, double freedom);
 double chi_squared_below(double x, double freedom);  ///< P(χ² ≤ x)
 double chi_squared_above(double x, double freedom);  ///< P(χ² > x)
 
-/// P(F ≤ x) of a ratio of two mean squares.
+/// P(F ≤ x) and P(F > x) of a ratio of two mean squares.
 double f_below(double x, double freedom, double freedom_below);
+double f_above(double x, double freedom, double freedom_below);
 
 }  // namespace tunica::numerics

@@ -23,6 +23,10 @@ Eigen::VectorXd shortest_least_squares_solution(const Eigen::MatrixXd& A, const 
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A) { return A.completeOrthogonalDecomposition().pseudoInverse(); }
 
+Eigen::VectorXd rotated(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(A).householderQ().transpose() * b;
+}
+
 Triangular triangular(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A);
   const Eigen::VectorXd q = qr.householderQ().transpose() * b;

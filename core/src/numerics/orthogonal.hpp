@@ -21,6 +21,9 @@ Eigen::VectorXd shortest_least_squares_solution(const Eigen::MatrixXd& A, const 
 /// The Moore–Penrose inverse.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
+/// Qᵀ b of A = Q R: first the columns of A, then what is orthogonal to them.
+Eigen::VectorXd rotated(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
 /// A x ≈ b with n columns, brought to R x = q: R is n × n, upper triangular, q the first n entries of Qᵀ b.
 struct Triangular {
   Eigen::MatrixXd R;

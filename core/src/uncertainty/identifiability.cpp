@@ -23,14 +23,14 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 /// Residual rows, whitened, and all predictions (`curves`) by free parameters, in the unit box.
 Status whitened(const assembly::Assembly& assembly, std::span<const double> free, Matrix& rows, Matrix& curves,
-                assembly::Whitening& noise) {
+                assembly::Whitening& noise, bool is_fit) {
   const auto& parameters = assembly.layout().parameters;
   const std::size_t n = parameters.size();
   std::vector<double> predictions(assembly.layout().prediction_count), by_prediction(predictions.size() * n);
   const auto workspace = assembly.evaluator().make_workspace();
   if (Status status = assembly.evaluator().predict(free, predictions, by_prediction, *workspace); !status.ok())
     return status;
-  noise = assembly::whitening(assembly, predictions);
+  noise = assembly::whitening(assembly, predictions, {}, !is_fit);
   if (noise.rows.empty()) return Status::failed("no row is fitted");
   std::vector<double> jacobian(noise.count() * n);
   assembly::whitened_residuals(noise, free, predictions, by_prediction, {}, jacobian);
@@ -160,7 +160,7 @@ Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
 
 }  // namespace
 
-Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found) {
+Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found, bool is_fit) {
   const auto& parameters = assembly.layout().parameters;
   const std::size_t n = parameters.size();
   found = {};
@@ -174,7 +174,7 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
   }
   Matrix rows, curves;
   assembly::Whitening noise;
-  if (Status status = whitened(assembly, free, rows, curves, noise); !status.ok()) return status;
+  if (Status status = whitened(assembly, free, rows, curves, noise, is_fit); !status.ok()) return status;
   if (std::find(at_bound.begin(), at_bound.end(), false) == at_bound.end()) return {};
 
   const double weakest = assembly.layout().jacobian_is_exact ? weakest_exact : weakest_differenced;
