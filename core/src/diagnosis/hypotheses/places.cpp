@@ -26,8 +26,6 @@ CauseGroup group_of(const MechanismFactory& mechanism) {
   return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
 }
 
-bool has_memory(const MechanismFactory& mechanism) { return mechanism.stage == Stage::history || mechanism.memory; }
-
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
   for (const std::string& name : run.tests) {
@@ -100,6 +98,7 @@ void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vect
       if (!view.fitted[i]) continue;
       Hypothesis one = whole;
       one.addition.place.row = i;
+      one.addition.place.file_row = view.file_row(i);
       one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
       for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
       into.push_back(std::move(one));
