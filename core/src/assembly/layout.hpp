@@ -49,10 +49,14 @@ struct MeasuredChannel {
   std::string abscissa_name, abscissa_unit;
   /// "name [unit]" → count values
   std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
-  std::vector<bool> fitted;  ///< count; false = held out
+  std::vector<bool> fitted;                 ///< count; false = held out
+  std::vector<std::size_t> file_rows = {};  ///< count, data::Dataset::file_rows; empty = in the order of the file
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
   ChannelNoise sigma = {};           ///< of the fitted rows, stated or not: what everything that needs a noise reads
+
+  /// The number that a row has in the file, behind `where` and `rows`.
+  [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
 };
 
 /// What a run consists of; nothing in it depends on parameter values.

@@ -93,14 +93,16 @@ const char* code_of(Absence absence) {
     case Absence::not_applicable:
       return "not_applicable";
     case Absence::isotropic:
+      return "isotropic";
+    case Absence::no_past:
       break;
   }
-  return "isotropic";
+  return "no_past";
 }
 
 bool can_hide(Absence absence) {
   return absence == Absence::none || absence == Absence::no_trace || absence == Absence::absorbed ||
-         absence == Absence::no_clock;
+         absence == Absence::no_clock || absence == Absence::no_past;
 }
 
 const char* code_of(WarningKind kind) {
@@ -125,6 +127,10 @@ const char* code_of(WarningKind kind) {
       return "noise_too_large";
     case WarningKind::noise_vanishes:
       return "noise_vanishes";
+    case WarningKind::memory_not_looked_for:
+      return "memory_not_looked_for";
+    case WarningKind::order_assumed:
+      return "order_assumed";
     case WarningKind::run_differs_in_noise:
       return "run_differs_in_noise";
     case WarningKind::run_keeps_gross_rows:
@@ -150,7 +156,7 @@ const char* code_of(BlockVerdict verdict) {
 std::string Place::words() const {
   if (tests.empty()) return model.empty() ? "in the material" : fmt::format("in the material of '{}'", model);
   if (tests.size() > 1) return fmt::format("alike in the tests '{}'", fmt::join(tests, "', '"));
-  const std::string where = row ? fmt::format(", row {}", *row) : std::string();
+  const std::string where = row ? fmt::format(", row {}", file_row) : std::string();
   if (channel.empty()) return fmt::format("in the test '{}'{}", tests.front(), where);
   return fmt::format("in the channel '{}' of the test '{}'{}", channel, tests.front(), where);
 }

@@ -52,6 +52,8 @@ enum class WarningKind {
   base_model,
   noise_too_large,
   noise_vanishes,
+  memory_not_looked_for,
+  order_assumed,
   run_differs_in_noise,
   run_keeps_gross_rows
 };
@@ -75,7 +77,8 @@ enum class Absence {
   already_there,   ///< the base has it
   no_place,        ///< no test of a kind that it acts on
   not_applicable,  ///< the mechanism refuses the base
-  isotropic        ///< it acts along directions, and the base has none
+  isotropic,       ///< it acts along directions, and the base has none
+  no_past          ///< it has memory, and nobody says what a test bore before each row
 };
 const char* code_of(Absence absence);
 /// Whether the effect may be in the data all the same.
@@ -87,8 +90,11 @@ struct Place {
   std::string channel = {};             ///< of a mechanism that takes one
   std::optional<std::size_t> row = {};  ///< of a mechanism that takes rows; none = the whole curve
   std::string model = {};               ///< where a run has several, and no tests are named
+  std::size_t file_row = 0;             ///< the number that `row` has in the file; of no meaning without it
 
-  bool operator==(const Place&) const = default;
+  bool operator==(const Place& other) const {
+    return tests == other.tests && channel == other.channel && row == other.row && model == other.model;
+  }
   /// "in the material", "in the material of 'media'", "in the test 'strip'", "alike in the tests 'a', 'b'", "in the
   /// channel 'stress' of the test 'strip', row 12"
   [[nodiscard]] std::string words() const;
@@ -98,8 +104,9 @@ struct Place {
 struct GrossRow {
   std::string test, channel;
   std::size_t row = 0;
-  double residual = 0;  ///< in σ
-  std::string where;    ///< "stretch 1.25, measured 14 kPa"
+  std::size_t file_row = 0;  ///< the number that it has in the file
+  double residual = 0;       ///< in σ
+  std::string where;         ///< "stretch 1.25, measured 14 kPa"
 };
 
 /// Where measured and predicted values disagree more than noise explains.

@@ -118,7 +118,7 @@ Json data_schema(const TestFactory& factory) {
                          {"items", {{"type", "string"}}},
                          {"minItems", 1}};
   properties["columns"] = columns_schema(factory.observables);
-  for (const char* name : {"stress_measure", "rows", "where", "time_from"}) properties[name] = reference(name);
+  for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
   Json per_channel = Json::object();
   for (const Observable& observable : factory.observables)
     if (observable.role == Role::channel) per_channel[observable.name] = reference("noise");

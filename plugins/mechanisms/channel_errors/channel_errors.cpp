@@ -130,6 +130,7 @@ std::vector<MechanismFactory> of_chosen_channels() {
                  "a reading at no load after the test, or the same loading in reverse",
                  "JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift"});
   drift.options = {channel_option()};
+  drift.memory = true;  // without a clock the row stands for it
   MechanismFactory outliers =
       described("outliers", {},
                 {"value", "1", 0, -widest, widest, Scale::linear,

@@ -155,7 +155,7 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
     // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
     const std::vector<bool> fitted =
-        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset.count);
+        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset);
     Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;

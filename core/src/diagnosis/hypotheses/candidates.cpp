@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "assembly/memory.hpp"
 #include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/hypotheses/extension.hpp"
 #include "diagnosis/hypotheses/isotropy.hpp"
@@ -46,6 +47,8 @@ class CandidateSearch {
         catalogue_(inquiry.catalogue),
         clock_(clock_of(evidence.experiment, evidence.run, inquiry.catalogue)),
         quick_(inquiry.request.quick) {
+    for (const assembly::TestPast& one : assembly::unknown_pasts(experiment_, run_, catalogue_))
+      pasts_.emplace(one.test, one.past);
     const std::vector<std::string>& asked = inquiry.request.mechanisms;
     asked_.insert(asked.begin(), asked.end());
     for (std::size_t m = 0; m < base_.models().count(); ++m)
@@ -84,6 +87,26 @@ class CandidateSearch {
     return mechanism.directional && !asked_.contains(mechanism.id) && isotropic_.contains(model);
   }
 
+  /// Whether it remembers what nobody says of this test. A sensor needs the order of rows only, a specimen what it bore
+  /// before the first as well.
+  [[nodiscard]] bool lacks_past(const MechanismFactory& mechanism, const std::string& test) const {
+    if (!assembly::has_memory(mechanism) || asked_.contains(mechanism.id)) return false;
+    const auto found = pasts_.find(test);
+    return found != pasts_.end() &&
+           (found->second == data::Past::order_unknown || group_of(mechanism) == CauseGroup::material);
+  }
+  /// The tests of the model without a past: a material remembers in all of them, or in none.
+  [[nodiscard]] std::vector<std::string> forgotten_in(const MechanismFactory& mechanism,
+                                                      const std::string& model) const {
+    std::vector<std::string> tests;
+    for (const std::string& test : run_.tests) {
+      const std::vector<std::string> models = assembly::models_of_test(experiment_.test(test), run_);
+      if (std::find(models.begin(), models.end(), model) != models.end() && lacks_past(mechanism, test))
+        tests.push_back(test);
+    }
+    return tests;
+  }
+
   /// The models, or the tests and channels, that have not got it yet; the candidate says why there is nowhere.
   std::vector<Place> places_of(const MechanismFactory& mechanism, Candidate& candidate) const {
     const std::string& id = candidate.id;
@@ -97,20 +120,31 @@ class CandidateSearch {
                     [&](const std::string& name) { return lacks_directions(mechanism, name); }))
       return nowhere(Absence::isotropic,
                      "the base model is isotropic, and the mechanism acts along directions; ask for it by name");
+    const char* const no_past = "the past of the rows is not known";
     if (mechanism.stage < Stage::test) {
       std::vector<Place> materials;
       for (const std::string& name : models) {
         if (already_there(experiment_.model(name).mechanisms, id) || lacks_directions(mechanism, name)) continue;
+        const std::vector<std::string> forgotten = forgotten_in(mechanism, name);
+        candidate.without_past.insert(forgotten.begin(), forgotten.end());
+        if (!forgotten.empty()) continue;
         Place material;
         if (models.size() > 1) material.model = name;
         materials.push_back(std::move(material));
       }
+      if (materials.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
       return materials.empty() ? nowhere(Absence::already_there, "the model has it already") : materials;
     }
     std::vector<Place> places = single_places(mechanism, experiment_, run_, base_);
     std::erase_if(places, [&](const Place& place) {
       return already_there(experiment_.test(place.tests.front()).mechanisms, id);
     });
+    std::erase_if(places, [&](const Place& place) {
+      const bool forgotten = lacks_past(mechanism, place.tests.front());
+      if (forgotten) candidate.without_past.insert(place.tests.front());
+      return forgotten;
+    });
+    if (places.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
     if (places.empty()) return nowhere(Absence::no_place, "no test that it applies to");
     // On a first loading a memory is part of what the base model says.
     if (mechanism.memory)
@@ -257,8 +291,9 @@ class CandidateSearch {
   const plugins::Catalogue& catalogue_;
   Clock clock_;
   bool quick_;
-  std::set<std::string> asked_;      ///< mechanisms, by name
-  std::set<std::string> isotropic_;  ///< models
+  std::map<std::string, data::Past> pasts_;  ///< of tests, where they are not known
+  std::set<std::string> asked_;              ///< mechanisms, by name
+  std::set<std::string> isotropic_;          ///< models
 };
 
 }  // namespace

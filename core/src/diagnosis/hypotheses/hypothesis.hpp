@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ struct Candidate {
   std::vector<Hypothesis> hypotheses;   ///< over places and settings; empty: it leaves no trace in these data
   std::string absent;                   ///< why, in words
   Absence absence = Absence::no_trace;  ///< why; of no meaning where there are hypotheses
+  /// Tests that it is not looked for in, or that keep it out of their material: it has memory, and their past is
+  /// unknown.
+  std::set<std::string> without_past = {};
 };
 
 }  // namespace tunica::diagnosis

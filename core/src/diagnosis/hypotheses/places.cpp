@@ -26,8 +26,6 @@ CauseGroup group_of(const MechanismFactory& mechanism) {
   return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
 }
 
-bool has_memory(const MechanismFactory& mechanism) { return mechanism.stage == Stage::history || mechanism.memory; }
-
 bool unloads(const assembly::Assembly& base, const std::string& test) {
   constexpr double part = 0.1;
   for (const assembly::MeasuredChannel& view : base.layout().channels) {
@@ -114,6 +112,7 @@ void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vect
       if (!view.fitted[i]) continue;
       Hypothesis one = whole;
       one.addition.place.row = i;
+      one.addition.place.file_row = view.file_row(i);
       one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
       for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
       into.push_back(std::move(one));

@@ -16,9 +16,6 @@ bool takes(const MechanismFactory& mechanism, const std::string& option);
 /// The group that a mechanism belongs to: as it declares, else by the stage that it acts on.
 CauseGroup group_of(const MechanismFactory& mechanism);
 
-/// Whether what it does depends on the order of the rows.
-bool has_memory(const MechanismFactory& mechanism);
-
 /// Whether the load on a test is taken off: its abscissa falls by a tenth of what it spans from its largest so far.
 bool unloads(const assembly::Assembly& base, const std::string& test);
 

@@ -58,7 +58,7 @@ Cause cause_of_row(const GrossRow& row, const RowDeviation& far, const Mechanism
   const double value = far.value, half = quantile * far.sd;
   Cause cause;
   cause.id = outliers;
-  cause.place = {{row.test}, row.channel, row.row};
+  cause.place = {{row.test}, row.channel, row.row, {}, row.file_row};
   cause.group = group_of(mechanism);
   cause.amplitude = {mechanism.parameters.front().name, far.unit, value, value - half, value + half, false, true};
   cause.probability = 1;

@@ -27,7 +27,7 @@ json place_json(const Place& place) {
   json result = {{"test", place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
                  {"channel", place.channel.empty() ? json(nullptr) : json(place.channel)}};
   if (place.tests.size() > 1) result["tests"] = place.tests;
-  if (place.row) result["row"] = *place.row;
+  if (place.row) result["row"] = place.file_row;
   if (!place.model.empty()) result["model"] = place.model;
   return result;
 }
@@ -208,7 +208,7 @@ json admissibility_json(const Admissibility& admissibility) {
 json gross_json(const std::vector<GrossRow>& gross) {
   json rows = json::array();
   for (const GrossRow& row : gross)
-    rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.row}, {"residual", row.residual}});
+    rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.file_row}, {"residual", row.residual}});
   return rows;
 }
 

@@ -71,7 +71,7 @@ std::string residual_table(const Diagnosis& d) {
         return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
       };
       text += fmt::format(
-          "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
+          "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, view.file_row(row),
           view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
           base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
           residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
