@@ -60,6 +60,8 @@ const char* code_of(ReasonKind kind) {
   return "restored_by_larger";
 }
 
+const char* code_of(CauseGroup group) { return group == CauseGroup::material ? "material" : "rig"; }
+
 const char* code_of(WarningKind kind) {
   switch (kind) {
     case WarningKind::channel_without_weight:

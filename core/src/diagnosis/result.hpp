@@ -62,6 +62,10 @@ struct Warning {
   std::string text;
 };
 
+/// What a cause is a property of: causes are ranked by the same evidence, and shown in these two groups.
+enum class CauseGroup { material, rig };
+const char* code_of(CauseGroup group);
+
 /// Where a mechanism acts.
 struct Place {
   std::vector<std::string> tests;       ///< empty: the model; several: one amplitude in all of them
@@ -100,6 +104,7 @@ struct Amplitude {
 struct Cause {
   std::string id;
   Place place;
+  CauseGroup group = CauseGroup::material;
   /// Of the fall of |r|² at finite amplitude (beside others: of its rise without the cause), where nothing is wrong and
   /// the mechanism is looked for in all its places.
   double p_value = 1;
@@ -124,6 +129,7 @@ struct RankedMechanism {
   double probability = 0;
   double score = 0;            ///< T at the null, of the best hypothesis
   std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
+  CauseGroup group = CauseGroup::material;
 };
 
 /// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.

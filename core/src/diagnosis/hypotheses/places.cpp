@@ -19,6 +19,13 @@ bool takes(const MechanismFactory& mechanism, const std::string& option) {
                      [&](const Option& declared) { return declared.name == option; });
 }
 
+CauseGroup group_of(const MechanismFactory& mechanism) {
+  using Origin = MechanismFactory::Origin;
+  if (mechanism.origin == Origin::by_stage)
+    return mechanism.stage < Stage::test ? CauseGroup::material : CauseGroup::rig;
+  return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
+}
+
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
   for (const std::string& name : run.tests) {

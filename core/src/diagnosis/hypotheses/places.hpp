@@ -14,6 +14,9 @@ namespace tunica::diagnosis {
 /// Whether the mechanism has an option of that name.
 bool takes(const MechanismFactory& mechanism, const std::string& option);
 
+/// The group that a mechanism belongs to: as it declares, else by the stage that it acts on.
+CauseGroup group_of(const MechanismFactory& mechanism);
+
 /// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
 struct Clock {
   double shortest = INFINITY, longest = 0;

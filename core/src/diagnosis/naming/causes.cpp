@@ -98,6 +98,7 @@ Cause cause_of(const Inquiry& inquiry, const Analysis& analysis, const Refit& re
   Cause cause;
   cause.id = addition.id;
   cause.place = addition.place;
+  cause.group = group_of(mechanism);
   cause.retained = direction.retained;
   cause.gain = evidence.fit.chi2 - refit.fit.chi2;
   cause.amplitude = bounded(estimate(refit, at, mechanism.parameters.front().name, sd[at]), mechanism, parameter,

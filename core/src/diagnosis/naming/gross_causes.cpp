@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/evidence/gross_rows.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/causes.hpp"
 
 namespace tunica::diagnosis {
@@ -58,6 +59,7 @@ Cause cause_of_row(const GrossRow& row, const RowDeviation& far, const Mechanism
   Cause cause;
   cause.id = outliers;
   cause.place = {{row.test}, row.channel, row.row};
+  cause.group = group_of(mechanism);
   cause.amplitude = {mechanism.parameters.front().name, far.unit, value, value - half, value + half, false, true};
   cause.probability = 1;
   cause.p_value = std::erfc(std::abs(value) / far.sd / std::sqrt(2.0));

@@ -48,6 +48,7 @@ json cause_json(const Cause& cause) {
     shifts.push_back(
         {{"parameter", shift.name}, {"unit", shift.unit}, {"without", shift.before}, {"with", shift.after}});
   return {{"id", cause.id},
+          {"group", code_of(cause.group)},
           {"target", place_json(cause.place)},
           {"p_value", cause.p_value},
           {"probability", cause.probability},
@@ -127,6 +128,7 @@ json ranking_json(const std::vector<RankedMechanism>& ranking) {
   json all = json::array();
   for (const RankedMechanism& one : ranking)
     all.push_back({{"id", one.id},
+                   {"group", code_of(one.group)},
                    {"target", place_json(one.place)},
                    {"probability", one.probability},
                    {"score", one.score},
