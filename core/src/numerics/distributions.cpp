@@ -16,6 +16,8 @@ double student_quantile(double probability, double freedom) {
   return math::quantile(math::students_t(freedom), probability);
 }
 
+double student_above(double x, double freedom) { return math::cdf(math::complement(math::students_t(freedom), x)); }
+
 double chi_squared_quantile(double probability, double freedom) {
   return math::quantile(math::chi_squared(freedom), probability);
 }
