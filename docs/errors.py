@@ -99,6 +99,7 @@ CODES = [
     ("stop_reason", "`runs[].stop_reason`", "What ended a search; null where the optimiser came back by itself."),
     ("warning_kind", "`warning_details[].kind`", "What a warning is about."),
     ("certificate_verdict", "`runs[].best.certificate.verdict_code`", "What speaks for or against an optimum."),
+    ("noise_origin", "`runs[].best.channel_noise[].origin`", "What the noise of a channel rests on."),
     ("hold_out_verdict", "`runs[].best.hold_out[].verdict`", "How held-out rows are predicted."),
     ("diagnosis_verdict", "`diagnosis.verdict`", "What a diagnosis says."),
     ("diagnosis_reason", "`diagnosis.reason_codes[]`", "Why the verdict is what it is."),

@@ -120,11 +120,12 @@ void print_initial_point(const calibration::PosedProblem& problem) {
 }
 
 void print(const calibration::Examination& checked, const std::string& file) {
-  const auto& [experiment, plan, warnings, problems, paths] = checked;
+  const auto& [experiment, plan, warnings, notes, problems, paths] = checked;
   fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
              counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
              counted(experiment.runs.size(), "run", "runs"), experiment.seed);
   for (const auto& warning : warnings) fmt::print("{}", text::caution_line(warning.text()).shown_on(STDOUT_FILENO));
+  for (const auto& note : notes) fmt::print("{}\n", hanging("  ", note));
   fmt::print("\n");
   for (const auto& run : plan.runs)
     fmt::print("{}: {} of at most {} evaluations\n", run.label,

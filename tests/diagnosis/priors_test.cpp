@@ -99,6 +99,21 @@ TEST(Priors, OnlyWhatCouldApplyCanHide) {
   EXPECT_THAT(words, HasSubstr("viscoelasticity"));  // the data have no time, but the rubber has
 }
 
+// Seed 5.
+TEST(Priors, ASetIsLookedForWhereTheLoadIsTakenOff) {
+  const Rubber measured;
+  measured.measure(5);
+  const Diagnosis up = measured.diagnose();
+  EXPECT_TRUE(candidate(up, "permanent_set").hypotheses.empty());
+  EXPECT_EQ(candidate(up, "permanent_set").absent, "no test takes the load off again");
+  std::vector<double> loop = testing::evenly(1.02, 2, 15);
+  for (std::size_t i = 14; i-- > 0;) loop.push_back(loop[i]);
+  const Measured cyclic({{.stretch = loop}});
+  cyclic.measure(5);
+  const Diagnosis back = cyclic.diagnose();
+  EXPECT_FALSE(candidate(back, "permanent_set").hypotheses.empty());
+}
+
 // The same data in another unit of stress: what is counted in it has other ranges, what is not has the same. Seed 5.
 TEST(Priors, AmplitudesInUnitsOfStressFollowTheDataAndOthersDoNot) {
   std::map<std::string, diagnosis::AmplitudeRange> small;

@@ -80,8 +80,8 @@ struct MechanismFactory {
   /// Whether it acts along directions of the material, as fibres and muscle do. Diagnosis leaves it out where the base
   /// model is isotropic, unless it is asked for by name.
   bool directional = false;
-  /// Whether several of it side by side say more than one, as several relaxation times do. Diagnosis then tries a second
-  /// one where the first leaves more than noise.
+  /// Whether several of it side by side say more than one, as several relaxation times do. Diagnosis then tries a
+  /// second one where the first leaves more than noise.
   bool several = false;
   /// Whether a row depends on the rows before it, so that their order matters. Every mechanism of the stage `history`
   /// has memory; those of later stages say so here, and then wrap the others of their stage.

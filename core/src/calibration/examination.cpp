@@ -50,7 +50,7 @@ InitialPoint try_initial_point(const execution::PlannedRun& run) {
     if (!other.found.empty() || !other.status.ok()) point.other_means.push_back(std::move(other));
   }
   uncertainty::Identifiability found;
-  point.analysed = uncertainty::identify(assembly, free, found).ok();
+  point.analysed = uncertainty::identify(assembly, free, found, false).ok();
   if (point.analysed) point.sentences = found.sentences();
   return point;
 }
@@ -86,7 +86,7 @@ bool Examination::good() const {
 }
 
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, paths_of(experiment, catalogue)};
+  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;
@@ -97,6 +97,8 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
       if (std::none_of(warnings.begin(), warnings.end(), same))
         warnings.push_back({execution::WarningKind::set_up, sentence});
     }
+    for (const auto& note : run.assembly->layout().notes)
+      if (std::find(found.notes.begin(), found.notes.end(), note) == found.notes.end()) found.notes.push_back(note);
     std::string problem =
         fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;

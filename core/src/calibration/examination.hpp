@@ -55,6 +55,7 @@ struct Examination {
   const experiment::Experiment& experiment;
   execution::Plan plan;
   std::vector<execution::Warning> warnings;
+  std::vector<std::string> notes;  ///< what should be known, and worries nobody
   std::vector<PosedProblem> problems;
   std::vector<TestPath> paths;  ///< of tests with several branches, or with an order that somebody gave
 

@@ -11,6 +11,7 @@ namespace tunica::execution {
 
 /// What a warning is about. Scripts and the report decide by it, so that the sentences may change.
 enum class WarningKind {
+  noise_contradicted,
   no_result,
   no_feasible_point,
   not_repeatable,
@@ -41,8 +42,9 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 28> warning_codes{
-    {{WarningKind::no_result, "no_result"},
+inline constexpr text::Codes<WarningKind, 29> warning_codes{
+    {{WarningKind::noise_contradicted, "noise_contradicted"},
+     {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
      {WarningKind::not_repeatable, "not_repeatable"},
      {WarningKind::not_evaluated_again, "not_evaluated_again"},

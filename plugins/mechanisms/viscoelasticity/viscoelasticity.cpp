@@ -28,7 +28,8 @@ std::vector<Parameter> own_parameters() {
           {"tau", "s", 10, 0.001, 100000, Scale::log, "Relaxation time of the viscous branch.", "Simo 1987, eq. 3.6"}};
 }
 
-constexpr std::size_t own_history = 12;  // h, then S', six components each
+constexpr std::size_t own_history = 12;      // h, then S', six components each
+constexpr std::size_t own_axis_history = 6;  // the same halved, on the three axes
 
 /// The components of point i in a structure of arrays.
 Tensor load(std::span<const double> from, std::size_t n, std::size_t i) {
@@ -43,10 +44,12 @@ void store(std::span<double> into, std::size_t n, std::size_t i, const Tensor& t
 /// For S' linear over the step, exactly: h₊ = e^{−Δt/τ} h + g φ ΔS', φ = (1 − e^{−Δt/τ})/(Δt/τ).
 struct Relaxation {
   double decay, slope;  ///< e^{−Δt/τ}, g φ
+  Relaxation(double of_decay, double of_slope) : decay(of_decay), slope(of_slope) {}
   Relaxation(double time_step, double g, double tau) {
     const double x = time_step / tau;
-    decay = std::exp(-x);
-    slope = x == 0 ? g : g * (-std::expm1(-x) / x);
+    const double lost = -std::expm1(-x);
+    decay = 1 - lost;
+    slope = x == 0 ? g : g * (lost / x);
   }
 };
 
@@ -54,7 +57,7 @@ struct Relaxation {
 class ViscoelasticModel final : public HistoryModel {
  public:
   explicit ViscoelasticModel(std::unique_ptr<Model> base)
-      : HistoryModel("viscoelasticity", std::move(base), own_parameters(), own_history),
+      : HistoryModel("viscoelasticity", std::move(base), own_parameters(), own_history, own_axis_history),
         beside_(dynamic_cast<const ViscoelasticModel*>(&this->base())) {}
 
  private:
@@ -104,6 +107,54 @@ class ViscoelasticModel final : public HistoryModel {
       store(call.new_state.subspan(6 * n), n, i, now);
     }
     return {};
+  }
+
+  void remember_step(const AxisStep& step) const override {
+    if (!step.timed) return;
+    const std::size_t n = step.width;
+    const double* const c = step.c;
+    double* const g = step.gradient;
+    // g'_a = g_a − ⅓ (Σ_b g_b c_b)/c_a, half of Dev S. A branch beside others finds that of the elastic response in the
+    // state of its neighbour, which has taken its step.
+    const double* const elastic = beside_ != nullptr ? step.state - (own_axis_history - 3) * n : nullptr;
+    const double work = (g[0] * c[0] + g[n] * c[n] + g[2 * n] * c[2 * n]) / 3;
+    const std::array<double, 3> inverse{1 / c[0], 1 / c[n], 1 / c[2 * n]};
+    const Relaxation unit(step.time_step, 1, step.parameters[1]);
+    const Relaxation relaxation(unit.decay, step.parameters[0] * unit.slope);
+    std::array<double, 3> change, faded;
+    for (std::size_t a = 0; a < 3; ++a) {
+      double* const h = step.state + a * n;
+      double* const before = step.state + (3 + a) * n;
+      const double now = elastic != nullptr ? elastic[a * n] : g[a * n] - work * inverse[a];
+      change[a] = now - before[0];
+      faded[a] = h[0];
+      before[0] = now;
+      h[0] = step.at_rest ? 0 : relaxation.decay * faded[a] + relaxation.slope * change[a];
+    }
+    for (std::size_t k = 1; k < n; ++k) {
+      double work_k = 0;
+      for (std::size_t a = 0; a < 3; ++a) work_k += g[a * n + k] * c[a * n] + g[a * n] * c[a * n + k];
+      work_k /= 3;
+      for (std::size_t a = 0; a < 3; ++a) {
+        double& h = step.state[a * n + k];
+        double& before = step.state[(3 + a) * n + k];
+        const double now = elastic != nullptr ? elastic[a * n + k]
+                                              : g[a * n + k] - (work_k - work * c[a * n + k] * inverse[a]) * inverse[a];
+        if (!step.at_rest) h = relaxation.decay * h + relaxation.slope * (now - before);
+        before = now;
+      }
+    }
+    if (step.at_rest) return;
+    if (step.parameter_place > 0) {
+      // ∂h₊/∂g = φ Δg',  ∂h₊/∂τ = (x/τ) e^{−x} h − g (e^{−x} − φ)/τ Δg' with x = Δt/τ
+      const double tau = step.parameters[1], x = step.time_step / tau;
+      for (std::size_t a = 0; a < 3; ++a) {
+        double* const h = step.state + a * n + step.parameter_place;
+        h[0] += unit.slope * change[a];
+        h[1] += (x * unit.decay * faded[a] - step.parameters[0] * (unit.decay - unit.slope) * change[a]) / tau;
+      }
+    }
+    for (std::size_t k = 0; k < 3 * n; ++k) g[k] += step.state[k];
   }
 
   Status deviator_at_rest(std::span<const double> parameters, Tensor& rest) const {

@@ -145,7 +145,11 @@ class CandidateSearch {
       return forgotten;
     });
     if (places.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
-    return places.empty() ? nowhere(Absence::no_place, "no test that it applies to") : places;
+    if (places.empty()) return nowhere(Absence::no_place, "no test that it applies to");
+    // On a first loading a memory is part of what the base model says.
+    if (mechanism.memory && group_of(mechanism) == CauseGroup::material)
+      std::erase_if(places, [&](const Place& place) { return !unloads(base_, place.tests.front()); });
+    return places.empty() ? nowhere(Absence::no_trace, "no test takes the load off again") : places;
   }
 
   /// On each place by itself, where the mechanism is shared with one amplitude on all of them, and on single rows.
@@ -302,8 +306,11 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
     if (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end())
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());
-  tbb::parallel_for(std::size_t{0}, asked.size(),
-                    [&](std::size_t k) { found[k] = search.find(asked[k]->factory.id, asked[k]->factory); });
+  const auto done = inquiry.steps("signatures of the mechanisms", 0.1, 0.2, asked.size());
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t k) {
+    found[k] = search.find(asked[k]->factory.id, asked[k]->factory);
+    done();
+  });
   return found;
 }
 

@@ -26,6 +26,20 @@ CauseGroup group_of(const MechanismFactory& mechanism) {
   return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
 }
 
+bool unloads(const assembly::Assembly& base, const std::string& test) {
+  constexpr double part = 0.1;
+  for (const assembly::MeasuredChannel& view : base.layout().channels) {
+    if (view.test != test || view.abscissa.empty()) continue;
+    const auto [low, high] = std::minmax_element(view.abscissa.begin(), view.abscissa.end());
+    double largest = -INFINITY;
+    for (const double value : view.abscissa) {
+      largest = std::max(largest, value);
+      if (value < largest - part * (*high - *low)) return true;
+    }
+  }
+  return false;
+}
+
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
   for (const std::string& name : run.tests) {

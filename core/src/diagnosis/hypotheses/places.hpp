@@ -16,6 +16,9 @@ bool takes(const MechanismFactory& mechanism, const std::string& option);
 /// The group that a mechanism belongs to: as it declares, else by the stage that it acts on.
 CauseGroup group_of(const MechanismFactory& mechanism);
 
+/// Whether the load on a test is taken off: its abscissa falls by a tenth of what it spans from its largest so far.
+bool unloads(const assembly::Assembly& base, const std::string& test);
+
 /// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
 struct Clock {
   double shortest = INFINITY, longest = 0;

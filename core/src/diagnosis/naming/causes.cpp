@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/hypotheses/places.hpp"
+#include "numerics/distributions.hpp"
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -25,7 +25,7 @@ std::vector<double> deviations(const Fit& fit) {
   Eigen::MatrixXd J = fit.jacobian(Eigen::all, free);
   const Eigen::VectorXd lengths = J.colwise().norm().transpose();
   for (Eigen::Index k = 0; k < J.cols(); ++k) J.col(k) /= lengths[k];
-  const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd covariance = numerics::pseudo_inverse(J.transpose() * J);
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     sd[static_cast<std::size_t>(free[k])] = std::sqrt(std::max(covariance(i, i), 0.0)) / lengths[i];
@@ -40,7 +40,7 @@ std::string three_digits(double value, const std::string& unit = "1") {
 
 /// One parameter of addition `which`, the first being its amplitude, with the interval that its deviation says.
 Amplitude estimate(const Refit& refit, std::size_t variable, const std::string& name, double sd) {
-  const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
+  const double quantile = numerics::normal_quantile(0.975);
   const std::size_t index = refit.extension->variables()[variable].front();
   const double value = refit.fit.free[index], half = quantile * sd;
   return {name,         refit.extension->assembly().layout().parameters[index].unit,

@@ -57,7 +57,7 @@ class GroupSearch {
     groups.resize(std::min(groups.size(), inquiry_.request.quick ? quick_pairs : full_pairs));
     add_beside_singles(groups);
     std::erase_if(groups, [&](const Group& group) { return group.linear_gain / 2 < floor - short_of; });
-    return fits_.refitted(std::move(groups));
+    return fits_.refitted(std::move(groups), 0.55, 0.63);
   }
 
   /// Begun from several pairs; then each member of the best triple has to stand against what would take its place.
@@ -66,7 +66,7 @@ class GroupSearch {
     std::set<std::multiset<std::size_t>> seen;
     for (std::size_t g = 0; g < std::min(pairs.size(), beside); ++g)
       extend(pairs[g], *pairs[g].refit, g == 0 ? triples_tried : beside, groups, seen);
-    groups = fits_.refitted(std::move(groups));
+    groups = fits_.refitted(std::move(groups), 0.63, 0.67);
     if (groups.empty()) return groups;
     std::vector<Group> others;
     for (std::size_t out = 0; out < groups.front().additions.size(); ++out) {
@@ -74,7 +74,7 @@ class GroupSearch {
       if (const auto refit = fit_with(inquiry_, analysis_, rest.additions, rest.amplitudes))
         extend(rest, *refit, beside, others, seen);
     }
-    for (Group& group : fits_.refitted(std::move(others))) groups.push_back(std::move(group));
+    for (Group& group : fits_.refitted(std::move(others), 0.67, 0.7)) groups.push_back(std::move(group));
     sort_by_weight(groups);
     return groups;
   }

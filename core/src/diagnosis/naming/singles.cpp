@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -53,12 +52,11 @@ class SingleSearch {
     }
     for (std::size_t place = 0; place < singles.size(); ++place)
       for (const std::size_t k : far_ones(of_[singles[place].candidate])) jobs.push_back({place, k, far_amplitude(k)});
-    std::atomic<std::size_t> finished = 0;
+    const auto done = inquiry_.steps("fitting the mechanisms", 0.4, 0.55, jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
       jobs[j].refit = fit_with(inquiry_, analysis_, {hypotheses_.hypothesis(jobs[j].direction).addition},
                                std::array{jobs[j].amplitude.value_or(start_amplitude(jobs[j].direction))});
-      const double share = static_cast<double>(++finished) / static_cast<double>(jobs.size());
-      inquiry_.report("fitting the mechanisms", 0.4 + 0.3 * share);
+      done();
     });
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
       const auto left = [](const Job& job) { return job.refit ? job.refit->fit.chi2 : INFINITY; };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/result_json.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -83,9 +84,10 @@ json gain_json(const Gain& gain) {
 }
 
 const char* code_of(NoiseSource::Kind kind) {
-  return kind == NoiseSource::Kind::stated       ? "stated"
-         : kind == NoiseSource::Kind::replicates ? "replicates"
-                                                 : "differences";
+  return kind == NoiseSource::Kind::stated         ? "stated"
+         : kind == NoiseSource::Kind::replicates   ? "replicates"
+         : kind == NoiseSource::Kind::encompassing ? "encompassing"
+                                                   : "differences";
 }
 
 /// Those that make up the best explanation, the gross rows beside them, then rivals.
@@ -147,6 +149,7 @@ json scores_json(const Analysis& analysis) {
     if (detection.direction[c] >= hypotheses.directions.size()) continue;
     const Direction& direction = hypotheses.directions[detection.direction[c]];
     all.push_back({{"id", hypotheses.candidates[c].id},
+                   {"group", code_of(group_of(*hypotheses.candidates[c].mechanism))},
                    {"p_value", detection.by_candidate[c]},
                    {"target", place_json(hypotheses.hypothesis(direction).addition.place)},
                    {"score", score(direction, -analysis.evidence.fit.residuals).T}});
@@ -174,7 +177,9 @@ json noise_json(const std::vector<NoiseSource>& sources) {
                    {"source", code_of(source.kind)},
                    {"absolute", source.noise.absolute},
                    {"relative", source.noise.relative},
-                   {"correlation", source.noise.correlation}});
+                   {"correlation", source.noise.correlation},
+                   {"freedom", source.freedom > 0 ? json(source.freedom) : json(nullptr)},
+                   {"neighbours", source.neighbours > 0 ? json(source.neighbours) : json(nullptr)}});
   return all;
 }
 

@@ -52,13 +52,13 @@ std::optional<Warning> memory_warning(const Inquiry& inquiry, const Analysis& an
 Prospects prospects_of(const Inquiry& inquiry, const Analysis& analysis, const Explanation& explanation) {
   Prospects prospects;
   if (explanation.claim.best) {
-    inquiry.report("gain on rows that were not fitted", 0.7);
-    prospects.gain = gain_of(analysis, explanation.claim);
+    prospects.gain = gain_of(inquiry, analysis, explanation.claim);
     prospects.warnings = extended_run_warnings(inquiry, analysis.evidence, explanation);
   }
   for (Warning& warning : noise_warnings(analysis.evidence, explanation))
     prospects.warnings.push_back(std::move(warning));
   if (auto warning = memory_warning(inquiry, analysis)) prospects.warnings.push_back(std::move(*warning));
+  inquiry.report("what could still hide", 0.85);
   prospects.detectable = detectable(inquiry, analysis);
   inquiry.report("the next experiment", 0.9);
   prospects.next = next_experiment(inquiry, analysis.evidence, explanation);
