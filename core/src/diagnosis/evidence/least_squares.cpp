@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "numerics/cholesky.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -49,7 +49,7 @@ class Descent {
       Eigen::MatrixXd normal = A.transpose() * A;
       const Eigen::VectorXd g = gradient(moving), diagonal = normal.diagonal();
       for (Eigen::Index k = 0; k < normal.rows(); ++k) normal(k, k) += damping * std::max(diagonal[k], 1e-12);
-      const Eigen::VectorXd step = normal.ldlt().solve(-g);
+      const Eigen::VectorXd step = numerics::solve_symmetric(normal, -g);
       Eigen::VectorXd trial = x_;
       for (std::size_t k = 0; k < moving.size(); ++k)
         trial[moving[k]] = std::clamp(x_[moving[k]] + step[static_cast<Eigen::Index>(k)], 0.0, 1.0);

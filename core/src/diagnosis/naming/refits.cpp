@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
+#include "numerics/orthogonal.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -70,11 +70,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     scaled.col(k) /= lengths.back();
   }
   Eigen::VectorXd shift;
-  if (scaled.cols() > 0) {  // a model without free parameters leaves nothing to factorise
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-    qr.setThreshold(1e-6);
-    shift = qr.solve(-moved);
-  }
+  if (scaled.cols() > 0)  // a model without free parameters leaves nothing to factorise
+    shift = numerics::least_squares_solution(scaled, -moved, 1e-6);
 
   bool found = false;
   const auto set_amplitude = [&](std::vector<double>& start, std::size_t a, double share) {

@@ -9,6 +9,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "diagnosis/hypotheses/amplitude_range.hpp"
+
 namespace tunica::diagnosis {
 namespace {
 
@@ -137,8 +139,8 @@ class SingleSearch {
   }
   [[nodiscard]] double far_amplitude(std::size_t direction) const {
     const Hypothesis& one = hypotheses_.hypothesis(direction);
-    const MechanismFactory& mechanism = *one.mechanism;
-    return 0.5 * (one.sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.plausible_min - mechanism.null);
+    const AmplitudeRange range = range_of(*one.mechanism, one.addition);
+    return 0.5 * ((one.sign > 0 ? range.plausible_max : range.plausible_min) - one.mechanism->null);
   }
 
   /// Where the linearisation sees nothing on the admissible side, a tenth of a standard error of it.

@@ -7,9 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -96,8 +97,7 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
 /// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands
 /// where a prediction by exponentials has no linear error.
 double predictive_p(double all, double others, std::size_t n) {
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(static_cast<double>(n)), std::max(all - others, 0.0)));
+  return numerics::chi_squared_above(std::max(all - others, 0.0), static_cast<double>(n));
 }
 
 /// Whether the rows that are fitted show the amplitudes of the extension.

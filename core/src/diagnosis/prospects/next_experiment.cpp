@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/prospects/designs.hpp"
 #include "diagnosis/prospects/undetermined.hpp"
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -55,7 +55,7 @@ double distance(const Design& design, const Refit& a, const Refit& b) {
   J << J_new, J_old;
   Eigen::VectorXd target = Eigen::VectorXd::Zero(J.rows());
   target.head(n) = difference;
-  const Eigen::VectorXd x = J.completeOrthogonalDecomposition().solve(target);
+  const Eigen::VectorXd x = numerics::shortest_least_squares_solution(J, target);
   return (target - J * x).squaredNorm();
 }
 
