@@ -37,6 +37,10 @@ struct Observable {
   std::string doc;
   /// What the host checks and converts.
   Kind kind = Kind::plain;
+  /// Of a channel: the abscissa that plots and messages lay it over, for example the axial stretch of an axial stress.
+  /// Empty: the host takes the abscissa that the rows sweep. It also does so where the data do not map this one, or
+  /// hold it while another one is swept.
+  std::string over = {};
 };
 
 /// The rows of one experiment in loading order, in base units. Spans live as long as the call that receives them.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/curves.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::assembly {
@@ -15,6 +16,24 @@ std::string unit_of(const std::string& name, const std::vector<Observable>& obse
   const auto found = std::find_if(observables.begin(), observables.end(),
                                   [&name](const Observable& candidate) { return candidate.name == name; });
   return found == observables.end() ? std::string() : found->unit;
+}
+
+/// The abscissa of a channel among those of its test; the number of the row where there is none.
+DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
+                     const std::vector<Observable>& observables) {
+  DrawnOver drawn{"row", "1", {}, {}};
+  if (dataset.abscissae.empty()) {
+    for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
+    return drawn;
+  }
+  std::vector<data::Prescribed> prescribed;
+  for (const auto& [name, values] : dataset.abscissae) prescribed.push_back({name, unit_of(name, observables), values});
+  std::string own;
+  for (const Observable& observable : observables)
+    if (observable.name == channel) own = observable.over;
+  data::Abscissa chosen = data::abscissa_of(prescribed, own);
+  data::Prescribed& over = prescribed[chosen.column];
+  return {std::move(over.name), std::move(over.unit), std::move(over.values), std::move(chosen.curves)};
 }
 
 }  // namespace
@@ -72,6 +91,7 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
       measured.abscissa_unit = "1";
       for (std::size_t row = 0; row < dataset.count; ++row) measured.abscissa.push_back(static_cast<double>(row));
     }
+    measured.drawn_over = drawn_over(channel.observable, dataset, observables);
     found.push_back(std::move(measured));
   }
   return found;

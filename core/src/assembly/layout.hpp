@@ -39,15 +39,23 @@ struct FixedParameter {
   DeclaredRange declared = {};
 };
 
+/// What plots and messages lay a channel over.
+struct DrawnOver {
+  std::string name, unit;
+  std::vector<double> values;       ///< one a row
+  std::vector<std::string> curves;  ///< one a row, "stretch_axial = 1.3", of a family of curves; else empty
+};
+
 /// One channel of one test: what was measured, and where its rows lie in the vector of all predictions.
 struct MeasuredChannel {
   std::string test, observable, unit;
   std::size_t offset = 0, count = 0;  ///< rows [offset, offset + count) of the predictions
   std::vector<double> measured;       ///< count
-  std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
+  std::vector<double> abscissa;       ///< count; the test's first abscissa
   std::string abscissa_name, abscissa_unit;
   /// "name [unit]" → count values
   std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
+  DrawnOver drawn_over;      ///< the abscissa of this channel, see data/curves.hpp
   std::vector<bool> fitted;  ///< count; false = held out
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/result_json.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -145,6 +146,7 @@ json scores_json(const Analysis& analysis) {
     if (detection.direction[c] >= hypotheses.directions.size()) continue;
     const Direction& direction = hypotheses.directions[detection.direction[c]];
     all.push_back({{"id", hypotheses.candidates[c].id},
+                   {"group", code_of(group_of(*hypotheses.candidates[c].mechanism))},
                    {"p_value", detection.by_candidate[c]},
                    {"target", place_json(hypotheses.hypothesis(direction).addition.place)},
                    {"score", score(direction, -analysis.evidence.fit.residuals).T}});
