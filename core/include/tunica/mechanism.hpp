@@ -66,7 +66,7 @@ struct MechanismFactory {
       plausible_max = 0;     ///< largest plausible amplitude
   /// Set for an amplitude in units of stress or of a channel, whose size depends on the specimen. The largest plausible
   /// amplitude is then the one whose effect, with all else held, is this multiple of the range of the measured values;
-  /// ten times as much is the bound. Diagnosis uses both in place of the declared ones. Without a unit, the amplitude
+  /// five times as much is the bound. Diagnosis uses both in place of the declared ones. Without a unit, the amplitude
   /// keeps at least its declared range. 0: the declared range holds for all data.
   double plausible_effect = 0;
   /// Ids of mechanisms with a similar effect; an explanation names them.
@@ -80,6 +80,12 @@ struct MechanismFactory {
   /// Whether it acts along directions of the material, as fibres and muscle do. Diagnosis leaves it out where the base
   /// model is isotropic, unless it is asked for by name.
   bool directional = false;
+  /// Whether several of it side by side say more than one, as several relaxation times do. Diagnosis then tries a
+  /// second one where the first leaves more than noise.
+  bool several = false;
+  /// Whether a row depends on the rows before it, so that their order matters. Every mechanism of the stage `history`
+  /// has memory; those of later stages say so here, and then wrap the others of their stage.
+  bool memory = false;
   /// Options of its object in the experiment file.
   std::vector<Option> options = {};
 

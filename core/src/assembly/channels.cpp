@@ -38,7 +38,8 @@ DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
 
 }  // namespace
 
-std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count) {
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, const data::Dataset& dataset) {
+  const std::size_t count = dataset.count;
   std::vector<bool> fitted(count, !entry.hold_out.all);
   if (entry.hold_out.all || !entry.hold_out.rows) return fitted;
   const data::RowRange& range = *entry.hold_out.rows;
@@ -49,7 +50,10 @@ std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t co
   }
   const std::size_t last = std::min(range.last.value_or(count), count);
   for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
-  return fitted;
+  if (dataset.file_rows.empty()) return fitted;
+  std::vector<bool> sorted;
+  for (const std::size_t row : dataset.file_rows) sorted.push_back(fitted[row]);
+  return sorted;
 }
 
 std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entry, const data::Dataset& dataset,
@@ -75,7 +79,8 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
       measured.noise->absolute /= root;
       measured.noise->relative /= root;
     }
-    measured.fitted = fitted_rows(entry, dataset.count);
+    measured.fitted = fitted_rows(entry, dataset);
+    measured.file_rows = dataset.file_rows;
     if (!entry.weights.empty()) measured.weight = entry.weights[k];
     if (!dataset.abscissae.empty()) {
       const auto& [name, values] = dataset.abscissae.front();

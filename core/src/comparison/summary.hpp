@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/misfit.hpp"
 #include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/information.hpp"
@@ -63,6 +64,13 @@ struct StabilitySummary {
   [[nodiscard]] std::optional<bool> transversely_stable() const;
 };
 
+/// The noise of one fitted channel, and what it rests on.
+struct NoiseOf {
+  std::string test, channel, unit;
+  assembly::NoiseOrigin origin = assembly::NoiseOrigin::assumed;
+  double sd = 0;  ///< median over the fitted rows
+};
+
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
@@ -76,6 +84,10 @@ struct RunSummary {
   std::vector<Estimate> parameters;
   std::vector<assembly::FixedParameter> fixed;
   std::vector<Quality> quality;
+  /// How far the best point misses the data: against stated noise, and against noise that is estimated from the data.
+  std::optional<assembly::Misfit> misfit, misfit_estimated;
+  std::vector<NoiseOf> noise;
+  std::vector<std::string> notes;  ///< sentences that worry nobody
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;

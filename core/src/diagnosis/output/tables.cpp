@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -48,7 +49,11 @@ std::string residual_table(const Diagnosis& d) {
       "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,residual,"
       "residual_"
       "extended";
-  for (const Cause& cause : claim.causes) text += ",signature_" + cause.id;
+  std::map<std::string, int> of_a_kind;
+  for (const Cause& cause : claim.causes) {
+    const int number = ++of_a_kind[cause.id];
+    text += ",signature_" + cause.id + (number > 1 ? fmt::format("_{}", number) : "");
+  }
   text += '\n';
   std::size_t c = 0;
   for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
@@ -67,12 +72,12 @@ std::string residual_table(const Diagnosis& d) {
       const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
         return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
       };
-      text += fmt::format("{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
-                          row, over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
-                          view.unit, view.measured[row], base[view.offset + row],
-                          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
-                          residual(base, evidence.fit),
-                          claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
+      text += fmt::format(
+          "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
+          view.file_row(row), over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
+          view.unit, view.measured[row], base[view.offset + row],
+          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+          residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
       for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
       text += '\n';
     }
