@@ -70,6 +70,8 @@ const char* code_of(WarningKind kind) {
       return "test_held_out";
     case WarningKind::noise_estimated:
       return "noise_estimated";
+    case WarningKind::rows_correlated:
+      return "rows_correlated";
     case WarningKind::gross_rows_left_out:
       return "gross_rows_left_out";
     case WarningKind::optimizer_has_stages:

@@ -45,6 +45,7 @@ enum class WarningKind {
   constraints_not_applied,
   test_held_out,
   noise_estimated,
+  rows_correlated,
   gross_rows_left_out,
   optimizer_has_stages,
   optimizer_failed,

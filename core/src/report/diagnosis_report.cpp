@@ -152,10 +152,11 @@ void add_noise(Page& page, const Json& diagnosis) {
     const double relative = number(one, "relative");
     rows.push_back({{word(one, "test")},
                     {word(one, "channel")},
-                    {source == "stated"        ? "stated in the experiment"
-                     : source == "replicates"  ? "from replicates"
-                     : source == "differences" ? "estimated from differences of neighbouring rows"
-                                               : source},
+                    {source == "stated"         ? "stated in the experiment"
+                     : source == "replicates"   ? "from replicates"
+                     : source == "differences"  ? "estimated from differences of neighbouring rows"
+                     : source == "encompassing" ? "estimated from what no candidate explains"
+                                                : source},
                     {amount(number(one, "absolute"), word(one, "unit")), true},
                     {std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "–", true},
                     {figure(number(one, "correlation")), true}});

@@ -76,15 +76,6 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
   return {std::move(experiment), std::move(warnings)};
 }
 
-Warning estimated_noise_warning(const NoiseSource& source) {
-  return {WarningKind::noise_estimated,
-          fmt::format("test '{}', channel '{}': no noise is stated. σ = {:.3g}{} is estimated from differences of "
-                      "neighbouring rows. It is too small where errors of neighbouring rows are alike (false alarms), "
-                      "and too large where few rows follow a bend (missed misfits). State noise.absolute, "
-                      "noise.relative and noise.correlation, or give replicates",
-                      source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : " " + source.unit)};
-}
-
 }  // namespace
 
 Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) {
@@ -118,8 +109,6 @@ Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) 
       prepared.warnings.push_back(
           {WarningKind::test_held_out,
            fmt::format("test '{}' is held out and takes no part. Set hold_out to false to include it", test.name)});
-  for (const NoiseSource& source : prepared.noise)
-    if (source.kind == NoiseSource::Kind::differences) prepared.warnings.push_back(estimated_noise_warning(source));
   if (!gross.empty())
     prepared.warnings.push_back(
         {WarningKind::gross_rows_left_out,

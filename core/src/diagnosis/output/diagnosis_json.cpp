@@ -81,9 +81,10 @@ json gain_json(const Gain& gain) {
 }
 
 const char* code_of(NoiseSource::Kind kind) {
-  return kind == NoiseSource::Kind::stated       ? "stated"
-         : kind == NoiseSource::Kind::replicates ? "replicates"
-                                                 : "differences";
+  return kind == NoiseSource::Kind::stated         ? "stated"
+         : kind == NoiseSource::Kind::replicates   ? "replicates"
+         : kind == NoiseSource::Kind::encompassing ? "encompassing"
+                                                   : "differences";
 }
 
 /// Those that make up the best explanation, the gross rows beside them, then rivals.
@@ -170,7 +171,9 @@ json noise_json(const std::vector<NoiseSource>& sources) {
                    {"source", code_of(source.kind)},
                    {"absolute", source.noise.absolute},
                    {"relative", source.noise.relative},
-                   {"correlation", source.noise.correlation}});
+                   {"correlation", source.noise.correlation},
+                   {"freedom", source.freedom > 0 ? json(source.freedom) : json(nullptr)},
+                   {"neighbours", source.neighbours > 0 ? json(source.neighbours) : json(nullptr)}});
   return all;
 }
 
