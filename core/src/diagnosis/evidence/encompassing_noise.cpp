@@ -6,8 +6,6 @@
 #include <map>
 #include <utility>
 
-#include <boost/math/distributions/students_t.hpp>
-
 #include "assembly/restricted_variance.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/evidence/gross_rows.hpp"
@@ -15,6 +13,7 @@
 #include "diagnosis/evidence/preparation.hpp"
 #include "diagnosis/evidence/projection.hpp"
 #include "diagnosis/evidence/smooth_columns.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -122,8 +121,7 @@ RestrictedVariance without_single_rows(VarianceProblem& problem, std::vector<boo
       const double freedom = found.freedom[g] - 1;
       if (freedom < 3 || found.at_least[g]) continue;
       const double rest = std::max((found.freedom[g] - own) / freedom, 1e-12);
-      const double p =
-          2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), std::sqrt(own / rest)));
+      const double p = 2 * numerics::student_above(std::sqrt(own / rest), freedom);
       if (p < least) {
         least = p;
         worst = i;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <string>
 
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "diagnosis/evidence/row_correlation.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -70,9 +70,9 @@ double contradiction(const NoiseSource& source) {
   if (source.kind != NoiseSource::Kind::encompassing || !(source.neighbours > 0)) return 1;
   const data::Noise& noise = source.noise;
   if (!(source.freedom > 0) || noise.relative > 0) return 1;
-  const boost::math::fisher_f ratio(source.freedom, source.neighbours_freedom);
   const double F = std::pow(noise.absolute / source.neighbours, 2);
-  return 2 * std::min(boost::math::cdf(ratio, F), boost::math::cdf(boost::math::complement(ratio, F)));
+  return 2 * std::min(numerics::f_below(F, source.freedom, source.neighbours_freedom),
+                      numerics::f_above(F, source.freedom, source.neighbours_freedom));
 }
 
 std::vector<Warning> estimate_warnings(const Evidence& evidence, const Fit& best) {

@@ -11,7 +11,6 @@ namespace tunica::diagnosis {
 
 Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross) {
   Preparation prepared = prepare(inquiry, gross);
-  inquiry.report("fitting the base model", 0.05);
   const BaseFit fitted = fit_base(inquiry, prepared);
   SettledFit settled = settle_noise(inquiry, prepared, fitted.fit);
   Evidence evidence{std::move(settled.experiment), std::move(prepared.run),

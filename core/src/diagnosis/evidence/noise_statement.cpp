@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include "assembly/channels.hpp"
 #include "assembly/noise.hpp"
 #include "assembly/restricted_variance.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -154,8 +154,7 @@ void pool(std::vector<Correlation>& correlations) {
   }
   double spread = 0;
   for (const Correlation& one : correlations) spread += std::pow((one.value() - all.value()) / one.sd(), 2);
-  const boost::math::chi_squared expected(static_cast<double>(correlations.size() - 1));
-  if (spread > boost::math::quantile(expected, 0.95)) return;
+  if (spread > numerics::chi_squared_quantile(0.95, static_cast<double>(correlations.size() - 1))) return;
   for (Correlation& one : correlations) {
     one.products = all.products;
     one.squares = all.squares;
@@ -175,7 +174,7 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
     // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
     const std::vector<bool> fitted =
-        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset.count);
+        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset);
     Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;

@@ -7,7 +7,6 @@
 namespace tunica::diagnosis {
 
 Hypotheses hypotheses_of(const Inquiry& inquiry, const Evidence& evidence) {
-  inquiry.report("signatures of the mechanisms", 0.1);
   Hypotheses hypotheses;
   hypotheses.projection = Projection(interior(evidence.fit));
   hypotheses.candidates = candidates(inquiry, evidence, hypotheses.projection);
