@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "assembly/channel_noise.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/hold_out.hpp"
 #include "execution/warning.hpp"
@@ -37,6 +38,7 @@ TEST(Codes, AreThoseOfTheSchema) {
   EXPECT_THAT(codes_of(execution::warning_codes), ElementsAreArray(listed("warning_kind")));
   EXPECT_THAT(codes_of(comparison::certificate_codes), ElementsAreArray(listed("certificate_verdict")));
   EXPECT_THAT(codes_of(comparison::hold_out_codes), ElementsAreArray(listed("hold_out_verdict")));
+  EXPECT_THAT(codes_of(assembly::noise_origin_codes), ElementsAreArray(listed("noise_origin")));
   std::vector<std::string> reasons;
   for (const auto& [reason, code] : search::stop_reason_codes)
     if (reason != search::StopReason::none) reasons.emplace_back(code);

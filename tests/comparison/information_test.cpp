@@ -35,10 +35,31 @@ TEST(Information, IsTheTextbookFormulaWhereTheNoiseIsEstimated) {
   const Line line;
   const auto found = line.information();
   ASSERT_TRUE(found && found->aicc);
-  // N = 8, SSE = 0.08, and σ is the third parameter.
-  EXPECT_NEAR(*found->aicc, 8 * std::log(0.01) + 6 + 24 / 4.0, 1e-9);
-  EXPECT_NEAR(found->bic, 8 * std::log(0.01) + 3 * std::log(8), 1e-9);
+  // N = 8, SSE = 0.08, and the factor of σ is the third parameter.
+  const double s = line.assemble().layout().channels[0].sigma.rows.sd[0];
+  EXPECT_NEAR(*found->aicc, 8 * std::log(0.01 / (s * s)) + 6 + 24 / 4.0, 1e-9);
+  EXPECT_NEAR(found->bic, 8 * std::log(0.01 / (s * s)) + 3 * std::log(8), 1e-9);
   EXPECT_EQ(found->noise, Information::Noise::estimated);
+}
+
+TEST(Information, WeighsChannelsWithoutAStatementAsTheFitDoes) {
+  // Two channels of which the second errs ten times as much; whatever σ is taken for them, the model that the objective
+  // prefers is preferred, for it costs one σ, not one a channel.
+  Line line;
+  line.add_test("u", fakes::grid(0, 7, 8), {0, 5, 2, 9, 6, 13, 11, 16});
+  const auto assembly = line.assemble();
+  const auto chi_square = [&](const std::vector<double>& at) {
+    double objective = 0;
+    const auto workspace = assembly.evaluator().make_workspace();
+    EXPECT_TRUE(assembly.evaluator().evaluate(at, objective, {}, {}, {}, *workspace).ok());
+    return objective;
+  };
+  const auto found = [&](const std::vector<double>& at) {
+    return comparison::information(assembly, line.run.objective, at);
+  };
+  const std::vector<double> one{1, 2}, other{1.5, 1.9};
+  EXPECT_NEAR(found(one)->bic - found(other)->bic, 16 * std::log(chi_square(one) / chi_square(other)), 1e-9);
+  EXPECT_NEAR(found(one)->bic, 16 * std::log(chi_square(one) / 16) + 3 * std::log(16), 1e-9);
 }
 
 TEST(Information, IsChiSquaredWhereTheNoiseIsStated) {

@@ -116,6 +116,38 @@ TEST(Summary, WarnsOfWhatNobodyShouldOverlook) {
   EXPECT_TRUE(named(execution::WarningKind::plugin_refused, "", {}));
 }
 
+TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {
+  Summarised made;
+  made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();
+  made.laboratory.bench.experiment.tests.front().data.noise = {{"y", {0.01, 0, 0}}};
+  made.plan.emplace(made.laboratory.plan());
+  made.results[0].realisations = {made.realisation(1, {10, 1, 3})};
+  const auto summary = made.summarise();
+  ASSERT_TRUE(summary.runs[0].misfit);
+  EXPECT_TRUE(summary.runs[0].misfit->contradicts());
+  EXPECT_EQ(summary.warnings.at(0).kind, execution::WarningKind::noise_contradicted);
+  EXPECT_EQ(summary.warnings.at(0).run, "m/walk");
+  EXPECT_THAT(summary.warnings.at(0).sentence, HasSubstr("times the noise: χ² is "));
+  EXPECT_THAT(summary.warnings.at(0).sentence, HasSubstr("tunica diagnose "));
+  const auto same = [](const auto& one) { return one.kind == execution::WarningKind::noise_contradicted; };
+  EXPECT_EQ(std::count_if(summary.warnings.begin(), summary.warnings.end(), same), 1);
+}
+
+TEST(Summary, WarnsOfEqualCoursesBesideAnOptimiserThatCrashed) {
+  Summarised made;
+  execution::RealisationResult crashed = made.realisation(3, {2, 1, 3});
+  crashed.stopped_by = search::StopReason::optimizer_failure;
+  crashed.reason = "thrown";
+  auto first = made.realisation(1, {2, 1, 3}), second = made.realisation(2, {2, 1, 3});
+  second.trace = first.trace;
+  crashed.trace.clear();
+  for (auto* one : {&first, &second, &crashed}) one->tally = {100, 20, 0, 0, ""};
+  made.results[0].realisations = {first, second, crashed};
+  const auto warnings = sentences(made.summarise());
+  EXPECT_THAT(warnings, Contains(HasSubstr("an error of the optimiser ended 1 of 3 realisations: thrown")));
+  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: all 2 realisations without such an error improved by the same steps")));
+}
+
 TEST(Summary, TellsTheMostFrequentReasonsOfFailures) {
   Summarised made;
   made.results[0].realisations[0].tally.reasons = {{"a", 1}, {"b", 3}, {"c", 2}};

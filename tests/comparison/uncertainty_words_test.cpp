@@ -29,9 +29,9 @@ struct Words {
     profile.lower = {Kind::crossed, 1.1};
     profile.upper = {Kind::crossed, 2.9};
   }
-  std::vector<std::string> said(experiment::ObjectiveType objective = experiment::ObjectiveType::least_squares) {
+  std::vector<std::string> said() {
     summary.uncertainty.clear();
-    comparison::add_profile_words(*plan->runs[0].assembly, objective, {profile}, summary);
+    comparison::add_profile_words(*plan->runs[0].assembly, {profile}, summary);
     return summary.uncertainty;
   }
   trial::Laboratory laboratory;
@@ -73,13 +73,36 @@ TEST(ProfileWords, SayWhereRefitsFailedAndWhereTheCentreWasNoOptimum) {
   words.profile.lowest = -0.5;
   words.summary.parameters[0].ci95.reset();
   EXPECT_THAT(words.said(), ElementsAre(HasSubstr("ends at 1.1, before the lower bound: beyond it no refit succeeded"),
-                                        HasSubstr("found a more likely point (-2 ln L lower by 0.5)")));
+                                        HasSubstr("found a better point (-2 ln L lower by 0.5)")));
 }
 
-TEST(ProfileWords, SayThatAnotherObjectiveHasAnotherOptimum) {
+TEST(ProfileWords, SayThatTheBestPointOfTheRunWasNoOptimum) {
   Words words;
-  EXPECT_THAT(words.said(experiment::ObjectiveType::sum_of_norms),
-              ElementsAre(HasSubstr("the run minimised sum_of_norms")));
+  words.profile.gain = 0.7;
+  EXPECT_THAT(words.said(), ElementsAre(HasSubstr("found a better point (-2 ln L lower by 0.7)")));
+}
+
+TEST(WideningWords, SayByHowMuchIntervalsAreWiderAndWhatIsBetter) {
+  Words words;
+  comparison::add_widening_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, IsEmpty());
+  assembly::Misfit misfit;
+  misfit.chi_square = 900;
+  misfit.rows = 104;
+  misfit.freedom = 100;
+  misfit.chance = 0;
+  words.summary.misfit = misfit;
+  comparison::add_widening_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, ElementsAre(HasSubstr("3 times as wide as the stated noise makes them")));
+  EXPECT_THAT(words.summary.uncertainty[0], HasSubstr("--bootstrap 200 gives better ones"));
+  words.summary.uncertainty.clear();
+  words.summary.bootstrap = {200, 0};
+  comparison::add_widening_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, ElementsAre(HasSubstr("take the bootstrap")));
+  words.summary.uncertainty.clear();
+  words.summary.misfit->chance = 0.01;
+  comparison::add_widening_words(words.summary);
+  EXPECT_THAT(words.summary.uncertainty, IsEmpty());
 }
 
 TEST(LinearisedWords, AdviseAProfileOrTakeTheOneThatIsThere) {

@@ -100,6 +100,45 @@ TEST(Words, TakeTheProfileForTheIntervalWhereThereIsOne) {
   EXPECT_THAT(page, HasSubstr("<li>Profiles are of normal noise.</li>"));
 }
 
+namespace {
+
+std::string page_with(const trial::Scratch& scratch, const std::string& best) {
+  return page_of(scratch, (R"({"runs": [{"run": "m/a", "model": "m", "optimizer": "a", "best": {"objective": 1,
+    "parameters": {"mu": {"value": 1, "unit": "kPa", "ci95": [0, 2]}}, )" +
+                           best + R"(}}], "ranking": [{"run": "m/a", "rank": 1, "group": "g"}]})")
+                              .c_str());
+}
+
+}  // namespace
+
+TEST(Words, DoNotSayUseItWhereTheMisfitContradictsTheNoise) {
+  const trial::Scratch scratch;
+  const std::string stated = page_with(scratch, R"("misfit": {"chi_square": 4538, "rows": 514, "reduced_chi_square": 9,
+    "times_the_noise": 3, "contradicts_noise": true})");
+  EXPECT_THAT(stated, HasSubstr("The model misses the data by 3 times the noise (χ²/ν 9)."));
+  EXPECT_THAT(stated, HasSubstr("Run tunica diagnose EXPERIMENT."));
+  EXPECT_THAT(stated, HasSubstr("χ²/ν 9 against the stated noise (χ² 4538, 514 rows)."));
+  EXPECT_THAT(stated, Not(HasSubstr("Use it")));
+  EXPECT_THAT(stated, Not(HasSubstr("Nothing was found")));
+  const std::string estimated = page_with(scratch, R"("misfit": null, "misfit_estimated": {"chi_square": 4538,
+    "rows": 514, "reduced_chi_square": 9, "times_the_noise": 3, "contradicts_noise": true})");
+  EXPECT_THAT(estimated, HasSubstr("3 times the noise that is estimated from the rows (χ²/ν 9)"));
+  EXPECT_THAT(estimated, Not(HasSubstr("Use it")));
+}
+
+TEST(Words, SayUseItWhereTheNoiseExplainsTheMisfitOrTheCurvesAreClose) {
+  const trial::Scratch scratch;
+  EXPECT_THAT(page_with(scratch, R"("misfit": {"chi_square": 510, "rows": 514, "reduced_chi_square": 1,
+    "times_the_noise": 1, "contradicts_noise": false})"),
+              HasSubstr("Use it"));
+  EXPECT_THAT(page_with(scratch, R"("per_test": {"t": {"channels": [{"channel": "d", "unit": "mm", "r2": 0.99}]}})"),
+              HasSubstr("Use it"));
+  const std::string poor =
+      page_with(scratch, R"("per_test": {"t": {"channels": [{"channel": "d", "unit": "mm", "r2": 0.7}]}})");
+  EXPECT_THAT(poor, HasSubstr("R² is only 0.7 in the worst curve"));
+  EXPECT_THAT(poor, Not(HasSubstr("Use it")));
+}
+
 TEST(Words, OfADiagnosisBeginWithWhatWasFitted) {
   const trial::Scratch scratch;
   const std::string page = page_of(scratch, named);

@@ -87,7 +87,7 @@ TEST(Profile, NoticesThatItsCentreWasNoOptimum) {
   const trial::Line line;
   const auto assembly = line.assemble();
   auto likelihood = uncertainty::likelihood_at(assembly, std::vector{1.0, 2.0}, trial::local(), 1);
-  likelihood.centre.objective += 1;
+  likelihood.centre.objective += likelihood.scales[0];
   const auto made = uncertainty::profiles(assembly, likelihood, trial::local(), {0}, 1);
   EXPECT_LT(made[0].lowest, -0.5);
 }

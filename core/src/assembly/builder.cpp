@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/channels.hpp"
-#include "assembly/noise.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::assembly {
@@ -82,6 +82,14 @@ std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
   return warnings;
 }
 
+std::string words_on_unstated(std::vector<std::string> channels) {
+  constexpr std::size_t told = 3;
+  const std::size_t more = channels.size() > told ? channels.size() - told : 0;
+  channels.resize(channels.size() - more);
+  return fmt::format("no noise is stated, so all rows of a channel weigh the same, by 1/σ²: {}{}",
+                     fmt::join(channels, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
 }  // namespace
 
 Parts Builder::build() {
@@ -91,6 +99,7 @@ Parts Builder::build() {
   add_priors();
   add_constraints();
   Layout& layout = parts_.layout;
+  if (!unstated_.empty()) layout.notes.push_back(words_on_unstated(unstated_));
   layout.test_count = parts_.tests.size();
   layout.jacobian_is_exact =
       std::none_of(parts_.tests.begin(), parts_.tests.end(), [](const RunTest& test) { return test.differenced; });
@@ -157,11 +166,10 @@ void Builder::add_test(std::size_t number) {
   parts_.tests.push_back(std::move(test));
 }
 
-void Builder::add_blocks(std::size_t number, const data::Dataset& dataset,
-                         const std::vector<MeasuredChannel>& channels) {
+void Builder::add_blocks(std::size_t number, const data::Dataset& dataset, std::vector<MeasuredChannel>& channels) {
   Layout& layout = parts_.layout;
   for (std::size_t k = 0; k < channels.size(); ++k) {
-    const MeasuredChannel& channel = channels[k];
+    MeasuredChannel& channel = channels[k];
     ChannelObjective fitted{number, {layout.residual_count, 0, 1, {}}, {}, {}, {}, {}};
     for (std::size_t row = 0; row < channel.count; ++row) {
       if (!channel.fitted[row]) continue;
@@ -171,10 +179,13 @@ void Builder::add_blocks(std::size_t number, const data::Dataset& dataset,
     if (fitted.rows.empty()) continue;
     fitted.block.size = fitted.rows.size();
     const std::string where = fmt::format("test '{}', channel '{}'", channel.test, channel.observable);
-    NoiseModel noise;
-    if (run_.objective == experiment::ObjectiveType::least_squares)
-      noise = noise_model(dataset.channels[k], channel.abscissa, channel.fitted, where, layout.warnings);
-    scale_residuals(fitted, run_.objective, channel.weight, &noise, where);
+    std::vector<std::string> unread;  // warnings of a noise that the objective does not read
+    const bool reads = run_.objective == experiment::ObjectiveType::least_squares;
+    channel.sigma =
+        channel_noise(dataset.channels[k], dataset.abscissae, channel.fitted, where, reads ? layout.warnings : unread);
+    if (reads && !channel.sigma.stated())
+      unstated_.push_back(noise_words(channel.sigma, channel.test, channel.observable, channel.unit));
+    scale_residuals(fitted, run_.objective, channel.weight, &channel.sigma.rows, where);
     layout.residual_count += fitted.block.size;
     layout.blocks.push_back(fitted.block);
     parts_.fitted.push_back(std::move(fitted));

@@ -43,7 +43,7 @@ class Builder {
   void bind();
   void add_test(std::size_t number);
   /// The fitted rows of the channels of a test as blocks of the objective.
-  void add_blocks(std::size_t number, const data::Dataset& dataset, const std::vector<MeasuredChannel>& channels);
+  void add_blocks(std::size_t number, const data::Dataset& dataset, std::vector<MeasuredChannel>& channels);
   void add_priors();
   void add_constraints();
 
@@ -54,6 +54,7 @@ class Builder {
   std::vector<std::vector<Slot>> slots_;  ///< of the models, then of the tests
   std::vector<ComposedTest> composed_;
   std::vector<ParameterVector> vectors_;  ///< as the slots
+  std::vector<std::string> unstated_;     ///< least squares: what the weights of channels rest on
 };
 
 }  // namespace tunica::assembly

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
-#include "assembly/noise.hpp"
+#include "assembly/misfit.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::assembly {
 namespace {
@@ -19,51 +17,55 @@ std::size_t fitted_rows(const MeasuredChannel& view) {
   return static_cast<std::size_t>(std::count(view.fitted.begin(), view.fitted.end(), true));
 }
 
-NoiseModel noise_of(const MeasuredChannel& view, std::span<const double> measured, std::span<const double> predictions,
-                    double share_left) {
-  if (view.noise) {
-    std::vector<std::string> known;  // warnings that the assembly has given where they matter
-    return noise_model({view.observable, view.unit, view.measured, {}, view.noise}, view.abscissa, view.fitted,
-                       view.test, known);
-  }
+/// σ of the rows of a channel without a statement: those the fit weighs by, times √(Σ(e/σ)²/(count (1 − n/rows))).
+std::vector<double> deviations_about(const MeasuredChannel& view, std::span<const double> measured,
+                                     std::span<const double> predictions, double share_left) {
+  std::vector<double> sd = view.sigma.rows.sd;
   double squares = 0, largest = 0;
-  for (std::size_t i = 0; i < view.count; ++i) {
+  for (std::size_t i = 0, k = 0; i < view.count; ++i) {
     if (!view.fitted[i]) continue;
-    squares += std::pow(predictions[view.offset + i] - measured[i], 2);
+    squares += std::pow((predictions[view.offset + i] - measured[i]) / sd[k++], 2);
     largest = std::max(largest, std::abs(measured[i]));
   }
-  const std::size_t count = fitted_rows(view);
-  const double freedom = std::max(1.0, static_cast<double>(count) * share_left);
-  const double sd = std::max({std::sqrt(squares / freedom), 1e-9 * largest, 1e-300});
-  return {std::vector<double>(count, sd), {}, true};
+  const double freedom = std::max(1.0, static_cast<double>(sd.size()) * share_left);
+  for (double& one : sd) one = std::max({one * std::sqrt(squares / freedom), 1e-9 * largest, 1e-300});
+  return sd;
 }
 
 }  // namespace
 
 double Whitening::quantile(std::size_t parameters) const {
   const double freedom = static_cast<double>(count()) - static_cast<double>(parameters);
-  return stated || freedom < 1 ? boost::math::quantile(boost::math::normal(), 0.975)
-                               : boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  return (stated && widening == 1) || freedom < 1 ? numerics::normal_quantile(0.975)
+                                                  : numerics::student_quantile(0.975, freedom);
 }
 
-Whitening whitening(const Assembly& assembly, std::span<const double> predictions, std::span<const double> measured) {
+Whitening whitening(const Assembly& assembly, std::span<const double> predictions, std::span<const double> measured,
+                    bool believe) {
   Whitening result;
   std::size_t fitted = 0, silent = 0;  // rows that count, rows of weight 0
   for (const MeasuredChannel& view : assembly.layout().channels) (counts(view) ? fitted : silent) += fitted_rows(view);
   result.first.push_back(0);
   if (fitted == 0) return result;
+  if (const Misfit stated = misfit(assembly, NoiseKind::stated, predictions, measured);
+      !believe && stated.contradicts())
+    result.widening = stated.times();
   const double share_left = 1 - static_cast<double>(assembly.layout().parameters.size()) / static_cast<double>(fitted);
   for (const MeasuredChannel& view : assembly.layout().channels) {
     if (!counts(view) || fitted_rows(view) == 0) continue;
-    result.stated = result.stated && view.noise.has_value();
+    const bool stated = view.sigma.stated();
+    result.stated = result.stated && stated;
     const std::span<const double> values =
         measured.empty() ? std::span<const double>(view.measured) : measured.subspan(view.offset, view.count);
-    const NoiseModel noise = noise_of(view, values, predictions, share_left);
+    const std::vector<double>& neighbours = view.sigma.rows.neighbour;
+    std::vector<double> sd = stated ? view.sigma.rows.sd : deviations_about(view, values, predictions, share_left);
+    if (stated)
+      for (double& one : sd) one *= result.widening;
     std::size_t k = 0;
     for (std::size_t i = 0; i < view.count; ++i) {
       if (!view.fitted[i]) continue;
-      const double neighbour = k == 0 || noise.neighbour.empty() ? 0 : noise.neighbour[k];
-      result.rows.push_back({view.offset + i, values[i], noise.sd[k], neighbour});
+      const double neighbour = k == 0 || neighbours.empty() ? 0 : neighbours[k];
+      result.rows.push_back({view.offset + i, values[i], sd[k], neighbour});
       ++k;
     }
     result.first.push_back(result.rows.size());

@@ -50,9 +50,24 @@ InitialPoint try_initial_point(const execution::PlannedRun& run) {
     if (!other.found.empty() || !other.status.ok()) point.other_means.push_back(std::move(other));
   }
   uncertainty::Identifiability found;
-  point.analysed = uncertainty::identify(assembly, free, found).ok();
+  point.analysed = uncertainty::identify(assembly, free, found, false).ok();
   if (point.analysed) point.sentences = found.sentences();
   return point;
+}
+
+std::vector<TestPath> paths_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  constexpr std::size_t drawing_columns = 60;
+  std::vector<TestPath> paths;
+  for (const auto& test : experiment.tests) {
+    const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    const data::Dataset dataset = data::read_dataset(test.data, observables);
+    if (dataset.abscissae.empty()) continue;
+    const auto& path = dataset.abscissae.front().second;
+    if (!dataset.ordered && data::turning_points(path).size() < 3) continue;
+    paths.push_back({test.name, dataset.ordered, data::past_of(dataset, observables),
+                     data::path_words(dataset, observables), data::path_drawing(path, drawing_columns)});
+  }
+  return paths;
 }
 
 }  // namespace
@@ -71,7 +86,7 @@ bool Examination::good() const {
 }
 
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}};
+  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;
@@ -82,6 +97,8 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
       if (std::none_of(warnings.begin(), warnings.end(), same))
         warnings.push_back({execution::WarningKind::set_up, sentence});
     }
+    for (const auto& note : run.assembly->layout().notes)
+      if (std::find(found.notes.begin(), found.notes.end(), note) == found.notes.end()) found.notes.push_back(note);
     std::string problem =
         fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;

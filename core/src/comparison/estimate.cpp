@@ -97,11 +97,27 @@ void add_quality(const assembly::Assembly& assembly, const execution::Realisatio
   std::vector<double> predictions(assembly.layout().prediction_count);
   auto workspace = assembly.evaluator().make_workspace();
   if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
+  for (const auto kind : {assembly::NoiseKind::stated, assembly::NoiseKind::estimated}) {
+    auto& own = kind == assembly::NoiseKind::stated ? summary.misfit : summary.misfit_estimated;
+    if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
+  }
   for (auto& channel : assembly::quality(assembly, predictions)) {
     if (channel.fitted)
-      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted});
+      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
     if (channel.held_out)
-      summary.quality.push_back({channel.test, channel.observable, channel.unit, true, *channel.held_out});
+      summary.quality.push_back(
+          {channel.test, channel.observable, channel.unit, true, *channel.held_out, channel.over});
+  }
+}
+
+void add_noise(const assembly::Assembly& assembly, RunSummary& summary) {
+  summary.notes = assembly.layout().notes;
+  for (const auto& channel : assembly.layout().channels) {
+    std::vector<double> sd = channel.sigma.rows.sd;
+    if (sd.empty()) continue;
+    const auto middle = sd.begin() + static_cast<std::ptrdiff_t>(sd.size() / 2);
+    std::nth_element(sd.begin(), middle, sd.end());
+    summary.noise.push_back({channel.test, channel.observable, channel.unit, channel.sigma.origin, *middle});
   }
 }
 
@@ -130,6 +146,7 @@ void estimate(const assembly::Assembly& assembly, const execution::RealisationRe
   add_parameters(assembly, best, all, summary);
   add_identifiability(assembly, best, summary, warnings);
   add_quality(assembly, best, summary);
+  add_noise(assembly, summary);
   add_spread(assembly, all, summary);
   if (!summary.status.ok()) return;
   if (auto warning = transfer_warning(summary.label, summary.quality)) warnings.push_back(std::move(*warning));

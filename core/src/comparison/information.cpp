@@ -12,14 +12,13 @@ std::optional<Information> information(const assembly::Assembly& assembly, exper
   if (objective != experiment::ObjectiveType::least_squares) return {};
   for (const auto& parameter : assembly.layout().parameters)
     if (parameter.prior) return {};
-  std::vector<double> predictions(assembly.layout().prediction_count), residuals(assembly.layout().residual_count);
+  std::vector<double> residuals(assembly.layout().residual_count);
   const auto workspace = assembly.evaluator().make_workspace();
   double value = 0;
   if (assembly.evaluator().evaluate(free, value, {}, residuals, {}, *workspace).kind() == Status::Kind::failed)
     return {};
-  if (!assembly.evaluator().predict(free, predictions, {}, *workspace).ok()) return {};
 
-  double deviance = 0, rows = 0;
+  double deviance = 0, rows = 0, unstated_rows = 0, unstated_squares = 0;
   std::size_t parameters = free.size(), stated = 0, estimated = 0, block = 0;
   for (const auto& channel : assembly.layout().channels) {
     const auto count = static_cast<std::size_t>(std::count(channel.fitted.begin(), channel.fitted.end(), true));
@@ -29,17 +28,19 @@ std::optional<Information> information(const assembly::Assembly& assembly, exper
     if (channel.weight != 1) return {};
     rows += static_cast<double>(count);
     double squares = 0;
-    if (channel.noise) {
+    for (std::size_t k = 0; k < own.size; ++k) squares += residuals[own.offset + k] * residuals[own.offset + k];
+    if (channel.sigma.stated()) {
       ++stated;
-      for (std::size_t k = 0; k < own.size; ++k) squares += residuals[own.offset + k] * residuals[own.offset + k];
       deviance += squares;
     } else {
       ++estimated;
-      ++parameters;
-      for (std::size_t i = 0; i < channel.count; ++i)
-        if (channel.fitted[i]) squares += std::pow(predictions[channel.offset + i] - channel.measured[i], 2);
-      deviance += static_cast<double>(count) * std::log(squares / static_cast<double>(count));
+      unstated_rows += static_cast<double>(count);
+      unstated_squares += squares;
     }
+  }
+  if (estimated > 0) {
+    ++parameters;
+    deviance += unstated_rows * std::log(unstated_squares / unstated_rows);
   }
   if (rows == 0 || !std::isfinite(deviance)) return {};
   const double k = static_cast<double>(parameters);

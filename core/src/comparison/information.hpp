@@ -21,11 +21,12 @@ struct Information {
 /// Bayesian one (Schwarz, Ann. Stat. 6:461, 1978), up to a constant that only depends on the data:
 ///
 ///   AICc = D + 2k + 2k(k + 1)/(N − k − 1),   BIC = D + k ln N,
-///   D = Σ_stated Σ r²  +  Σ_estimated n ln(SSE/n)
+///   D = Σ_stated r²  +  n ln(Σ_unstated r²/n)
 ///
-/// over the N fitted rows of all channels; r are the whitened residuals of a channel whose noise is stated, SSE the sum
-/// of squares of one whose noise is not, where the standard deviation is one more parameter: k counts the free
-/// parameters and those channels. Differences between models on the same tests mean something, the values do not.
+/// over the N fitted rows of all channels; r are the whitened residuals of the fit, n the rows of channels whose noise
+/// is not stated. Of those σ is known up to one factor (channel_noise.hpp), which is one more parameter, so that the
+/// best point of the run is the most likely one. k counts the free parameters and that factor. Differences between
+/// models on the same tests mean something, the values do not.
 ///
 /// None but for `least_squares`, without priors, all weights 1 (or 0): elsewhere the best point does not have the
 /// greatest likelihood. None for a perfect fit.

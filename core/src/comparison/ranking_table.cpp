@@ -55,8 +55,15 @@ std::string flaw(const RunSummary& run) {
   return run.status.ok() ? "" : run.status.reason();
 }
 
+/// Columns that some run has something to say in.
+struct Columns {
+  bool delta_aicc = false, chi_square = false;
+};
+
 /// Longer ones stand on a line of their own; all lines fit into 80 columns.
-std::size_t label_width(bool compares_models) { return compares_models ? 13 : 20; }
+std::size_t label_width(const Columns& columns) {
+  return 20 - (columns.delta_aicc ? 7u : 0u) - (columns.chi_square ? 7u : 0u);
+}
 
 /// With the constraint, where runs differ in it: "hgo/lm#2 (h = 0.7)".
 std::string shown_label(const RunSummary& run, bool names_constraints) {
@@ -71,11 +78,11 @@ bool differ_in_constraints(const Summary& summary) {
   return imposed.size() > 1;
 }
 
-std::string row(const Ranked& entry, const RunSummary& run, bool compares_models, bool names_constraints) {
+std::string row(const Ranked& entry, const RunSummary& run, const Columns& columns, bool names_constraints) {
   const std::string label = shown_label(run, names_constraints);
   const std::string objective = run.has_result ? objective_text(run.objective) : "-";
   const auto& to_target = run.evaluations_to_target.box;
-  const std::size_t width = label_width(compares_models);
+  const std::size_t width = label_width(columns);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
   if (text::columns(label) > width) text += text::shortened(label, 77) + '\n' + std::string(3, ' ');
   text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}",
@@ -84,15 +91,21 @@ std::string row(const Ranked& entry, const RunSummary& run, bool compares_models
                       count_text(to_target ? std::optional(to_target->median) : std::nullopt),
                       count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
                       count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
-  if (compares_models) text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
+  if (columns.chi_square)
+    text += fmt::format(" {:>6}", run.misfit ? fmt::format("{:.3g}", run.misfit->per_freedom()) : "-");
+  if (columns.delta_aicc)
+    text += fmt::format(" {:>6}", entry.delta_aicc ? fmt::format("{:.3g}", *entry.delta_aicc) : "-");
   text += '\n';
   if (const std::string reason = flaw(run); !reason.empty()) text += text::hanging("     ", reason) + '\n';
   return text;
 }
 
 std::string ranking_lines(const Summary& summary) {
-  const bool compares_models = std::any_of(summary.ranking.begin(), summary.ranking.end(),
-                                           [](const Ranked& entry) { return entry.delta_aicc.has_value(); });
+  Columns columns;
+  for (const Ranked& entry : summary.ranking) {
+    columns.delta_aicc = columns.delta_aicc || entry.delta_aicc.has_value();
+    columns.chi_square = columns.chi_square || summary.runs[entry.run].misfit.has_value();
+  }
   std::string text, group;
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
@@ -103,11 +116,11 @@ std::string ranking_lines(const Summary& summary) {
                                   fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
                   : text::hanging("Ranking by ", group);
       text += '\n';
-      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}\n",
-                          text::pad("run", label_width(compares_models)), "objective", "success", "evals", "ERT",
-                          "total", "failed", "sec", compares_models ? "  ΔAICc" : "");
+      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}{}\n",
+                          text::pad("run", label_width(columns)), "objective", "success", "evals", "ERT", "total",
+                          "failed", "sec", columns.chi_square ? "   χ²/ν" : "", columns.delta_aicc ? "  ΔAICc" : "");
     }
-    text += row(entry, run, compares_models, differ_in_constraints(summary));
+    text += row(entry, run, columns, differ_in_constraints(summary));
   }
   return text +
          text::hanging(
@@ -115,7 +128,10 @@ std::string ranking_lines(const Summary& summary) {
              "success: realisations at or below the target, or within 0.1 % of the best known objective; evals: "
              "median number of evaluations until success; ERT: evaluations spent for one success, failed "
              "realisations included; total: all evaluations (their Jacobians are in ranking.csv); failed: "
-             "evaluations that failed; sec: seconds of all realisations together") +
+             "evaluations that failed; sec: seconds of all realisations together" +
+                 std::string(columns.chi_square
+                                 ? "; χ²/ν: misfit over stated noise, by degree of freedom, near 1 where both are right"
+                                 : "")) +
          '\n';
 }
 
@@ -137,6 +153,13 @@ std::string quality_text(const Quality& quality) {
   text += measure.r2 ? fmt::format(", R² {:.5f}", *measure.r2) : std::string(", R² undefined (constant data)");
   if (measure.nmad) text += fmt::format(", NMAD {:.3g} %", *measure.nmad);
   return text;
+}
+
+/// "χ²/ν 8.97 (χ² 4538, ν 506): 3 times the stated noise"
+std::string misfit_text(const assembly::Misfit& misfit, const char* noise) {
+  return fmt::format("χ²/ν {:.3g} (χ² {:.4g}, ν {:.4g}), {:.2g} times the {} noise{}", misfit.per_freedom(),
+                     misfit.chi_square, misfit.freedom, misfit.times(), noise,
+                     misfit.contradicts() ? ": the model misses the data" : "");
 }
 
 /// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.
@@ -195,6 +218,10 @@ text::StyledText run_lines(const RunSummary& run) {
     if (!side_by_side.empty()) break;
     lines += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
   }
+  if (run.misfit) lines += text::hanging("  misfit: ", misfit_text(*run.misfit, "stated")) + '\n';
+  if (run.misfit_estimated)
+    lines += text::hanging("  misfit: ", misfit_text(*run.misfit_estimated, "estimated")) + '\n';
+  for (const auto& sentence : run.notes) lines += text::hanging("  - ", sentence) + '\n';
   for (const auto& sentence : run.uncertainty) lines += text::hanging("  - ", sentence) + '\n';
   return lines;
 }

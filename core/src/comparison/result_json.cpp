@@ -87,6 +87,25 @@ const char* word(Information::Noise noise) {
   return "";
 }
 
+json misfit(const std::optional<assembly::Misfit>& found) {
+  if (!found) return nullptr;
+  return {{"chi_square", found->chi_square},          {"rows", found->rows},
+          {"degrees_of_freedom", found->freedom},     {"reduced_chi_square", found->per_freedom()},
+          {"times_the_noise", found->times()},        {"chance", found->chance},
+          {"contradicts_noise", found->contradicts()}};
+}
+
+json noise(const std::vector<NoiseOf>& channels) {
+  json all = json::array();
+  for (const NoiseOf& one : channels)
+    all.push_back({{"test", one.test},
+                   {"channel", one.channel},
+                   {"sd", one.sd},
+                   {"unit", one.unit},
+                   {"origin", text::code_of(assembly::noise_origin_codes, one.origin)}});
+  return all;
+}
+
 json best(const RunSummary& run) {
   json parameters = json::object();
   for (const auto& parameter : run.parameters) {
@@ -108,6 +127,7 @@ json best(const RunSummary& run) {
     for (const auto& quality : run.quality)
       if (quality.test == run.tests[test])
         channels.push_back({{"channel", quality.channel},
+                            {"over", quality.over},
                             {"held_out", quality.held_out},
                             {"rows", quality.agreement.rows},
                             {"unit", quality.unit},
@@ -129,6 +149,11 @@ json best(const RunSummary& run) {
   result["aicc"] = run.information ? or_null(run.information->aicc) : json(nullptr);
   result["bic"] = run.information ? json(run.information->bic) : json(nullptr);
   result["noise"] = run.information ? json(word(run.information->noise)) : json(nullptr);
+  result["channel_noise"] = noise(run.noise);
+  result["misfit"] = misfit(run.misfit);
+  result["misfit_estimated"] = misfit(run.misfit_estimated);
+  result["interval_factor"] = run.misfit && run.misfit->contradicts() ? run.misfit->times() : 1.0;
+  if (!run.notes.empty()) result["notes"] = run.notes;
   result["certificate"] = certificate(run.certificate);
   result["hold_out"] = hold_out(run.quality);
   if (!run.uncertainty.empty()) result["uncertainty"] = run.uncertainty;

@@ -86,7 +86,10 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                            "seconds [s]",
                            "aicc",
                            "bic",
-                           "delta_aicc"});
+                           "delta_aicc",
+                           "chi_square",
+                           "degrees_of_freedom",
+                           "reduced_chi_square"});
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
     const auto& planned = *plan.runs[entry.run].entry;
@@ -123,7 +126,10 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                   fmt::format("{}", run.seconds),
                   run.information ? cell(run.information->aicc) : "",
                   run.information ? fmt::format("{}", run.information->bic) : "",
-                  cell(entry.delta_aicc)});
+                  cell(entry.delta_aicc),
+                  run.misfit ? fmt::format("{}", run.misfit->chi_square) : "",
+                  run.misfit ? fmt::format("{}", run.misfit->freedom) : "",
+                  run.misfit ? fmt::format("{}", run.misfit->per_freedom()) : ""});
   }
   return text;
 }

@@ -23,13 +23,16 @@ const execution::RealisationResult* best_of(const execution::RunResult& result) 
   return best;
 }
 
-/// The trace holds every improvement: where random numbers play a part, two are never the same.
+/// The trace holds every improvement: where random numbers play a part, two are never the same. Realisations that the
+/// optimiser's own error ended have half a trace, and count for nothing here.
 bool one_course(const execution::RunResult& result) {
-  const auto& all = result.realisations;
-  return all.size() > 1 && !all.front().trace.empty() &&
-         std::all_of(all.begin() + 1, all.end(), [&](const auto& other) {
-           return std::equal(other.trace.begin(), other.trace.end(), all.front().trace.begin(), all.front().trace.end(),
-                             [](const auto& a, const auto& b) {
+  std::vector<const execution::RealisationResult*> all;
+  for (const auto& realisation : result.realisations)
+    if (realisation.stopped_by != search::StopReason::optimizer_failure) all.push_back(&realisation);
+  return all.size() > 1 && !all.front()->trace.empty() &&
+         std::all_of(all.begin() + 1, all.end(), [&](const auto* other) {
+           return std::equal(other->trace.begin(), other->trace.end(), all.front()->trace.begin(),
+                             all.front()->trace.end(), [](const auto& a, const auto& b) {
                                return a.evaluations == b.evaluations && a.objective == b.objective;
                              });
          });
@@ -138,8 +141,14 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
     const auto same = [&](const auto& other) { return other.text() == warning.text(); };
     if (std::none_of(all.begin(), all.end(), same)) all.push_back(warning);
   };
+  const auto own = warnings_of(plan, summary.runs);
+  const auto contradicted = [](const execution::Warning& warning) {
+    return warning.kind == execution::WarningKind::noise_contradicted;
+  };
+  for (const auto& warning : own)
+    if (contradicted(warning)) add(warning);
   for (const auto& warning : mismatches) add(warning);
-  for (const auto& warning : warnings_of(plan, summary.runs)) add(warning);
+  for (const auto& warning : own) add(warning);
   for (const auto& refusal : refusals) add({execution::WarningKind::plugin_refused, refusal});
   for (const auto& warning : plan.warnings) add(warning);
   for (const auto& run : plan.runs)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/misfit.hpp"
 #include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
 #include "comparison/information.hpp"
@@ -45,6 +46,7 @@ struct Quality {
   std::string test, channel, unit;
   bool held_out = false;
   assembly::Agreement agreement;
+  std::string over = {};  ///< the abscissa that it is drawn over
 };
 
 /// Whether the best point behaves as a material, see stability_report.hpp.
@@ -62,6 +64,13 @@ struct StabilitySummary {
   [[nodiscard]] std::optional<bool> transversely_stable() const;
 };
 
+/// The noise of one fitted channel, and what it rests on.
+struct NoiseOf {
+  std::string test, channel, unit;
+  assembly::NoiseOrigin origin = assembly::NoiseOrigin::assumed;
+  double sd = 0;  ///< median over the fitted rows
+};
+
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
@@ -75,6 +84,10 @@ struct RunSummary {
   std::vector<Estimate> parameters;
   std::vector<assembly::FixedParameter> fixed;
   std::vector<Quality> quality;
+  /// How far the best point misses the data: against stated noise, and against noise that is estimated from the data.
+  std::optional<assembly::Misfit> misfit, misfit_estimated;
+  std::vector<NoiseOf> noise;
+  std::vector<std::string> notes;  ///< sentences that worry nobody
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;

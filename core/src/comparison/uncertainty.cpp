@@ -56,6 +56,11 @@ void keep(const std::vector<uncertainty::Profile>& made, RunSummary& summary) {
   }
 }
 
+void add_words(RunSummary& run) {
+  add_linearised_words(run);
+  add_widening_words(run);
+}
+
 }  // namespace
 
 void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catalogue) {
@@ -94,7 +99,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
              const std::function<bool()>& interrupted, Summary& summary) {
   const auto& analysis = plan.experiment->analysis;
   if (!analysis.wanted()) {
-    for (auto& run : summary.runs) add_linearised_words(run);
+    for (auto& run : summary.runs) add_words(run);
     return;
   }
   const auto optimizer = local_optimizer(*plan.experiment, catalogue);
@@ -104,7 +109,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     const auto& run = plan.runs[k];
     auto& own = summary.runs[k];
     if (!own.has_result || !own.status.ok()) {
-      add_linearised_words(own);
+      add_words(own);
       continue;
     }
     const auto& assembly = *run.assembly;
@@ -119,7 +124,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       } else {
         auto made = uncertainty::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
         keep(made, own);
-        add_profile_words(assembly, run.entry->objective, made, own);
+        add_profile_words(assembly, made, own);
         profiled.push_back({&assembly, own.label, std::move(made)});
       }
     }
@@ -129,7 +134,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       add_bootstrap_words(assembly, made, own);
       drawn.push_back({&assembly, own.label, std::move(made)});
     }
-    add_linearised_words(own);
+    add_words(own);
     if (interrupted && interrupted()) return;
   }
   write_profiles(directory, profiled);

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "comparison/ranking.hpp"
 #include "text/lists.hpp"
 
 namespace tunica::comparison {
@@ -57,23 +56,27 @@ void add_linearised_words(RunSummary& summary) {
   summary.uncertainty.insert(summary.uncertainty.begin(), std::move(sentence));
 }
 
-void add_profile_words(const assembly::Assembly& assembly, experiment::ObjectiveType objective,
-                       const std::vector<Profile>& profiles, RunSummary& summary) {
-  if (objective != experiment::ObjectiveType::least_squares)
-    summary.uncertainty.push_back(
-        fmt::format("profiles use the likelihood of normal noise; the run minimised {}, whose optimum may differ from "
-                    "theirs",
-                    name_of(objective)));
+void add_widening_words(RunSummary& summary) {
+  if (!summary.misfit || !summary.misfit->contradicts()) return;
+  summary.uncertainty.insert(
+      summary.uncertainty.begin(),
+      fmt::format("the intervals of parameters and curves are {:.2g} times as wide as the stated noise makes them, by "
+                  "√(χ²/ν): misfit is not noise, so {}",
+                  summary.misfit->times(),
+                  summary.bootstrap ? "take the bootstrap" : "they are rough; --bootstrap 200 gives better ones"));
+}
+
+void add_profile_words(const assembly::Assembly& assembly, const std::vector<Profile>& profiles, RunSummary& summary) {
   for (const Profile& profile : profiles) {
     const auto& estimate = summary.parameters[profile.parameter];
     const std::string& name = assembly.layout().parameters[profile.parameter].name;
     if (!at(estimate, Estimate::Bound::lower)) add_open_end(name, profile.lower, "lower", summary);
     if (!at(estimate, Estimate::Bound::upper)) add_open_end(name, profile.upper, "upper", summary);
-    if (profile.lowest < -1e-2 * profile.threshold)
+    if (const double missed = profile.gain - profile.lowest; missed > 1e-2 * profile.threshold)
       summary.uncertainty.push_back(
-          fmt::format("the profile of {} found a more likely point (-2 ln L lower by {:.3g}), so the best point is not "
-                      "the optimum of the likelihood; search longer or from more starts",
-                      name, -profile.lowest));
+          fmt::format("the profile of {} found a better point (-2 ln L lower by {:.3g}), so the best point is not the "
+                      "optimum; search longer or from more starts",
+                      name, missed));
     if (!estimate.ci95) continue;
     const double half = (estimate.ci95->second - estimate.ci95->first) / 2;
     // An end that stays open agrees with a linearised one that the bound has cut off.
@@ -84,12 +87,9 @@ void add_profile_words(const assembly::Assembly& assembly, experiment::Objective
     if (differs(profile.lower, estimate.ci95->first, estimate.min) ||
         differs(profile.upper, estimate.ci95->second, estimate.max))
       summary.uncertainty.push_back(fmt::format(
-          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) disagree: {}", name,
-          end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second,
-          objective == experiment::ObjectiveType::least_squares
-              ? "the likelihood is not quadratic there; take the profile"
-              : "the likelihood is not quadratic there, or its optimum is elsewhere than that of the minimised "
-                "objective; minimise least_squares, or take the bootstrap"));
+          "{}: the profile ({} … {}) and the linearised interval ({:.4g} … {:.4g}) disagree: the objective is not "
+          "quadratic there; take the profile",
+          name, end_text(profile.lower), end_text(profile.upper), estimate.ci95->first, estimate.ci95->second));
   }
 }
 

@@ -16,6 +16,17 @@ namespace {
 using execution::WarningKind;
 using Warnings = std::vector<execution::Warning>;
 
+void warn_of_contradicted_noise(const execution::Plan& plan, const RunSummary& run, Warnings& warnings) {
+  if (!run.misfit || !run.misfit->contradicts()) return;
+  warnings.push_back(
+      {WarningKind::noise_contradicted,
+       fmt::format(
+           "the model misses the data by {:.2g} times the noise: χ² is {:.4g} on {:.4g} degrees of freedom. Run "
+           "tunica diagnose {}",
+           run.misfit->times(), run.misfit->chi_square, run.misfit->freedom, plan.experiment->file.filename().string()),
+       run.label});
+}
+
 void warn_of_missing_result(const RunSummary& run, const std::string& reasons, Warnings& warnings) {
   const std::string why = run.evaluations == 0 ? std::string("nothing was evaluated")
                                                : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons);
@@ -114,13 +125,15 @@ std::string reasons_text(const RunSummary& run) {
 }
 
 void warn_of_failures(const RunSummary& run, Warnings& warnings) {
-  if (run.failures == 0 || !run.has_result) return;
-  const double share =
-      100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
-  warnings.push_back({WarningKind::failed_evaluations,
-                      fmt::format("{} of {} evaluations failed ({:.3g} %); {}", run.failures, run.evaluations, share,
-                                  reasons_text(run)),
-                      run.label});
+  if (!run.has_result) return;
+  if (run.failures > 0) {
+    const double share =
+        100 * static_cast<double>(run.failures) / static_cast<double>(std::max<std::uint64_t>(run.evaluations, 1));
+    warnings.push_back({WarningKind::failed_evaluations,
+                        fmt::format("{} of {} evaluations failed ({:.3g} %); {}", run.failures, run.evaluations, share,
+                                    reasons_text(run)),
+                        run.label});
+  }
   if (run.faults > 0)
     warnings.push_back({WarningKind::optimizer_failure,
                         fmt::format("an error of the optimiser ended {} of {} realisations: {}", run.faults,
@@ -129,10 +142,11 @@ void warn_of_failures(const RunSummary& run, Warnings& warnings) {
   if (run.one_course)
     warnings.push_back(
         {WarningKind::same_course,
-         fmt::format("all {0} realisations improved by the same steps, because they begin at the same initial values. "
-                     "This is one search, counted {0} times. Set \"initial\": \"random\" for statistics over starting "
-                     "points",
-                     run.realisations),
+         fmt::format(
+             "all {0} realisations{1} improved by the same steps, because they begin at the same initial values. "
+             "This is one search, counted {0} times. Set \"initial\": \"random\" for statistics over starting "
+             "points",
+             run.realisations - run.faults, run.faults == 0 ? "" : " without such an error"),
          run.label});
   if (run.given_up > 0)
     warnings.push_back({WarningKind::given_up,
@@ -161,6 +175,7 @@ void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run,
 
 std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
   Warnings warnings;
+  for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
   for (const auto& run : runs)
     if (!run.has_result) warn_of_missing_result(run, reasons_text(run), warnings);
   for (const auto& run : runs)

@@ -11,6 +11,7 @@ namespace tunica::execution {
 
 /// What a warning is about. Scripts and the report decide by it, so that the sentences may change.
 enum class WarningKind {
+  noise_contradicted,
   no_result,
   no_feasible_point,
   not_repeatable,
@@ -37,11 +38,13 @@ enum class WarningKind {
   differenced_derivatives,
   equal_realisations,
   plugin_refused,
+  order_assumed,
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 27> warning_codes{
-    {{WarningKind::no_result, "no_result"},
+inline constexpr text::Codes<WarningKind, 29> warning_codes{
+    {{WarningKind::noise_contradicted, "noise_contradicted"},
+     {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
      {WarningKind::not_repeatable, "not_repeatable"},
      {WarningKind::not_evaluated_again, "not_evaluated_again"},
@@ -67,6 +70,7 @@ inline constexpr text::Codes<WarningKind, 27> warning_codes{
      {WarningKind::differenced_derivatives, "differenced_derivatives"},
      {WarningKind::equal_realisations, "equal_realisations"},
      {WarningKind::plugin_refused, "plugin_refused"},
+     {WarningKind::order_assumed, "order_assumed"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());

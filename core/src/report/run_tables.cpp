@@ -69,6 +69,8 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
            {word(entry, "run")},
            {figure(number(entry, "objective")), true},
            {figure(number(entry, "delta_aicc")), true},
+           {figure(number(member(best, "misfit"), "reduced_chi_square")), true,
+            member(member(best, "misfit"), "contradicts_noise") == true},
            {fmt::format("{} / {}", figure(number(entry, "successes")), figure(number(run, "realisations"))), true},
            {figure(number(entry, "expected_running_time")), true},
            {figure(number(run, "evaluations")), true},
@@ -78,8 +80,8 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
            {word(entry, "reason").empty() ? word(best, "status") : word(entry, "reason")}});
       first.push_back(rank == 1);
     }
-    page.html(table_html({"rank", "run", "objective", "ΔAICc", "successes", "per success", "evaluations", "failed",
-                          "seconds", "stable", "status"},
+    page.html(table_html({"rank", "run", "objective", "ΔAICc", "χ²/ν", "successes", "per success", "evaluations",
+                          "failed", "seconds", "stable", "status"},
                          rows, first));
   }
   page.html(

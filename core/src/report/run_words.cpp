@@ -42,6 +42,10 @@ std::vector<std::string> fit_words(const Json& best) {
                                   word(channel, "channel"), amount(number(channel, "rmse"), word(channel, "unit")))});
   std::vector<std::string> lines;
   if (!fitted.empty()) lines.push_back((held_out.empty() ? "" : "Fitted: ") + scored_words(std::move(fitted)) + '.');
+  if (const Json& misfit = member(best, "misfit"); misfit.is_object())
+    lines.push_back(fmt::format("χ²/ν {} against the stated noise (χ² {}, {} rows).",
+                                figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chi_square")),
+                                figure(number(misfit, "rows"))));
   if (!held_out.empty()) lines.push_back("Held out: " + scored_words(std::move(held_out)) + '.');
   return lines;
 }
@@ -77,6 +81,32 @@ struct Doubts {
     if (std::find(next.begin(), next.end(), remedy) == next.end()) next.push_back(std::move(remedy));
   }
 };
+
+/// χ² against stated noise or, without, against what smooth shapes leave of the data; without either R².
+void fit_in_doubt(const Json& best, Doubts& doubts) {
+  constexpr double poor = 0.95;
+  const Json &stated = member(best, "misfit"), &estimated = member(best, "misfit_estimated");
+  const bool known = stated.is_object();
+  const Json& misfit = known ? stated : estimated;
+  if (misfit.is_object()) {
+    if (member(misfit, "contradicts_noise") == true)
+      doubts.add(fmt::format("the model misses the data by {} times the {} (χ²/ν {})",
+                             figure(number(misfit, "times_the_noise")),
+                             known ? "noise" : "noise that is estimated from the rows",
+                             figure(number(misfit, "reduced_chi_square"))),
+                 known ? "Run tunica diagnose EXPERIMENT."
+                       : "Run tunica diagnose EXPERIMENT, and state the noise where it is known.");
+    return;
+  }
+  double worst = 1;
+  const Json& tests = member(best, "per_test");
+  for (const auto& [test, fit] : tests.items())
+    for (const Json& channel : list(fit, "channels"))
+      if (const double r2 = number(channel, "r2"); member(channel, "held_out") != true && r2 < worst) worst = r2;
+  if (worst < poor)
+    doubts.add(fmt::format("R² is only {} in the worst curve", figure(worst)),
+               "Run tunica diagnose EXPERIMENT, or take another model.");
+}
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {
   std::vector<std::string> bound, loose, one_sided, unreliable, fixed;
@@ -127,6 +157,7 @@ bool predicts_worse(const Json& best) {
 
 Doubts doubts_of(const Json& best) {
   Doubts doubts;
+  fit_in_doubt(best, doubts);
   if (predicts_worse(best))
     doubts.add("the run fits better than it predicts what was held out",
                "Fit more of the tests together, or take a model with fewer parameters.");
@@ -163,6 +194,8 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
     const Doubts doubts = doubts_of(best);
+    std::vector<std::string> names;
+    for (const auto& entry : member(best, "parameters").items()) names.push_back(entry.key());
     page.word_lists(
         {{"Best run",
           {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
@@ -170,7 +203,7 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
          {"How well", fit_words(best)},
          {"What is wrong",
           {doubts.wrong.empty() ? "Nothing was found."
-                                : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")))}},
+                                : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")), names)}},
          {"What to do next",
           {doubts.next.empty() ? "Use it: tunica simulate EXPERIMENT --parameters result.json"
                                : fmt::format("{}", fmt::join(doubts.next, " "))}}});

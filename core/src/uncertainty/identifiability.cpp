@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "assembly/whitening.hpp"
+#include "numerics/singular.hpp"
 #include "uncertainty/sandwich.hpp"
 #include "uncertainty/straightness.hpp"
 #include "uncertainty/valley_words.hpp"
@@ -23,14 +23,14 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 /// Residual rows, whitened, and all predictions (`curves`) by free parameters, in the unit box.
 Status whitened(const assembly::Assembly& assembly, std::span<const double> free, Matrix& rows, Matrix& curves,
-                assembly::Whitening& noise) {
+                assembly::Whitening& noise, bool is_fit) {
   const auto& parameters = assembly.layout().parameters;
   const std::size_t n = parameters.size();
   std::vector<double> predictions(assembly.layout().prediction_count), by_prediction(predictions.size() * n);
   const auto workspace = assembly.evaluator().make_workspace();
   if (Status status = assembly.evaluator().predict(free, predictions, by_prediction, *workspace); !status.ok())
     return status;
-  noise = assembly::whitening(assembly, predictions);
+  noise = assembly::whitening(assembly, predictions, {}, !is_fit);
   if (noise.rows.empty()) return Status::failed("no row is fitted");
   std::vector<double> jacobian(noise.count() * n);
   assembly::whitened_residuals(noise, free, predictions, by_prediction, {}, jacobian);
@@ -82,10 +82,10 @@ Matrix tangent_space(const Matrix& gradients) {
   const Eigen::Index n = gradients.cols();
   if (gradients.rows() == 0 || n == 0) return Matrix::Identity(n, n);
   constexpr double parallel = 0.02;
-  const Eigen::JacobiSVD<Matrix> svd(gradients.rowwise().normalized(), Eigen::ComputeFullV);
+  const auto [values, V] = numerics::right_singular_vectors(gradients.rowwise().normalized());
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > parallel * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(n - rank);
+  while (rank < values.size() && values[rank] > parallel * values[0]) ++rank;
+  return V.rightCols(n - rank);
 }
 
 /// Parameters inside their bounds, along active constraints, from the singular values of their columns. Empty where
@@ -100,12 +100,12 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   const Eigen::Index inside = tangent.cols();
   if (inside == 0) return {Matrix::Zero(rows.cols(), 0), Vector(), Vector(), {}, 0};
   const Matrix inner = rows(Eigen::all, position) * tangent;
-  const Eigen::JacobiSVD<Matrix> svd(inner, Eigen::ComputeFullV);
+  const numerics::SingularVectors singular = numerics::right_singular_vectors(inner);
   Spectrum found;
   found.values = Vector::Zero(inside);
-  found.values.head(svd.singularValues().size()) = svd.singularValues();
+  found.values.head(singular.values.size()) = singular.values;
   found.V = Matrix::Zero(rows.cols(), inside);
-  found.V(position, Eigen::all) = tangent * svd.matrixV();
+  found.V(position, Eigen::all) = tangent * singular.vectors;
   found.variance = Vector::Ones(inside);
   for (Eigen::Index k = 0; k < inside; ++k) {
     const double s = found.values[k];
@@ -160,7 +160,7 @@ Spectrum hardly_seen(const Spectrum& spectrum, const Identifiability& found) {
 
 }  // namespace
 
-Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found) {
+Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found, bool is_fit) {
   const auto& parameters = assembly.layout().parameters;
   const std::size_t n = parameters.size();
   found = {};
@@ -174,7 +174,7 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
   }
   Matrix rows, curves;
   assembly::Whitening noise;
-  if (Status status = whitened(assembly, free, rows, curves, noise); !status.ok()) return status;
+  if (Status status = whitened(assembly, free, rows, curves, noise, is_fit); !status.ok()) return status;
   if (std::find(at_bound.begin(), at_bound.end(), false) == at_bound.end()) return {};
 
   const double weakest = assembly.layout().jacobian_is_exact ? weakest_exact : weakest_differenced;

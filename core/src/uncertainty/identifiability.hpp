@@ -57,8 +57,8 @@ struct Identifiability {
 /// Smallest ratio of singular values at which a direction counts as seen by the data; differences see less sharply.
 constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 
-/// Linearises about `free`. Let G = diag(1/σ) ∂ŷ/∂x over the fitted rows, x the unit box, σ the stated noise of a
-/// channel or else the standard deviation of its residuals (and a row (p − mean)/sd per prior), with the singular
+/// Linearises about `free`. Let G = diag(1/σ) ∂ŷ/∂x over the fitted rows, x the unit box, σ the noise of a
+/// channel (and a row (p − mean)/sd per prior), with the singular
 /// value decomposition G = U S Vᵀ. Then the most likely x has covariance V S⁻² Vᵀ (Laplace); that of the objective
 /// which was minimised follows by sandwich.hpp, and is written V S⁻² Vᵀ again. Direction v_k is weak when
 ///
@@ -78,7 +78,10 @@ constexpr double weakest_exact = 1e-7, weakest_differenced = 1e-5;
 /// Where bounds and active constraints leave no direction there is nothing to compute: no interval, and a sentence. A
 /// point that breaks a constraint (c > 1e-4) lies on no border; it is linearised as if there were none.
 ///
+/// σ is that of whitening.hpp: where `is_fit` and χ² contradicts stated noise, all intervals are √(χ²/ν) times as wide.
+///
 /// Returns failed when the point cannot be evaluated or has no fitted rows.
-Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found);
+Status identify(const assembly::Assembly& assembly, std::span<const double> free, Identifiability& found,
+                bool is_fit = true);
 
 }  // namespace tunica::uncertainty

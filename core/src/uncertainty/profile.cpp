@@ -9,6 +9,7 @@
 
 #include "tunica/random.hpp"
 #include "uncertainty/identifiability.hpp"
+#include "uncertainty/sandwich.hpp"
 
 namespace tunica::uncertainty {
 namespace {
@@ -30,7 +31,9 @@ class ProfileSide {
         side_(side),
         step_(step),
         seed_(seed),
-        workspace_(assembly.evaluator().make_workspace()) {}
+        workspace_(assembly.evaluator().make_workspace()) {
+    assembly.evaluator().measure(likelihood.measured, *workspace_);
+  }
 
   void run(const std::function<bool()>& interrupted);
 
@@ -69,7 +72,8 @@ bool ProfileSide::fit(double x, const std::vector<double>& start, Profile::Point
     ++failures;
     return false;
   }
-  point = {held[parameter_], found.objective - likelihood_.centre.objective, found.free};
+  point = {held[parameter_], (found.objective - likelihood_.centre.objective) / likelihood_.scales[parameter_],
+           found.free};
   return true;
 }
 
@@ -137,29 +141,29 @@ Likelihood likelihood_at(const assembly::Assembly& assembly, std::span<const dou
   result.centre.status = assembly.evaluator().predict(best, predictions, {}, *workspace);
   if (!result.centre.status.ok()) return result;
   result.whitening = assembly::whitening(assembly, predictions, measured);
-  const assembly::Whitening& noise = result.whitening;
-  result.target.residual_count = noise.count();
-  result.target.blocks = {{0, noise.count(), 1, ResidualBlock::Loss::quadratic}};
-  result.target.evaluate = [&assembly, noise](std::span<const double> free, double& objective,
-                                              std::span<double> residuals, std::span<double> jacobian,
-                                              assembly::Workspace& own) {
-    std::vector<double> values(assembly.layout().prediction_count),
-        by_free(jacobian.empty() ? 0 : values.size() * free.size());
-    std::vector<double> kept(residuals.empty() ? noise.count() : 0);
-    if (Status status = assembly.evaluator().predict(free, values, by_free, own); !status.ok()) return status;
-    const std::span<double> r = residuals.empty() ? std::span<double>(kept) : residuals;
-    assembly::whitened_residuals(noise, free, values, by_free, r, jacobian);
-    objective = 0;
-    for (const double residual : r) objective += residual * residual;
-    if (!std::isfinite(objective)) return Status::failed("the likelihood overflows");
-    return assembly.constraints().feasibility(free, own);
+  result.measured.assign(measured.begin(), measured.end());
+  result.target.residual_count = assembly.layout().residual_count;
+  result.target.blocks = assembly.layout().blocks;
+  result.target.evaluate = [&assembly](std::span<const double> free, double& objective, std::span<double> residuals,
+                                       std::span<double> jacobian, assembly::Workspace& own) {
+    return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, own);
   };
+  assembly.evaluator().measure(measured, *workspace);
+  double at_best = 0;
+  result.centre.status = assembly.evaluator().evaluate(best, at_best, {}, {}, {}, *workspace);
+  if (result.centre.status.kind() == Status::Kind::failed) return result;
   result.centre = refit(assembly, result.target, optimizer, best, {}, derive_seed(seed, "centre"), *workspace);
   if (!result.centre.status.ok()) return result;
+  result.gain = at_best - result.centre.objective;
+  const Status scaled = objective_scales(assembly, result.centre.free, result.whitening, measured, result.scales);
+  if (!scaled.ok()) {
+    result.centre.status = scaled;
+    return result;
+  }
   std::vector<double> unit(best.size());
   assembly.box().to_unit(result.centre.free, unit);
   const auto inside = std::count_if(unit.begin(), unit.end(), [](double x) { return x > 1e-6 && x < 1 - 1e-6; });
-  result.quantile = noise.quantile(static_cast<std::size_t>(inside));
+  result.quantile = result.whitening.quantile(static_cast<std::size_t>(inside));
   return result;
 }
 
@@ -196,6 +200,7 @@ std::vector<Profile> profiles(const assembly::Assembly& assembly, const Likeliho
     Profile& profile = result.emplace_back();
     profile.parameter = parameters[k];
     profile.threshold = likelihood.quantile * likelihood.quantile;
+    profile.gain = likelihood.gain / likelihood.scales[parameters[k]];
     profile.lower = down.end;
     profile.upper = up.end;
     profile.evaluations = down.evaluations + up.evaluations;

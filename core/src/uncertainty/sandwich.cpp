@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uncertainty/sandwich.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include "numerics/cholesky.hpp"
+#include "numerics/eigenpairs.hpp"
+#include "numerics/singular.hpp"
 
 namespace tunica::uncertainty {
 namespace {
@@ -43,6 +45,44 @@ Matrix by_unit_noise(const assembly::Whitening& noise, const Matrix& by_predicti
   return u;
 }
 
+/// What the minimum of an objective moves by, in some coordinates: H and M of the header.
+struct Bread {
+  Matrix rows;       ///< Jacobian of the residuals
+  Matrix curvature;  ///< H
+  Matrix score;      ///< M, covariance of the gradient
+};
+
+/// At `free`, in the coordinates that the columns of `basis` span in the unit box. `measured` stands in for the data
+/// unless empty.
+Status linearise(const assembly::Assembly& assembly, std::span<const double> free, const assembly::Whitening& noise,
+                 std::span<const double> measured, const Matrix& basis, Bread& found) {
+  const auto n = static_cast<Eigen::Index>(free.size()), k = basis.cols(),
+             m = static_cast<Eigen::Index>(assembly.layout().residual_count);
+  std::vector<double> residuals(assembly.layout().residual_count), entries(residuals.size() * free.size());
+  const auto workspace = assembly.evaluator().make_workspace();
+  assembly.evaluator().measure(measured, *workspace);
+  double objective = 0;
+  if (Status status = assembly.evaluator().evaluate(free, objective, {}, residuals, entries, *workspace);
+      status.kind() == Status::Kind::failed)
+    return status;
+  assembly.box().jacobian_to_unit(free, entries);
+  found.rows = Eigen::Map<const Rows>(entries.data(), m, n) * basis;
+  const Matrix weighted = weights(assembly, residuals).asDiagonal() * found.rows;
+  found.curvature = found.rows.transpose() * weighted;
+
+  Matrix by_prediction(static_cast<Eigen::Index>(assembly.layout().prediction_count), k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Vector column = weighted.col(j);
+    assembly.evaluator().transpose_residuals({column.data(), residuals.size()},
+                                             {&by_prediction(0, j), assembly.layout().prediction_count});
+  }
+  const Matrix u = by_unit_noise(noise, by_prediction);
+  found.score = u.transpose() * u;
+  const auto priors = static_cast<Eigen::Index>(noise.priors.size());
+  found.score += weighted.bottomRows(priors).transpose() * weighted.bottomRows(priors);
+  return {};
+}
+
 }  // namespace
 
 Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
@@ -53,48 +93,59 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
   const auto k = static_cast<Eigen::Index>(seen.size());
   if (k == 0) return {};
 
-  const auto n = static_cast<Eigen::Index>(free.size()),
-             m = static_cast<Eigen::Index>(assembly.layout().residual_count);
-  std::vector<double> residuals(assembly.layout().residual_count), entries(residuals.size() * free.size());
-  const auto workspace = assembly.evaluator().make_workspace();
-  double objective = 0;
-  if (Status status = assembly.evaluator().evaluate(free, objective, {}, residuals, entries, *workspace);
-      status.kind() == Status::Kind::failed)
-    return status;
-  assembly.box().jacobian_to_unit(free, entries);
   // In directions scaled by their singular values the likelihood's JᵀJ is the identity, and H no worse than the
   // weights.
   const Vector width = spectrum.values(seen).cwiseInverse();
   const Matrix scaled = spectrum.V(Eigen::all, seen) * width.asDiagonal();
-  const Matrix J = Eigen::Map<const Rows>(entries.data(), m, n) * scaled;
-  const Matrix weighted = weights(assembly, residuals).asDiagonal() * J;
-  const Matrix H = J.transpose() * weighted;
-
-  Matrix by_prediction(static_cast<Eigen::Index>(assembly.layout().prediction_count), k);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    const Vector column = weighted.col(j);
-    assembly.evaluator().transpose_residuals({column.data(), residuals.size()},
-                                             {&by_prediction(0, j), assembly.layout().prediction_count});
-  }
-  const Matrix u = by_unit_noise(noise, by_prediction);
-  Matrix M = u.transpose() * u;
-  const auto priors = static_cast<Eigen::Index>(noise.priors.size());
-  M += weighted.bottomRows(priors).transpose() * weighted.bottomRows(priors);
-
-  const Eigen::LDLT<Matrix> solver(H);
-  const Eigen::LLT<Matrix> root(M);
-  if (solver.info() != Eigen::Success || !solver.isPositive() || root.info() != Eigen::Success)
-    return Status::failed("the objective's curvature is singular in directions that the data see");
-  const Matrix spread = width.asDiagonal() * solver.solve(Matrix(root.matrixL()));
-  const Eigen::JacobiSVD<Matrix> svd(spread, Eigen::ComputeFullU);
-  const Matrix V = spectrum.V(Eigen::all, seen) * svd.matrixU();
+  Bread bread;
+  if (Status status = linearise(assembly, free, noise, {}, scaled, bread); !status.ok()) return status;
+  const std::optional<Matrix> half = numerics::half_sandwich(bread.curvature, bread.score);
+  if (!half) return Status::failed("the objective's curvature is singular in directions that the data see");
+  const Matrix spread = width.asDiagonal() * *half;
+  const numerics::SingularVectors singular = numerics::left_singular_vectors(spread);
+  const Matrix V = spectrum.V(Eigen::all, seen) * singular.vectors;
   for (Eigen::Index a = 0; a < k; ++a) {  // singular values fall, so widths in reverse
     const Eigen::Index from = k - 1 - a, to = seen[static_cast<std::size_t>(a)];
-    const double sd = svd.singularValues()[from];
+    const double sd = singular.values[from];
     spectrum.V.col(to) = V.col(from);
     spectrum.values[to] = 1 / sd;
     spectrum.variance[to] = sd * sd;
     spectrum.seen[static_cast<std::size_t>(to)] = sd > 1 ? Visibility::weakly : Visibility::well;
+  }
+  return {};
+}
+
+Status objective_scales(const assembly::Assembly& assembly, std::span<const double> free,
+                        const assembly::Whitening& noise, std::span<const double> measured,
+                        std::vector<double>& scales) {
+  constexpr double on_bound = 1e-6;
+  const std::size_t n = free.size();
+  scales.assign(n, 1);
+  std::vector<double> unit(n);
+  assembly.box().to_unit(free, unit);
+  const auto size = static_cast<Eigen::Index>(n);
+  Bread all;
+  if (Status status = linearise(assembly, free, noise, measured, Matrix::Identity(size, size), all); !status.ok())
+    return status;
+  const double weakest = assembly.layout().jacobian_is_exact ? weakest_exact : weakest_differenced;
+  for (std::size_t j = 0; j < n; ++j) {
+    std::vector<Eigen::Index> moving;  // a parameter at a bound moves in its own profile only
+    Eigen::Index own = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == j) own = static_cast<Eigen::Index>(moving.size());
+      if (i == j || (unit[i] > on_bound && unit[i] < 1 - on_bound)) moving.push_back(static_cast<Eigen::Index>(i));
+    }
+    const Matrix H = all.curvature(moving, moving), M = all.score(moving, moving);
+    // Scaled to a diagonal of one, so that no unit decides which direction is seen.
+    const Vector width = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const auto [values, vectors] = numerics::eigenpairs(width.asDiagonal() * H * width.asDiagonal());
+    Vector d = Vector::Zero(H.rows());
+    const double least = std::max(weakest * weakest, 1e-13) * values.maxCoeff();
+    for (Eigen::Index k = 0; k < d.size(); ++k)
+      if (values[k] > least) d += vectors(own, k) / values[k] * vectors.col(k);
+    d = width.cwiseProduct(d);
+    const double curvature = d.dot(H * d), score = d.dot(M * d);
+    if (curvature > 0 && score > 0 && std::isfinite(score / curvature)) scales[j] = score / (2 * curvature);
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "assembly/whitening.hpp"
 #include "uncertainty/valleys.hpp"
@@ -18,5 +19,17 @@ namespace tunica::uncertainty {
 /// 1 that is the inverse of JᵀJ, as in the likelihood. Directions that the data do not see stay as they are.
 Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double> free,
                       const assembly::Whitening& noise, Spectrum& spectrum);
+
+/// What the rise of the objective J along the profile of each parameter has to be divided by to rise as −2 ln L does.
+/// Near the minimum the profile is (p − p̂)²/(2 (H⁻¹)_jj), while the estimate has the variance (H⁻¹ M H⁻¹)_jj, so that
+///
+///   J(p) − J(p̂)  is distributed as  λ_j χ²₁,   λ_j = (H⁻¹ M H⁻¹)_jj / (2 (H⁻¹)_jj)
+///
+/// (J. T. Kent, Biometrika 69:19, 1982). 1 for least squares with stated noise and weights 1. Parameters at bounds stay
+/// there, except in their own profile; directions that the data do not see count for nothing. `scales`: one a
+/// parameter; `measured` stands in for the data unless empty.
+Status objective_scales(const assembly::Assembly& assembly, std::span<const double> free,
+                        const assembly::Whitening& noise, std::span<const double> measured,
+                        std::vector<double>& scales);
 
 }  // namespace tunica::uncertainty

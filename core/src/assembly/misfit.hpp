@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "assembly/assembly.hpp"
+
+namespace tunica::assembly {
+
+/// Misfit of this size and above matters: χ² per degree of freedom.
+constexpr double noticeable_misfit = 1.5;
+/// Probability that a model that is right is said to contradict its noise.
+constexpr double misfit_false_alarm = 1e-3;
+
+/// How far a model misses the data, in units of their noise:
+///
+///   χ² = Σ r²,   r = (e_k/σ_k − φ e_{k−1}/σ_{k−1})/√(1 − φ²),   ν = n (1 − p/N)
+///
+/// over the n of all N fitted rows whose noise is of one kind; p free parameters, each of which fits one row away.
+struct Misfit {
+  double chi_square = 0;
+  std::size_t rows = 0;      ///< n
+  double freedom = 0;        ///< ν; 0 or less: as many parameters as rows, and nothing to say
+  double chance = 1;         ///< of so large a χ² under a model that is right, where the noise is as it is said to be
+  double noise_freedom = 0;  ///< of an estimated σ; 0: stated
+
+  [[nodiscard]] bool judged() const { return rows > 0 && freedom > 0; }
+  [[nodiscard]] double per_freedom() const { return chi_square / freedom; }
+  /// √(χ²/ν): how many times the noise.
+  [[nodiscard]] double times() const;
+  /// The rows contradict model and noise together: `chance` below misfit_false_alarm, and a misfit that matters.
+  [[nodiscard]] bool contradicts() const {
+    return judged() && chance < misfit_false_alarm && per_freedom() > noticeable_misfit;
+  }
+};
+
+/// Whose rows: channels with stated noise, or those where it is estimated from the data. Neither: assumed σ.
+enum class NoiseKind { stated, estimated };
+
+/// Of the channels that count (weight > 0), at these predictions. `measured` in their layout stands in for the data
+/// unless empty. The chance is that of χ² with ν degrees of freedom where the noise is stated; where it is estimated,
+/// that of F with ν and the degrees of freedom of the estimates.
+Misfit misfit(const Assembly& assembly, NoiseKind kind, std::span<const double> predictions,
+              std::span<const double> measured = {});
+
+}  // namespace tunica::assembly
