@@ -55,7 +55,7 @@ TEST(ChannelNoise, IsFoundAboutSmoothShapesOfLoopsWhateverTheirSteepness) {
 TEST(ChannelNoise, IsFoundBesideAnAbscissaThatTrembles) {
   std::vector<double> x, y, held;
   loop(10, 1, 3, x, y);
-  for (std::size_t i = 0; i < x.size(); ++i) held.push_back(17 + (i * 7 % 5) * 0.3);
+  for (std::size_t i = 0; i < x.size(); ++i) held.push_back(17 + 0.3 * static_cast<double>(i * 7 % 5));
   const std::vector<bool> all(x.size(), true);
   const auto alone = assembly::smooth_scatter(y, {{"x", x}}, all);
   const auto beside = assembly::smooth_scatter(y, {{"held", held}, {"x", x}}, all);
