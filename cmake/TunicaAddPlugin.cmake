@@ -2,6 +2,7 @@
 # tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...] [INTERNAL]): a shared library that tunica loads at run time.
 # It exports one symbol, tunica_plugin (tunica_plugin.map); -fno-gnu-unique keeps inline statics apart.
 # Neither errno nor floating-point traps are read anywhere: without them loops vectorise, and no value changes.
+set(TUNICA_PLUGIN_OPTIONS -fno-gnu-unique -fno-math-errno -fno-trapping-math CACHE INTERNAL "")
 function(tunica_add_plugin name)
   cmake_parse_arguments(ARG "INTERNAL" "" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCES)
@@ -12,7 +13,7 @@ function(tunica_add_plugin name)
   if(TARGET tunica_developer)
     target_link_libraries(${name} PRIVATE tunica_developer)
   endif()
-  target_compile_options(${name} PRIVATE -fno-gnu-unique -fno-math-errno -fno-trapping-math)
+  target_compile_options(${name} PRIVATE ${TUNICA_PLUGIN_OPTIONS})
   # An undefined symbol is an error here, not at load time; sanitizers leave theirs to the executable.
   set(exports ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/tunica_plugin.map)
   target_link_options(${name} PRIVATE -Wl,--version-script=${exports})
@@ -23,6 +24,11 @@ function(tunica_add_plugin name)
                                            LINK_DEPENDS ${exports})
   if(ARG_INTERNAL)
     return()  # not installed, nor beside those that are
+  endif()
+  if(TARGET plugin_headers)
+    # No <name>_EXPORTS on the command line: nothing reads it, and it would keep plugins from sharing the header.
+    set_target_properties(${name} PROPERTIES DEFINE_SYMBOL "")
+    target_precompile_headers(${name} REUSE_FROM plugin_headers)
   endif()
   if(TUNICA_PLUGIN_OUTPUT_DIRECTORY)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${TUNICA_PLUGIN_OUTPUT_DIRECTORY})

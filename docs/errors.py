@@ -104,6 +104,9 @@ CODES = [
     ("diagnosis_verdict", "`diagnosis.verdict`", "What a diagnosis says."),
     ("diagnosis_reason", "`diagnosis.reason_codes[]`", "Why the verdict is what it is."),
     ("diagnosis_warning_kind", "`warning_details[].kind` of a diagnosis", "What a warning is about."),
+    ("cause_group", "`diagnosis.causes[].group`, `diagnosis.ranking[].group`", "What a cause is a property of."),
+    ("cause_standing", "`diagnosis.causes[].standing`", "What the probability of a cause is worth."),
+    ("mechanism_absence", "`diagnosis.detectable[].absence`", "Why a mechanism is not looked for, or would not be seen."),
     ("block_verdict", "`diagnosis.gain.held_out[].verdict`", "How the extension predicts rows that it has not seen."),
     ("remainder", "`diagnosis.remainder`", "What the causes leave."),
 ]

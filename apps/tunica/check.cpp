@@ -81,6 +81,17 @@ void print_agreement(const calibration::OtherMeans& other) {
                                "could not be checked by other means: " + other.status.reason()));
 }
 
+/// The paths that mechanisms with memory would take the rows for.
+void print_paths(const std::vector<calibration::TestPath>& paths) {
+  if (paths.empty()) return;
+  fmt::print("\npaths of loading, row after row\n");
+  for (const auto& path : paths)
+    fmt::print("{}\n    {}\n",
+               hanging(fmt::format("  {}: ", path.test),
+                       path.words + (path.ordered ? "" : "; nobody says that this is the order")),
+               path.drawing);
+}
+
 void print_initial_point(const calibration::PosedProblem& problem) {
   const auto& assembly = *problem.run->assembly;
   const auto& tests = problem.run->entry->tests;
@@ -109,7 +120,7 @@ void print_initial_point(const calibration::PosedProblem& problem) {
 }
 
 void print(const calibration::Examination& checked, const std::string& file) {
-  const auto& [experiment, plan, warnings, notes, problems] = checked;
+  const auto& [experiment, plan, warnings, notes, problems, paths] = checked;
   fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
              counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
              counted(experiment.runs.size(), "run", "runs"), experiment.seed);
@@ -119,6 +130,7 @@ void print(const calibration::Examination& checked, const std::string& file) {
   for (const auto& run : plan.runs)
     fmt::print("{}: {} of at most {} evaluations\n", run.label,
                counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
+  print_paths(paths);
   for (const auto& problem : problems) {
     fmt::print("\n{}\n", hanging("", problem.title));
     print_tests(*problem.run->assembly);

@@ -87,7 +87,13 @@ json check_json(const calibration::Examination& checked) {
   json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
                    {"seed", checked.experiment.seed},  {"warnings", json::array()},
                    {"warning_details", json::array()}, {"runs", json::array()},
-                   {"notes", checked.notes},           {"problems", json::array()}};
+                   {"notes", checked.notes},           {"problems", json::array()},
+                   {"paths", json::array()}};
+  for (const auto& path : checked.paths)
+    document["paths"].push_back({{"test", path.test},
+                                 {"ordered", path.ordered},
+                                 {"past_known", path.past == data::Past::known},
+                                 {"words", path.words}});
   for (const auto& warning : checked.warnings) {
     document["warnings"].push_back(warning.text());
     document["warning_details"].push_back(comparison::warning_json(warning));

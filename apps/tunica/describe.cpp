@@ -144,6 +144,8 @@ void print(const plugins::Catalogue::Entry<MechanismFactory>& entry) {
   fmt::print("\n  absent at {} = {}; acts {}; plausible from {} to {}\n",
              factory.parameters.empty() ? "amplitude" : factory.parameters.front().name, factory.null, side,
              factory.plausible_min, factory.plausible_max);
+  if (factory.plausible_effect > 0)
+    fmt::print("  diagnosis: plausible up to an effect of {} times the range of the data\n", factory.plausible_effect);
   if (!factory.applies_to.empty()) fmt::print("  applies to: {}\n", fmt::join(factory.applies_to, ", "));
   if (!factory.look_alikes.empty())
     fmt::print("{}\n", hanging("  looks like: ", fmt::format("{}", fmt::join(factory.look_alikes, ", "))));

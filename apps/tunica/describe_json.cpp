@@ -159,6 +159,8 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
                      : factory.side == MechanismFactory::Side::both   ? "both"
                                                                       : "even";
   document["plausible"] = {factory.plausible_min, factory.plausible_max};
+  document["plausible_effect"] = factory.plausible_effect;
+  document["directional"] = factory.directional;
   document["applies_to"] = factory.applies_to;
   document["look_alikes"] = factory.look_alikes;
   document["isolated_by"] = factory.isolated_by;

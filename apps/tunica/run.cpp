@@ -18,6 +18,7 @@
 #include "fresh_process.hpp"
 #include "messages.hpp"
 #include "text/lists.hpp"
+#include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -67,6 +68,12 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
   return command;
 }
 
+void say_interrupted(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory) {
+  fmt::print(stderr, "{}interrupted; everything so far is saved. Go on with\n  {}\n",
+             !global.quiet && text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "",
+             resume_command(global, options, directory));
+}
+
 /// Asks a process that has seen nothing of the search; the numbers it needs are in the folder.
 calibration::Certified certify(const GlobalOptions& global, unsigned threads, const std::filesystem::path& directory,
                                const std::filesystem::path& points) {
@@ -101,6 +108,10 @@ calibration::Options options_of(const GlobalOptions& global, const RunOptions& o
     result.certify = [&global, &options](const std::filesystem::path& directory, const std::filesystem::path& points) {
       return certify(global, options.threads, directory, points);
     };
+  result.abandon = [&global, &options](const std::filesystem::path& directory) {
+    say_interrupted(global, options, directory);
+    ::_exit(interrupted);
+  };
   if (!global.quiet)
     result.started = [&options](const calibration::Start& start) {
       fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", start.directory.string(),
@@ -133,8 +144,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
                             resume_command(global, options, outcome.directory)));
       return interrupted;
     case calibration::Outcome::Ending::interrupted:
-      fmt::print(stderr, "interrupted; everything so far is saved. Go on with\n  {}\n",
-                 resume_command(global, options, outcome.directory));
+      say_interrupted(global, options, outcome.directory);
       return interrupted;
     case calibration::Outcome::Ending::finished:
       break;

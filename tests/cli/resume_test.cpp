@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -82,6 +83,37 @@ TEST(Resume, AfterCtrlCGivesTheIdenticalResult) {
   const auto ended = trial::Process(again, bench.folder.path()).wait();
   ASSERT_EQ(ended.code, 0) << ended.err;
   bench.expect_equal("whole", "cut");
+}
+
+// The first evaluation of this run takes minutes. It is not in the journal, so it was not waited for.
+TEST(Resume, AfterCtrlCInsideOneLongSimulation) {
+  trial::Bench bench;
+  std::string rows = "pressure [kPa],outer [mm]\n";
+  for (int k = 1; k <= 40; ++k) rows += std::to_string(k) + ",12\n";
+  bench.folder.write("tube.csv", rows);
+  bench.experiment["tests"] = {
+      {"tube",
+       {{"type", "fe_pressurisation"},
+        {"inner_radius", "3.71 mm"},
+        {"thickness", "2.06 mm"},
+        {"length", "40 mm"},
+        {"axial_stretch", 1.2},
+        {"elements", {100, 1000}},
+        {"time_limit", "600 s"},
+        {"data", {{"file", "tube.csv"}, {"columns", {{"pressure", "pressure"}, {"outer_diameter", "outer"}}}}}}}};
+  bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "es"}}};
+  bench.save();
+  trial::Process process(trial::tunica_command({"run", "experiment.json", "-o", "out", "-j", "1"}),
+                         bench.folder.path());
+  for (int attempt = 0; attempt < 3000 && !std::filesystem::exists(bench.path("out/evaluations.csv")); ++attempt)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.signal(SIGINT);
+  const auto ended = process.wait();
+  EXPECT_EQ(ended.code, 130);
+  EXPECT_THAT(ended.err, HasSubstr("everything so far is saved. Go on with\n  tunica run experiment.json -o out"));
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out/result.json")));
+  const std::string written = bench.text("out/evaluations.csv");
+  EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 1) << "the simulation was waited for";
 }
 
 TEST(Resume, OfAFinishedRunRepeatsItsResult) {

@@ -204,9 +204,12 @@ TEST(Diagnose, WarnsOfNoiseThatItHadToEstimate) {
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("no noise is stated"));
   const json found = result(measured, "out");
-  EXPECT_THAT(found["warnings"].dump(), HasSubstr("from differences of neighbouring rows"));
-  for (const json& noise : found["diagnosis"]["noise"])
-    EXPECT_EQ(noise["source"], noise["test"] == "axial" ? "differences" : "stated");
+  EXPECT_THAT(found["warnings"].dump(), HasSubstr("that neither a mechanism nor a smooth shape can explain: axial"));
+  for (const json& noise : found["diagnosis"]["noise"]) {
+    const bool open = noise["test"] == "axial";
+    EXPECT_EQ(noise["source"], open ? "encompassing" : "stated");
+    EXPECT_EQ(noise["freedom"].is_number() && noise["neighbours"].is_number(), open);
+  }
 }
 
 TEST(DiagnoseBatch, GoesThroughFoldersAndSkipsWhatIsDone) {

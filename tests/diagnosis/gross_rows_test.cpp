@@ -51,7 +51,7 @@ TEST(GrossRows, AWrongRowIsSuspectDataWhereOutliersAreNotAskedFor) {
 }
 
 // Twenty standard deviations of a noise that is estimated: without that row, which would make it four times as large.
-// Seed 37; 27 of 28 differences of each strip: four standard deviations of σ, 6e-5.
+// Seed 37: four standard deviations of σ, 6e-5.
 TEST(GrossRows, AWrongRowIsNoNoise) {
   Measured measured;
   measured.measure(

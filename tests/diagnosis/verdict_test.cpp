@@ -52,21 +52,6 @@ TEST(Verdict, WhereThereIsNothingItSaysWhatCouldHide) {
       words, AllOf(HasSubstr("NOTHING DETECTED"), HasSubstr("no trace in these data: "), HasSubstr("viscoelasticity")));
 }
 
-TEST(Verdict, DoubtsAmplitudesOfCausesAndRivals) {
-  Diagnosis found;
-  found.explanation.verdict = Verdict::indistinguishable;
-  found.explanation.claim.named = 1;
-  found.explanation.claim.ambiguity_set = {"first", "second"};
-  found.explanation.claim.causes = {diagnosis::Cause(), diagnosis::Cause()};
-  found.explanation.claim.causes[0].id = "first";
-  found.explanation.claim.causes[1].id = "second";
-  found.explanation.claim.causes[0].amplitude = {"value", "kPa", 3, 2, 4, true};
-  found.explanation.claim.causes[1].amplitude = {"value", "1", 9, 8, 10, false, false};
-  const std::string words = in_one_line(diagnosis::summary(found).plain());
-  EXPECT_THAT(words, HasSubstr("value = 3 kPa (2 … 4), at its bound; probability 0.00"));
-  EXPECT_THAT(words, HasSubstr("second (0.00, beyond what is plausible)"));
-}
-
 TEST(Verdict, FitsInto80ColumnsHoweverLongTheNames) {
   const Measured measured;
   measured.measure(31);

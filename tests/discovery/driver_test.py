@@ -18,7 +18,8 @@ here = pathlib.Path(__file__).resolve().parent.parent
 word = lambda name: sys.argv[sys.argv.index(name) + 1]
 """
 GENERATOR = NOTE + """
-case = pathlib.Path(word("--out")) / ("case-" + word("--set") + word("--cases").replace(":", "-"))
+case = pathlib.Path(word("--out")) / ("case-" + word("--set") + word("--cases").replace(":", "-") + ("-".join(
+    sys.argv[sys.argv.index("--base"):]) if "--base" in sys.argv else ""))
 case.mkdir(parents=True, exist_ok=True)
 (case / "truth.sha256").write_text("0")
 """
@@ -76,6 +77,8 @@ class Driver(unittest.TestCase):
         cases = {}
         for line in self.calls("discovery_generator"):
             words = line.split()
+            if any(word in words for word in ("--base", "--protocol", "--noise-not-stated", "--order-not-recorded")):
+                continue
             first, last = map(int, words[words.index("--cases") + 1].split(":"))
             noise = words[words.index("--noise") + 1]
             what = words[words.index("--set") + 1]
@@ -84,8 +87,38 @@ class Driver(unittest.TestCase):
         self.assertGreaterEqual(sum(count for (what, _), count in cases.items() if what == "singles"), 40)
         self.assertGreaterEqual(cases["pairs", "white"], 60)
         singles = [line for line in self.calls("discovery_generator") if "--set singles" in line]
-        self.assertTrue(all("--lambda 10 25 60 150 --oracle" in line for line in singles))
+        classes = ("--base", "--protocol", "--noise-not-stated", "--order-not-recorded")
+        plain = [line for line in singles if not any(word in line for word in classes)]
+        self.assertTrue(all("--lambda 10 25 60 150 --oracle" in line for line in plain))
+        others = [line for line in singles if line not in plain and "--noise-not-stated" not in line]
+        self.assertTrue(all("--oracle" in line and " 25 60 " in line for line in others))
+        self.assertNotIn("--selected", self.calls("discovery_score")[0])
         self.assertTrue(all("--oracle" in line for line in self.calls("discovery_generator") if "--set pairs" in line))
+
+    def test_a_share_of_some_classes(self):
+        self.run_driver("--classes", "unstated", "yeoh", "--share", "0.5")
+        calls = self.calls("discovery_generator")
+        silent = [line for line in calls if "--noise-not-stated" in line and "--set singles" in line]
+        stated = [line for line in calls if "--set singles" in line and not any(
+            word in line for word in ("--base", "--protocol", "--noise-not-stated"))]
+        count = lambda lines: sum(int(b) - int(a) for a, b in
+                                  (line.split("--cases ")[1].split()[0].split(":") for line in lines))
+        self.assertEqual(count(silent), 5)
+        self.assertEqual(count(stated), 5, "the same data with the noise stated")
+        self.assertTrue(all("--oracle" in line for line in stated))
+        nulls = [line for line in calls if "--base yeoh --protocol rubber" in line and "--set nulls" in line]
+        self.assertEqual(count(nulls), 200)
+        score = self.calls("discovery_score")[0]
+        self.assertIn("--selected", score)
+        self.assertIn("Classes unstated, yeoh; share 0.5.", score)
+        self.assertIn("expected a number above 0", self.run_driver("--share", "2").stderr)
+
+    def test_every_diagnosis_is_timed(self):
+        self.run_driver("--classes", "yeoh", "--share", "0.01")
+        seconds = json.loads((self.out / "seconds.json").read_text())
+        self.assertEqual(set(seconds), {case.name for case in (self.out / "cases").iterdir()})
+        self.assertTrue(all(value >= 0 for value in seconds.values()))
+        self.assertFalse((self.out / "shards").exists())
 
     def test_verdicts_of_another_build_are_made_anew(self):
         self.run_driver("--reduced")

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The generator from outside, and what its cases promise.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "bases.hpp"
 #include "cli/process.hpp"
 #include "execution/folder.hpp"
 #include "oracle.hpp"
@@ -117,9 +120,9 @@ TEST(Generator, SolvesTheTubeToATenThousandthOfTheNoise) {
   const blind::World world = blind::world_with(made.specimen, {made.hidden.at(0).hidden});
   const auto layout = blind::channels(made.specimen.protocol);
   const blind::Noise noise = made.noise.about(made.specimen.protocol, made.truth);
-  for (std::size_t i = 0; i < blind::tube_count; ++i) {
+  for (std::size_t i = 0; i < made.specimen.protocol.tubes.size(); ++i) {
     const auto fine = blind::record(made.specimen.protocol.tubes[i], world.tissue, world.tubes[i], 400);
-    const blind::Channel& force = layout[blind::strip_count + 2 * i + 1];
+    const blind::Channel& force = layout[made.specimen.protocol.strips.size() + 2 * i + 1];
     for (std::size_t row = 0; row < force.count; ++row)
       EXPECT_NEAR(made.truth[force.first + row], fine.force[row],
                   1e-4 * noise.sd[static_cast<Eigen::Index>(force.first + row)]);
@@ -142,6 +145,108 @@ TEST(Generator, AddsTheNoiseThatItStates) {
     }
     EXPECT_NEAR(squares, 4080, 360) << kind;
   }
+}
+
+// 20 nulls of 220 (sheets) and 89 (rubber) observations, seed 3: χ² with 4400 and 1780 degrees of freedom, sd 94 and
+// 60; within four of them with probability 0.99994.
+TEST(Generator, AddsTheNoiseThatItStatesToSheetsAndRubber) {
+  for (const auto& [base, protocol, count] :
+       {std::tuple(blind::Base::gho, "sheets", 220), {blind::Base::ogden, "rubber", 89}}) {
+    double squares = 0;
+    for (std::size_t index = 0; index < 20; ++index) {
+      const blind::SealedCase made = blind::make({3, "nulls", "", 0, index, {"white"}, base, protocol});
+      ASSERT_EQ(made.truth.size(), static_cast<std::size_t>(count));
+      std::vector<double> error = made.records.replicates.at(0);
+      for (std::size_t i = 0; i < error.size(); ++i) error[i] -= made.truth[i];
+      squares += blind::whiten(made.specimen.protocol, made.noise.about(made.specimen.protocol, made.truth), error)
+                     .squaredNorm();
+    }
+    EXPECT_NEAR(squares, 20 * count, 4 * std::sqrt(40.0 * count)) << protocol;
+  }
+}
+
+TEST(Generator, LeavesOutNothingButTheNoiseWhereItIsNotStated) {
+  const Folder folder;
+  const std::vector<std::string> order{"--out", "a", "--set", "singles", "--effect", "active_tone", "--lambda", "60"};
+  auto silent = order;
+  silent.insert(silent.end(), {"--noise-not-stated"});
+  ASSERT_EQ(generator(order, folder).code, 0);
+  ASSERT_EQ(generator(silent, folder).code, 0);
+  blind::CaseOrder stated{1, "singles", "active_tone", 60, 0, {"white", "relative", "quantised"}};
+  blind::CaseOrder unstated = stated;
+  unstated.noise_stated = false;
+  ASSERT_NE(stated.name(), unstated.name());
+  const auto place = folder.path() / "a";
+  const auto of = [&](const blind::CaseOrder& one, const char* file) { return text_of(place / one.name() / file); };
+  for (const char* file : {"axial_strip.csv", "inflation_low.csv"}) EXPECT_EQ(of(stated, file), of(unstated, file));
+  EXPECT_THAT(of(stated, "experiment.json"), HasSubstr("\"noise\""));
+  EXPECT_THAT(of(unstated, "experiment.json"), ::testing::Not(HasSubstr("\"noise\"")));
+  const auto truth = nlohmann::json::parse(text_of(place / "sealed" / (unstated.name() + ".json")));
+  EXPECT_EQ(truth.at("stated_twin"), stated.name());
+  EXPECT_EQ(truth.at("class").at("noise_stated"), false);
+  EXPECT_GT(truth.at("noise").at("channels").at(0).at("absolute").get<double>(), 0) << "the sealed truth knows";
+}
+
+TEST(Generator, MixesTheRowsWhereNobodyRecordedTheirOrder) {
+  blind::CaseOrder order{3, "nulls", "", 0, 0, {"white"}};
+  order.order_recorded = false;
+  const blind::SealedCase made = blind::make(order);
+  std::size_t reversed = 0;
+  for (const auto& [test, rows] : made.rows) {
+    EXPECT_EQ((std::set<std::size_t>(rows.begin(), rows.end())).size(), rows.size()) << "every row once";
+    EXPECT_FALSE(std::is_sorted(rows.begin(), rows.end()));
+    reversed += std::is_sorted(rows.rbegin(), rows.rend());
+  }
+  EXPECT_EQ(made.rows.size(), 5U);
+  EXPECT_LE(reversed, 5U);
+  const Folder folder;
+  blind::write(order, folder.path());
+  EXPECT_EQ(text_of(folder.path() / order.name() / "axial_strip.csv").find("time"), std::string::npos);
+  EXPECT_EQ(text_of(folder.path() / order.name() / "experiment.json").find("time"), std::string::npos);
+  order.set = "singles";
+  order.effect = "viscoelasticity";
+  EXPECT_THROW((void)blind::make(order), std::invalid_argument);
+}
+
+TEST(Generator, HidesOnlyWhatMakesSense) {
+  const auto offered = [](blind::Base base, const char* protocol) {
+    std::mt19937_64 random(1);
+    const blind::Specimen specimen = blind::draw_specimen(random, base, protocol);
+    std::set<std::string> ids;
+    for (const blind::Effect& effect : blind::catalogue())
+      if (blind::makes_sense(effect, specimen)) ids.insert(effect.id);
+    return ids;
+  };
+  EXPECT_EQ(offered(blind::Base::yeoh, "rubber"),
+            (std::set<std::string>{"second_invariant", "stress_softening", "viscoelasticity", "reference_length_error",
+                                   "force_scale_error", "force_offset", "signal_drift", "outliers"}));
+  EXPECT_EQ(offered(blind::Base::gho, "sheets"),
+            (std::set<std::string>{"axial_fibres", "circumferential_fibres", "matrix_stiffening", "chain_extensibility",
+                                   "second_invariant", "fibre_recruitment", "active_tone", "stress_softening",
+                                   "viscoelasticity", "signal_drift", "outliers"}));
+  EXPECT_EQ(offered(blind::Base::hgo, "artery").size(), blind::catalogue().size());
+  std::mt19937_64 random(1);
+  EXPECT_THROW((void)blind::draw_specimen(random, blind::Base::yeoh, "artery"), std::invalid_argument);
+}
+
+// Closed forms of Holzapfel et al. 2015, eqs. 2.13 and 2.16 have Bessel and error functions: here those of two
+// densities that need none. No scatter out of the wall for b → ∞; the whole circle of the wall for a = 0.
+TEST(Generator, IntegratesScatterInTheWallAndOutOfIt) {
+  const blind::Scatter flat = blind::scatter_in_and_out(0, 1e4);
+  EXPECT_NEAR(flat.along, 0.5, 1e-4);
+  EXPECT_NEAR(flat.across, 0.5, 1e-4);
+  EXPECT_NEAR(flat.normal, 1 / (4e4 + 0.0), 2e-8) << "1/(4b) for large b";
+  const blind::Scatter sphere = blind::scatter_in_and_out(0, 0);
+  EXPECT_NEAR(sphere.along, 1. / 3, 1e-6);
+  EXPECT_NEAR(sphere.across, 1. / 3, 1e-6);
+  EXPECT_NEAR(sphere.normal, 1. / 3, 1e-6);
+  const blind::Scatter both = blind::scatter_in_and_out(2, 10);
+  // κ_ip = ½ − I1(a)/(2 I0(a)); κ_op = ½ − 1/(8b) + √(2/(πb)) exp(−2b)/(4 erf √(2b)).
+  const double in = 0.5 - std::cyl_bessel_i(1., 2.) / (2 * std::cyl_bessel_i(0., 2.)),
+               out = 0.5 - 1. / 80 +
+                     0.25 * std::sqrt(2 / (std::numbers::pi * 10)) * std::exp(-20.) / std::erf(std::sqrt(20.));
+  EXPECT_NEAR(both.across, 2 * out * in, 1e-6);
+  EXPECT_NEAR(both.along - both.across, 2 * out * (1 - 2 * in), 1e-6);
 }
 
 // κ of von Mises fibres comes out of the angular integration; the trace of H is 1.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "bases.hpp"
 #include "cli/process.hpp"
 #include "execution/folder.hpp"
 #include "sealed_case.hpp"
@@ -75,10 +76,9 @@ std::vector<double> column(const std::filesystem::path& file, const std::string&
 json experiment_of(const blind::SealedCase& made, const std::filesystem::path& folder) {
   json experiment = json::parse(text_of(folder / "experiment.json"));
   const blind::Tissue& base = made.specimen.tissue;
-  experiment["models"]["hgo"]["parameters"] = {{"mu", {{"fixed", base.mu}}},
-                                               {"k1", {{"fixed", base.k1}}},
-                                               {"k2", {{"fixed", base.k2}}},
-                                               {"theta", {{"fixed", base.theta}}}};
+  json& model = experiment["models"][blind::name_of(base.base)];
+  for (const auto* list : {&blind::fitted(base.base), &blind::held(base.base)})
+    for (const blind::BaseParameter& one : *list) model["parameters"][one.name] = {{"fixed", base.*one.member}};
   for (const blind::ScaledEffect& one : made.hidden) {
     const blind::HiddenEffect& hidden = one.hidden;
     const MechanismNames& of = words().at(hidden.effect->id);
@@ -91,15 +91,15 @@ json experiment_of(const blind::SealedCase& made, const std::filesystem::path& f
     using enum blind::Effect::Where;
     switch (hidden.effect->where) {
       case material:
-        experiment["models"]["hgo"]["mechanisms"].push_back(entry);
+        model["mechanisms"].push_back(entry);
         break;
       case strip:
-        into_test(blind::strip_names()[*hidden.target.strip]);
+        into_test(made.specimen.protocol.strips[*hidden.target.strip].name);
         break;
       case all_tubes:
       case tube_or_all:
-        for (std::size_t i = 0; i < blind::tube_count; ++i)
-          if (hidden.target.tube.value_or(i) == i) into_test(blind::tube_names()[i]);
+        for (std::size_t i = 0; i < made.specimen.protocol.tubes.size(); ++i)
+          if (hidden.target.tube.value_or(i) == i) into_test(made.specimen.protocol.tubes[i].name);
         break;
       case channel:
       case points: {
@@ -121,7 +121,8 @@ double largest_difference(const blind::CaseOrder& order) {
   const blind::SealedCase made = blind::make(order);
   const auto place = folder.path() / order.name();
   std::ofstream(place / "known.json") << experiment_of(made, place).dump(1);
-  const auto ended = tunica::trial::tunica({"simulate", "known.json", "--model", "hgo", "-o", "out"}, place);
+  const auto ended =
+      tunica::trial::tunica({"simulate", "known.json", "--model", blind::name_of(order.base), "-o", "out"}, place);
   EXPECT_EQ(ended.code, 0) << ended.err;
   if (ended.code != 0) return std::numeric_limits<double>::infinity();
   const blind::Noise noise = made.noise.about(made.specimen.protocol, made.truth);
@@ -147,6 +148,87 @@ TEST(GeneratorPhysics, BaseCurvesAgreeToAHundredthOfTheNoise) {
     const double off = largest_difference({11, "nulls", "", 0, index, {"none"}});
     EXPECT_LT(off, 0.01) << "case " << index;
   }
+}
+
+using OtherClass = std::pair<blind::Base, std::string>;
+class OtherPhysics : public ::testing::TestWithParam<OtherClass> {};
+
+TEST_P(OtherPhysics, AgreesWithTheProgramInTheBaseAndInEveryEffectThatMakesSense) {
+  const auto& [base, protocol] = GetParam();
+  for (std::size_t index = 0; index < 3; ++index)
+    EXPECT_LT(largest_difference({11, "nulls", "", 0, index, {"none"}, base, protocol}), 0.01) << "case " << index;
+  std::mt19937_64 random(1);
+  const blind::Specimen like = blind::draw_specimen(random, base, protocol);
+  for (const blind::Effect& effect : blind::catalogue()) {
+    if (!blind::makes_sense(effect, like)) continue;
+    const double off = largest_difference({11, "singles", effect.id, 60, 0, {"none"}, base, protocol});
+    EXPECT_LT(off, 0.05) << effect.id;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, OtherPhysics,
+    ::testing::Values(OtherClass{blind::Base::gho, "artery"}, OtherClass{blind::Base::holzapfel_2015, "artery"},
+                      OtherClass{blind::Base::four_fibre, "artery"}, OtherClass{blind::Base::hgo, "sheets"},
+                      OtherClass{blind::Base::gho, "sheets"}, OtherClass{blind::Base::yeoh, "rubber"},
+                      OtherClass{blind::Base::ogden, "rubber"}),
+    [](const auto& test) { return blind::name_of(test.param.first) + "_" + test.param.second; });
+
+// physics.md, section 9: strips of set S, the lateral stretch found by an independent implementation.
+TEST(GeneratorPhysics, GivesTheReferenceValuesOfSetS) {
+  blind::Tissue tissue;
+  tissue.base = blind::Base::gho;
+  tissue.mu = 18.668;
+  tissue.k1 = 24.905;
+  tissue.k2 = 0.2912;
+  tissue.kappa = 0.1367;
+  tissue.theta = 46.44;
+  using enum blind::Material::First;
+  const std::vector<double> stretches{1.1, 1.3, 1.5, 1.8};
+  const auto around = blind::recorded_stress({circumferential, {0, 1, 2, 3}, stretches}, tissue, {}),
+             along = blind::recorded_stress({axial, {0, 1, 2, 3}, stretches}, tissue, {});
+  const std::vector<double> expected_around{6.68600383, 26.03758025, 59.13356144, 159.17183865},
+      expected_along{6.29738969, 23.65781361, 52.36950158, 136.00590423};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(around[i] / expected_around[i], 1, 1e-6);
+    EXPECT_NEAR(along[i] / expected_along[i], 1, 1e-6);
+  }
+}
+
+// σ = (λ² − 1/λ) · 2 W1 of Yeoh; Σ μ (λ^α − λ^(−α/2)) of Ogden; equibiaxial and pure shear likewise.
+TEST(GeneratorPhysics, GivesTheClosedFormsOfRubber) {
+  blind::Tissue yeoh, ogden;
+  yeoh.base = blind::Base::yeoh;
+  yeoh.c10 = 200;
+  yeoh.c20 = -2;
+  yeoh.c30 = 0.1;
+  ogden.base = blind::Base::ogden;
+  ogden.mu_1 = 600;
+  ogden.alpha_1 = 1.3;
+  ogden.mu_2 = -10;
+  ogden.alpha_2 = -2;
+  const double l = 2.5;
+  const auto strip = [&](const blind::Tissue& rubber) {
+    return blind::recorded_stress({blind::Material::First::circumferential, {1}, {l}}, rubber, {}).at(0);
+  };
+  const auto sheet = [&](const blind::Tissue& rubber, blind::Sheet::Kind kind, double along) {
+    return blind::recorded_stresses({"", kind, {1}, {l}, {along}}, rubber).at(0).at(0);
+  };
+  const auto of_yeoh = [&](double thinnest, double middle) {
+    const double x = l * l + middle * middle + thinnest * thinnest - 3;
+    return 2 * (l * l - thinnest * thinnest) * (200 - 4 * x + 0.3 * x * x);
+  };
+  const auto of_ogden = [&](double thinnest) {
+    return 600 * (std::pow(l, 1.3) - std::pow(thinnest, 1.3)) - 10 * (std::pow(l, -2) - std::pow(thinnest, -2));
+  };
+  const double lateral = 1 / std::sqrt(l);
+  using enum blind::Sheet::Kind;
+  EXPECT_NEAR(strip(yeoh), of_yeoh(lateral, lateral), 1e-7);
+  EXPECT_NEAR(sheet(yeoh, equibiaxial, l), of_yeoh(1 / (l * l), l), 1e-7);
+  EXPECT_NEAR(sheet(yeoh, pure_shear, 1), of_yeoh(1 / l, 1), 1e-7);
+  EXPECT_NEAR(strip(ogden), of_ogden(lateral), 1e-7);
+  EXPECT_NEAR(sheet(ogden, equibiaxial, l), of_ogden(1 / (l * l)), 1e-7);
+  EXPECT_NEAR(sheet(ogden, pure_shear, 1), of_ogden(1 / l), 1e-7);
 }
 
 TEST(GeneratorPhysics, BothSidesListTheSameMechanisms) {

@@ -243,6 +243,9 @@ TEST_F(Messages, CheckMechanisms) {
   expect_within(
       refusal(R"({"type": "viscoelasticity"})", R"({"type": "viscoelasticity"}, {"type": "viscoelasticity"})"),
       "the mechanism 'viscoelasticity' appears twice in model 'gho'");
+  expect_within(refusal(R"({"type": "viscoelasticity"})",
+                        R"({"type": "viscoelasticity", "as": "slow"}, {"type": "viscoelasticity", "as": "slow"})"),
+                "the mechanism 'slow' appears twice in model 'gho'");
   expect_within(refusal(R"("weight": 1,)", R"("mechanisms": [{"type": "viscoelasticity"}],)"),
                 "the mechanism 'viscoelasticity' acts on models, not on tests");
   expect_within(refusal(R"("axial_stretch": 1.2,)", R"("mechanisms": [{"type": "force_offset"}],)"),

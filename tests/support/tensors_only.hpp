@@ -13,6 +13,7 @@ class TensorsOnly : public Model {
  public:
   explicit TensorsOnly(std::unique_ptr<Model> model) : model_(std::move(model)), description_(model_->describe()) {
     description_.principal_axes = false;
+    description_.axis_history_size = 0;
   }
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {

@@ -3,6 +3,7 @@
 
 #include "conformance/test_properties.hpp"
 #include "support/strip.hpp"
+#include "support/tensors_only.hpp"
 #include "support/tube.hpp"
 
 namespace tunica::testing {
@@ -72,10 +73,11 @@ TEST(TubeMessages, OverflowIsAStatusThatNamesTheRow) {
               "the energy overflows or is undefined on the path from rest, beyond");
 }
 
-TEST(TubeMessages, PathsWithHistoryHaveNoJacobian) {
+TEST(TubeMessages, PathsWithHistoryOnTensorsHaveNoJacobian) {
   const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
+  const TensorsOnly tensors(plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {}));
   std::vector<double> jacobian(8 * 2);
-  const Status status = make_tube({1})->predict({*viscous, {{60, 0.8, 5}}, bare_tube}, {{}, jacobian, {}, {}});
+  const Status status = make_tube({1})->predict({tensors, {{60, 0.8, 5}}, bare_tube}, {{}, jacobian, {}, {}});
   EXPECT_EQ(status.kind(), Status::Kind::failed);
   EXPECT_SAYS(status.reason(), "no exact Jacobian along the path of a model with history");
   const Inflation burst = inflate(*make_tube({1, 400}), *viscous, {60, 0.8, 5});

@@ -41,6 +41,13 @@ struct MechanismFactory {
     even       ///< on either side, with equal effect: the first derivative vanishes at the null
   };
 
+  /// What is not as the base simulation has it. Diagnosis shows causes in the material and causes in the rig apart.
+  enum class Origin {
+    by_stage,  ///< the material for stages before `test`, else the rig
+    material,  ///< the specimen: its substance, its layers, its residual stress, what surrounds it
+    rig        ///< the experiment: what was prescribed, read, measured or cut wrong
+  };
+
   /// Name in experiment files and reports, for example "fibre_dispersion".
   std::string id = {};
   /// One sentence for the report: what happens physically.
@@ -57,12 +64,28 @@ struct MechanismFactory {
   Side side = Side::positive;
   double plausible_min = 0,  ///< smallest amplitude that is physically plausible
       plausible_max = 0;     ///< largest plausible amplitude
+  /// Set for an amplitude in units of stress or of a channel, whose size depends on the specimen. The largest plausible
+  /// amplitude is then the one whose effect, with all else held, is this multiple of the range of the measured values;
+  /// five times as much is the bound. Diagnosis uses both in place of the declared ones. Without a unit, the amplitude
+  /// keeps at least its declared range. 0: the declared range holds for all data.
+  double plausible_effect = 0;
   /// Ids of mechanisms with a similar effect; an explanation names them.
   std::vector<std::string> look_alikes = {};
   /// The experiment that tells it from its look-alikes.
   std::string isolated_by = {};
   /// Source of formula and range.
   std::string reference = {};
+  /// The group that it belongs to in results.
+  Origin origin = Origin::by_stage;
+  /// Whether it acts along directions of the material, as fibres and muscle do. Diagnosis leaves it out where the base
+  /// model is isotropic, unless it is asked for by name.
+  bool directional = false;
+  /// Whether several of it side by side say more than one, as several relaxation times do. Diagnosis then tries a
+  /// second one where the first leaves more than noise.
+  bool several = false;
+  /// Whether a row depends on the rows before it, so that their order matters. Every mechanism of the stage `history`
+  /// has memory; those of later stages say so here, and then wrap the others of their stage.
+  bool memory = false;
   /// Options of its object in the experiment file.
   std::vector<Option> options = {};
 

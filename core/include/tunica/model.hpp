@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tunica/axis_step.hpp"
 #include "tunica/energy_part.hpp"
 #include "tunica/parameter.hpp"
 #include "tunica/status.hpp"
@@ -31,6 +32,11 @@ struct ModelDescription {
   /// Inequalities value ≥ 0 of an admissible material, beyond the bounds of single parameters. The host checks them at
   /// every result, and imposes them if the experiment file asks for it. `remedy` is not used.
   std::vector<Combination> admissible = {};
+  /// Whether evaluate_axes() writes `energy_dp`. Memory in principal axes may need it.
+  bool energy_derivatives = false;
+  /// Doubles of state that remember() carries for a point in principal axes; 0 = the model remembers in tensors only,
+  /// or not at all. With it, tests have exact derivatives along the whole path.
+  std::size_t axis_history_size = 0;
 };
 
 /// The input of one evaluation: a batch of n material points as a structure of arrays.
@@ -87,6 +93,9 @@ struct AxisResponse {
   std::span<double> hessian;
   /// n_p·3n entries: ∂g_a/∂p_j of point i at [(3j + a)n + i].
   std::span<double> gradient_dp;
+  /// n_p·n entries: ∂W/∂p_j of point i at [j·n + i]. Wanted only together with gradient_dp, and only if
+  /// ModelDescription::energy_derivatives is true.
+  std::span<double> energy_dp = {};
 };
 
 /// The constitutive response of a material.
@@ -95,9 +104,9 @@ struct AxisResponse {
 /// pressure and no isochoric split, so only its deviatoric part vanishes at rest. The test enforces incompressibility.
 /// Physics: docs/theory.md.
 ///
-/// Required: describe() and evaluate(). Optional: evaluate_axes(), the fast path of point tests; parts(), through which
-/// mechanisms change an energy that is a sum. Few authors implement this interface from nothing: tunica/models/ has
-/// bases that need only the energy.
+/// Required: describe() and evaluate(). Optional: evaluate_axes(), the fast path of point tests; remember(), the same
+/// for models with memory; parts(), through which mechanisms change an energy that is a sum. Few authors implement this
+/// interface from nothing: tunica/models/ has bases that need only the energy.
 ///
 /// Threads: every method is const and is called concurrently, so there is no mutable scratch in members. A call is a
 /// trial: it reads the old state and writes the new one, and a second call must give the same bits.
@@ -118,6 +127,13 @@ class Model {
   }
   /// The terms of the energy that mechanisms can change. Expose all of them, so that they add up to W, or none.
   [[nodiscard]] virtual std::span<const std::unique_ptr<EnergyPart>> parts() const { return {}; }
+  /// The model without memory whose response in principal axes remember() changes. Its parameters are the first ones.
+  [[nodiscard]] virtual const Model& elastic() const { return *this; }
+  /// Whether memory changes anything at these parameters. If not, elastic() answers alone, bit for bit.
+  [[nodiscard]] virtual bool remembers([[maybe_unused]] std::span<const double> parameters) const { return false; }
+  /// One step of one point along its path in principal axes: adds memory to the response of elastic(), and takes the
+  /// state on. Called only if ModelDescription::axis_history_size is not 0, first at rest, then row by row.
+  virtual void remember([[maybe_unused]] const AxisStep& step) const {}
 };
 
 }  // namespace tunica

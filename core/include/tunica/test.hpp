@@ -37,6 +37,10 @@ struct Observable {
   std::string doc;
   /// What the host checks and converts.
   Kind kind = Kind::plain;
+  /// Of a channel: the abscissa that plots and messages lay it over, for example the axial stretch of an axial stress.
+  /// Empty: the host takes the abscissa that the rows sweep. It also does so where the data do not map this one, or
+  /// hold it while another one is swept.
+  std::string over = {};
 };
 
 /// The rows of one experiment in loading order, in base units. Spans live as long as the call that receives them.
@@ -82,6 +86,11 @@ struct TestDescription {
   /// The material axis that a strip with free lateral faces is pulled along to its abscissa "stretch": 0 =
   /// circumferential, 1 = axial. The host then checks transverse stability. None for other tests.
   std::optional<std::size_t> free_strip_axis = {};
+  /// Whether the Jacobian is exact along the whole path of a model with memory too, if ModelDescription says that the
+  /// model can be followed (axis_history_size). Where it is not, the host differences predictions.
+  bool path_derivatives = false;
+  /// Own parameters that have to rest at their null for that: if one is free or elsewhere, the host differences.
+  std::vector<std::string> path_exceptions = {};
   /// Whether a prediction takes long, as with finite elements. The host then runs cheaper tests first, and skips this
   /// one where those fail. Where a constraint is violated it runs only for optimizers that need it, see
   /// Optimizer::Needs::infeasible.
@@ -161,7 +170,8 @@ struct Snapshot {
 /// tunica/tests/decorated_test.hpp.
 ///
 /// Derivatives: the Jacobian is exact wherever the model has parameter derivatives. Where it has none, the test
-/// returns `failed` if a Jacobian is wanted, and the host differences whole predictions.
+/// returns `failed` if a Jacobian is wanted, and the host differences whole predictions. With a model that remembers,
+/// it is exact if TestDescription::path_derivatives says so.
 /// Threads: every method is const and is called concurrently.
 /// Failure: a status whose reason names row and abscissa; never a NaN under `ok`, never an exception.
 /// Ownership: the test owns its copy of the rows, and what describe() returns.

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/curves.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::assembly {
@@ -17,9 +18,28 @@ std::string unit_of(const std::string& name, const std::vector<Observable>& obse
   return found == observables.end() ? std::string() : found->unit;
 }
 
+/// The abscissa of a channel among those of its test; the number of the row where there is none.
+DrawnOver drawn_over(const std::string& channel, const data::Dataset& dataset,
+                     const std::vector<Observable>& observables) {
+  DrawnOver drawn{"row", "1", {}, {}};
+  if (dataset.abscissae.empty()) {
+    for (std::size_t row = 0; row < dataset.count; ++row) drawn.values.push_back(static_cast<double>(row));
+    return drawn;
+  }
+  std::vector<data::Prescribed> prescribed;
+  for (const auto& [name, values] : dataset.abscissae) prescribed.push_back({name, unit_of(name, observables), values});
+  std::string own;
+  for (const Observable& observable : observables)
+    if (observable.name == channel) own = observable.over;
+  data::Abscissa chosen = data::abscissa_of(prescribed, own);
+  data::Prescribed& over = prescribed[chosen.column];
+  return {std::move(over.name), std::move(over.unit), std::move(over.values), std::move(chosen.curves)};
+}
+
 }  // namespace
 
-std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count) {
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, const data::Dataset& dataset) {
+  const std::size_t count = dataset.count;
   std::vector<bool> fitted(count, !entry.hold_out.all);
   if (entry.hold_out.all || !entry.hold_out.rows) return fitted;
   const data::RowRange& range = *entry.hold_out.rows;
@@ -30,7 +50,10 @@ std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t co
   }
   const std::size_t last = std::min(range.last.value_or(count), count);
   for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
-  return fitted;
+  if (dataset.file_rows.empty()) return fitted;
+  std::vector<bool> sorted;
+  for (const std::size_t row : dataset.file_rows) sorted.push_back(fitted[row]);
+  return sorted;
 }
 
 std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entry, const data::Dataset& dataset,
@@ -56,7 +79,8 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
       measured.noise->absolute /= root;
       measured.noise->relative /= root;
     }
-    measured.fitted = fitted_rows(entry, dataset.count);
+    measured.fitted = fitted_rows(entry, dataset);
+    measured.file_rows = dataset.file_rows;
     if (!entry.weights.empty()) measured.weight = entry.weights[k];
     if (!dataset.abscissae.empty()) {
       const auto& [name, values] = dataset.abscissae.front();
@@ -72,6 +96,7 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
       measured.abscissa_unit = "1";
       for (std::size_t row = 0; row < dataset.count; ++row) measured.abscissa.push_back(static_cast<double>(row));
     }
+    measured.drawn_over = drawn_over(channel.observable, dataset, observables);
     found.push_back(std::move(measured));
   }
   return found;

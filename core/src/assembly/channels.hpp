@@ -12,8 +12,8 @@
 
 namespace tunica::assembly {
 
-/// Which of the rows of a test are fitted: those that are not held out.
-std::vector<bool> fitted_rows(const experiment::TestEntry& entry, std::size_t count);
+/// Which of the rows of a test are fitted: those that are not held out. The file's rows are meant, wherever they stand.
+std::vector<bool> fitted_rows(const experiment::TestEntry& entry, const data::Dataset& dataset);
 
 /// What one test measured, channel by channel; its first row lies at `offset` of the predictions. Throws InputError
 /// where weights or held-out rows do not fit the data.

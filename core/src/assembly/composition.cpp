@@ -41,11 +41,11 @@ std::vector<Layer> layers(const std::vector<MechanismEntry>& entries, const plug
   std::set<std::string> seen;
   for (const MechanismEntry& entry : entries) {
     const MechanismOnShelf& mechanism = look_up(catalogue.mechanisms(), entry.type, "mechanism");
-    if (!seen.insert(entry.type).second) {
+    if (!seen.insert(entry.name()).second) {
       throw InputError(
           fmt::format("{}: the mechanism '{}' is listed twice, so its parameters would share their names; "
-                      "keep one",
-                      owner, entry.type));
+                      "keep one, or name one of them with \"as\"",
+                      owner, entry.name()));
     }
     const bool acts_on_model = mechanism.factory.stage < Stage::test;
     if (acts_on_model != on_model) {
@@ -55,7 +55,8 @@ std::vector<Layer> layers(const std::vector<MechanismEntry>& entries, const plug
     found.push_back({&entry, &mechanism});
   }
   std::stable_sort(found.begin(), found.end(), [](const Layer& a, const Layer& b) {
-    return a.mechanism->factory.stage < b.mechanism->factory.stage;
+    const MechanismFactory &one = a.mechanism->factory, &other = b.mechanism->factory;
+    return std::pair(one.stage, one.memory) < std::pair(other.stage, other.memory);
   });
   return found;
 }
@@ -93,9 +94,9 @@ void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decora
   for (std::size_t k = 0; k < declared.size(); ++k) {
     names.push_back(declared[k].name);
     slots.push_back({decorated[first + k], setting_of(layer.entry->parameters, declared[k].name)});
-    slots.back().declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->type, declared[k].name);
+    slots.back().declaration.name = fmt::format("{}{}.{}", prefix, layer.entry->name(), declared[k].name);
   }
-  refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->type, owner));
+  refuse_unknown(layer.entry->parameters, names, fmt::format("mechanism '{}' of {}", layer.entry->name(), owner));
 }
 
 /// Parameters that tests of the type have, but not one with these options.

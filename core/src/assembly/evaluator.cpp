@@ -136,7 +136,11 @@ Status Evaluator::predict_test(const RunTest& test, std::span<const double> at, 
     return difference(test, at, values, workspace);
   }
   const std::span<double> by_slot(workspace.jacobian.data(), test.slots() * size);
-  if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) return status;
+  if (Status status = call(test, at, values, by_slot, workspace); !status.ok()) {
+    // A path along which derivatives cannot be carried may still be simulated.
+    if (test.model->describe().history_size == 0 || !call(test, at, values, {}, workspace).ok()) return status;
+    return difference(test, at, values, workspace);
+  }
   for (const auto& [into, from] : test.sums) {
     for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
   }

@@ -40,19 +40,31 @@ struct FixedParameter {
   DeclaredRange declared = {};
 };
 
+/// What plots and messages lay a channel over.
+struct DrawnOver {
+  std::string name, unit;
+  std::vector<double> values;       ///< one a row
+  std::vector<std::string> curves;  ///< one a row, "stretch_axial = 1.3", of a family of curves; else empty
+};
+
 /// One channel of one test: what was measured, and where its rows lie in the vector of all predictions.
 struct MeasuredChannel {
   std::string test, observable, unit;
   std::size_t offset = 0, count = 0;  ///< rows [offset, offset + count) of the predictions
   std::vector<double> measured;       ///< count
-  std::vector<double> abscissa;       ///< count; the test's first abscissa, for plots and messages
+  std::vector<double> abscissa;       ///< count; the test's first abscissa
   std::string abscissa_name, abscissa_unit;
   /// "name [unit]" → count values
   std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
-  std::vector<bool> fitted;  ///< count; false = held out
+  DrawnOver drawn_over;                     ///< the abscissa of this channel, see data/curves.hpp
+  std::vector<bool> fitted;                 ///< count; false = held out
+  std::vector<std::size_t> file_rows = {};  ///< count, data::Dataset::file_rows; empty = in the order of the file
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
   ChannelNoise sigma = {};           ///< of the fitted rows, stated or not: what everything that needs a noise reads
+
+  /// The number that a row has in the file, behind `where` and `rows`.
+  [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
 };
 
 /// What a run consists of; nothing in it depends on parameter values.

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
+#include "numerics/distributions.hpp"
 
 namespace tunica::assembly {
 
@@ -38,10 +37,8 @@ Misfit misfit(const Assembly& assembly, NoiseKind kind, std::span<const double> 
   const double parameters = static_cast<double>(assembly.layout().parameters.size());
   found.freedom = static_cast<double>(found.rows) * (1 - parameters / fitted);
   if (!found.judged() || !std::isfinite(found.chi_square)) return found;
-  using namespace boost::math;
-  found.chance = found.noise_freedom > 0
-                     ? cdf(complement(fisher_f(found.freedom, found.noise_freedom), found.per_freedom()))
-                     : cdf(complement(chi_squared(found.freedom), found.chi_square));
+  found.chance = found.noise_freedom > 0 ? numerics::f_above(found.per_freedom(), found.freedom, found.noise_freedom)
+                                         : numerics::chi_squared_above(found.chi_square, found.freedom);
   return found;
 }
 

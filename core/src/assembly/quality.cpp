@@ -36,7 +36,7 @@ std::vector<ChannelQuality> quality(const Assembly& assembly, std::span<const do
       measured[view.fitted[i]].push_back(view.measured[i]);
       predicted[view.fitted[i]].push_back(predictions[view.offset + i]);
     }
-    ChannelQuality found{view.test, view.observable, view.unit, {}, {}};
+    ChannelQuality found{view.test, view.observable, view.unit, view.drawn_over.name, {}, {}};
     if (!measured[1].empty()) found.fitted = agreement(measured[1], predicted[1]);
     if (!measured[0].empty()) found.held_out = agreement(measured[0], predicted[0]);
     all.push_back(std::move(found));

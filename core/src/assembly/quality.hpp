@@ -19,7 +19,7 @@ struct Agreement {
 };
 
 struct ChannelQuality {
-  std::string test, observable, unit;
+  std::string test, observable, unit, over;   ///< over: the abscissa that it is drawn over
   std::optional<Agreement> fitted, held_out;  ///< none without such rows
 };
 

@@ -5,6 +5,28 @@
 #include <optional>
 
 namespace tunica::assembly {
+namespace {
+
+/// Whether a parameter that has to rest at its null for exact derivatives along a path is free, or rests elsewhere.
+bool off_the_path(const RunTest& test) {
+  const TestDescription& description = test.test->describe();
+  for (const std::string& name : description.path_exceptions)
+    for (std::size_t j = 0; j < description.parameters.size(); ++j) {
+      if (description.parameters[j].name != name) continue;
+      if (test.own.values[j] != description.nulls[j] ||
+          std::any_of(test.own.links.begin(), test.own.links.end(),
+                      [j](const Link& link) { return link.position == j; }))
+        return true;
+    }
+  return false;
+}
+
+bool has_derivatives(const RunTest& test, const ModelDescription& model) {
+  if (model.history_size == 0) return model.parameter_derivatives;
+  return model.axis_history_size > 0 && test.test->describe().path_derivatives && !off_the_path(test);
+}
+
+}  // namespace
 
 void assign_models(RunTest& test, const experiment::TestEntry& entry, const std::vector<RunModel>& models) {
   const auto add = [&test](const RunModel& model) {
@@ -12,7 +34,7 @@ void assign_models(RunTest& test, const experiment::TestEntry& entry, const std:
     const std::vector<double>& values = model.parameters.values;
     test.materials.values.insert(test.materials.values.end(), values.begin(), values.end());
     for (const Link& link : model.parameters.links) test.materials.links.push_back({first + link.position, link.index});
-    test.differenced = test.differenced || !model.model->describe().parameter_derivatives;
+    test.differenced = test.differenced || !has_derivatives(test, model.model->describe());
     if (test.model_plugins.find(model.plugin) == std::string::npos)
       test.model_plugins += (test.model_plugins.empty() ? "" : ", ") + model.plugin;
   };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::assembly {
 namespace {
@@ -92,8 +92,7 @@ std::array<double, most_terms + 1> squares_left(std::span<const double> values, 
     shapes.col(k) = k == 0   ? Eigen::VectorXd::Ones(n)
                     : k == 1 ? x
                              : Eigen::VectorXd(2 * x.cwiseProduct(shapes.col(k - 1)) - shapes.col(k - 2));
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(shapes);
-  const Eigen::VectorXd along = qr.householderQ().transpose() * y;
+  const Eigen::VectorXd along = numerics::rotated(shapes, y);
   std::array<double, most_terms + 1> left{};
   for (std::size_t k = 0; k < left.size(); ++k) {
     const Eigen::Index taken = std::min(static_cast<Eigen::Index>(k), terms);

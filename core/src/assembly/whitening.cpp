@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include "assembly/misfit.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::assembly {
 namespace {
@@ -38,8 +36,8 @@ std::vector<double> deviations_about(const MeasuredChannel& view, std::span<cons
 
 double Whitening::quantile(std::size_t parameters) const {
   const double freedom = static_cast<double>(count()) - static_cast<double>(parameters);
-  return (stated && widening == 1) || freedom < 1 ? boost::math::quantile(boost::math::normal(), 0.975)
-                                                  : boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  return (stated && widening == 1) || freedom < 1 ? numerics::normal_quantile(0.975)
+                                                  : numerics::student_quantile(0.975, freedom);
 }
 
 Whitening whitening(const Assembly& assembly, std::span<const double> predictions, std::span<const double> measured,

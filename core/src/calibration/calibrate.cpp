@@ -92,6 +92,9 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   outcome.directory = folder.path();
   if (options.started) options.started({plan, outcome.directory});
 
+  std::function<void()> leave;
+  if (options.abandon) leave = [&options, directory = outcome.directory] { options.abandon(directory); };
+  const execution::InterruptLimit limit(std::move(leave));
   const auto found = search(plan, outcome.directory, options);
   outcome.write_failure = found.write_failure;
   if (!found.write_failure.empty()) outcome.ending = Outcome::Ending::write_failure;

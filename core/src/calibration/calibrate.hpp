@@ -36,6 +36,8 @@ struct Options {
   /// Asks a fresh process about the best points that stand in the file of the folder.
   std::function<Certified(const std::filesystem::path& directory, const std::filesystem::path& points)> certify = {};
   std::function<void(const Start&)> started = {};  ///< called before the first evaluation
+  /// Called by another thread where something does not stop soon after Ctrl-C; ends the process.
+  std::function<void(const std::filesystem::path& directory)> abandon = {};
 };
 
 struct Outcome {

@@ -55,6 +55,21 @@ InitialPoint try_initial_point(const execution::PlannedRun& run) {
   return point;
 }
 
+std::vector<TestPath> paths_of(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+  constexpr std::size_t drawing_columns = 60;
+  std::vector<TestPath> paths;
+  for (const auto& test : experiment.tests) {
+    const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    const data::Dataset dataset = data::read_dataset(test.data, observables);
+    if (dataset.abscissae.empty()) continue;
+    const auto& path = dataset.abscissae.front().second;
+    if (!dataset.ordered && data::turning_points(path).size() < 3) continue;
+    paths.push_back({test.name, dataset.ordered, data::past_of(dataset, observables),
+                     data::path_words(dataset, observables), data::path_drawing(path, drawing_columns)});
+  }
+  return paths;
+}
+
 }  // namespace
 
 bool agrees(const Agreement& one) { return one.difference <= one.expected; }
@@ -71,7 +86,7 @@ bool Examination::good() const {
 }
 
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, {}};
+  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "data/loading_path.hpp"
 #include "execution/plan.hpp"
 #include "execution/warning.hpp"
 
@@ -33,6 +34,15 @@ struct InitialPoint {
   [[nodiscard]] bool good() const;
 };
 
+/// The path that a test takes in loading order, for whoever has to agree that it is one.
+struct TestPath {
+  std::string test;
+  bool ordered = false;  ///< said so, or by time; false: the order of the file is shown
+  data::Past past = data::Past::known;
+  std::string words;    ///< "stretch 1 → 1.5 → 1.02, 1 cycle, 204 rows; starts at rest"
+  std::string drawing;  ///< the first abscissa over the rows, one line of blocks
+};
+
 /// Runs that differ only in the optimiser pose the same problem.
 struct PosedProblem {
   std::string title;
@@ -47,6 +57,7 @@ struct Examination {
   std::vector<execution::Warning> warnings;
   std::vector<std::string> notes;  ///< what should be known, and worries nobody
   std::vector<PosedProblem> problems;
+  std::vector<TestPath> paths;  ///< of tests with several branches, or with an order that somebody gave
 
   [[nodiscard]] bool good() const;
 };

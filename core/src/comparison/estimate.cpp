@@ -103,9 +103,10 @@ void add_quality(const assembly::Assembly& assembly, const execution::Realisatio
   }
   for (auto& channel : assembly::quality(assembly, predictions)) {
     if (channel.fitted)
-      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted});
+      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
     if (channel.held_out)
-      summary.quality.push_back({channel.test, channel.observable, channel.unit, true, *channel.held_out});
+      summary.quality.push_back(
+          {channel.test, channel.observable, channel.unit, true, *channel.held_out, channel.over});
   }
 }
 

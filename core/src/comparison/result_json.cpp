@@ -127,6 +127,7 @@ json best(const RunSummary& run) {
     for (const auto& quality : run.quality)
       if (quality.test == run.tests[test])
         channels.push_back({{"channel", quality.channel},
+                            {"over", quality.over},
                             {"held_out", quality.held_out},
                             {"rows", quality.agreement.rows},
                             {"unit", quality.unit},

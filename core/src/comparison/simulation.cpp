@@ -153,6 +153,11 @@ std::vector<SimulatedTable> simulate(const experiment::Experiment& experiment, c
       }
       for (double& value : values) value = data::convert(value, base, unit);
       table.headers.push_back(fmt::format("{} [{}]", column, unit));
+      if (declared != observables.end() && declared->role == Observable::Role::abscissa)
+        table.prescribed.push_back(column);
+      if (channel != assembly.layout().channels.end())
+        for (const auto& [name, origin] : sources)
+          if (name == channel->drawn_over.name) table.curves.push_back({column, origin.first});
       table.columns.push_back(std::move(values));
     }
   }

@@ -40,6 +40,12 @@ struct SimulatedTable {
   std::string test;
   std::vector<std::string> headers;  ///< "stretch [1]"
   std::vector<std::vector<double>> columns;
+  /// A predicted column and the prescribed column that it is drawn over, by their names in the data file.
+  struct Curve {
+    std::string column, over;
+  };
+  std::vector<Curve> curves = {};
+  std::vector<std::string> prescribed = {};  ///< columns, in the order of the headers
 };
 
 /// Every test of the experiment with the model. Parameters that the file does not name keep their fixed or initial

@@ -26,12 +26,13 @@ std::vector<std::filesystem::path> write_simulation(const std::filesystem::path&
   for (const auto& table : simulation.tables) files.push_back(write_table(directory, table));
   for (const auto& [test, snapshots] : simulation.fields)
     for (const auto& path : write_snapshots(directory, test, snapshots)) files.push_back(path);
-  files.push_back(write_record(directory, experiment, request, subject));
+  files.push_back(write_record(directory, experiment, request, subject, simulation));
   return files;
 }
 
 std::filesystem::path write_record(const std::filesystem::path& directory, const experiment::Experiment& experiment,
-                                   const SimulationRequest& request, const Subject& subject) {
+                                   const SimulationRequest& request, const Subject& subject,
+                                   const Simulation& simulation) {
   nlohmann::ordered_json record{
       {"name", experiment.name}, {"model", subject.model}, {"tests", nlohmann::ordered_json::array()}};
   for (const auto& test : experiment.tests) record["tests"].push_back(test.name);
@@ -46,6 +47,11 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
   record["noise"] = request.noise;
   record["seed"] = request.seed;
   record["warnings"] = subject.warnings;
+  auto& curves = record["curves"] = nlohmann::ordered_json::array();
+  for (const SimulatedTable& table : simulation.tables)
+    for (const SimulatedTable::Curve& curve : table.curves)
+      curves.push_back(
+          {{"test", table.test}, {"column", curve.column}, {"over", curve.over}, {"prescribed", table.prescribed}});
   auto file = directory / "simulation.json";
   execution::write_atomically(file, record.dump(2) + '\n');
   return file;

@@ -29,9 +29,10 @@ std::vector<std::filesystem::path> write_simulation(const std::filesystem::path&
                                                     const Simulation& simulation);
 
 /// Writes directory/simulation.json, what the tables beside it were made with: the names of experiment and model, the
-/// tests, the parameters {name: {value, unit}}, fixed ones included, where they came from, noise, seed and warnings.
-/// Returns its path.
+/// tests, the parameters {name: {value, unit}}, fixed ones included, where they came from, noise, seed and warnings,
+/// and what each predicted column is drawn over. Returns its path.
 std::filesystem::path write_record(const std::filesystem::path& directory, const experiment::Experiment& experiment,
-                                   const SimulationRequest& request, const Subject& subject);
+                                   const SimulationRequest& request, const Subject& subject,
+                                   const Simulation& simulation);
 
 }  // namespace tunica::comparison

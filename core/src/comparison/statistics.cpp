@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
+#include "numerics/distributions.hpp"
 
 namespace tunica::comparison {
 
@@ -37,7 +36,7 @@ SampleStatistics sample_statistics(std::span<const double> values) {
   double squares = 0;
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);
   const double sd = std::sqrt(squares / (n - 1));
-  const double half = boost::math::quantile(boost::math::students_t(n - 1), 0.975) * sd / std::sqrt(n);
+  const double half = numerics::student_quantile(0.975, n - 1) * sd / std::sqrt(n);
   result.sd = sd;
   result.ci95 = {result.mean - half, result.mean + half};
   return result;
@@ -46,7 +45,7 @@ SampleStatistics sample_statistics(std::span<const double> values) {
 Interval wilson_interval(std::size_t successes, std::size_t trials) {
   if (trials == 0) return {0, 1};
   const double n = static_cast<double>(trials), p = static_cast<double>(successes) / n;
-  const double z = boost::math::quantile(boost::math::normal(), 0.975);
+  const double z = numerics::normal_quantile(0.975);
   const double centre = p + z * z / (2 * n), half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   const double scale = 1 + z * z / n;
   // At 0 and n successes one end is 0 or 1 exactly; rounding must not push it out.

@@ -46,6 +46,7 @@ struct Quality {
   std::string test, channel, unit;
   bool held_out = false;
   assembly::Agreement agreement;
+  std::string over = {};  ///< the abscissa that it is drawn over
 };
 
 /// Whether the best point behaves as a material, see stability_report.hpp.

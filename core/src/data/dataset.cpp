@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/csv.hpp"
+#include "data/loading_path.hpp"
 #include "data/nearest.hpp"
 #include "data/series.hpp"
 #include "data/sha256.hpp"
@@ -222,6 +223,9 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
       if (name == observable.name) channel.noise = noise;
     dataset.channels.push_back(std::move(channel));
   }
+  const bool timed = !dataset.time.empty() && dataset.time.back() > dataset.time.front();
+  dataset.ordered = request.order == Order::loading || timed || dataset.count < 2;
+  if (request.sorted) sort_rows(dataset);
   return dataset;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "text/codes.hpp"
 #include "tunica/test.hpp"
 
 namespace tunica::data {
@@ -27,6 +28,13 @@ struct RowRange {
   std::size_t step = 1;
 };
 
+/// What the order of the rows stands for.
+enum class Order {
+  unknown,  ///< nobody says
+  loading   ///< rows stand as they were measured
+};
+inline constexpr text::Codes<Order, 2> order_names{{{Order::unknown, "unknown"}, {Order::loading, "loading"}}};
+
 /// What the experiment file says about the data of one test ("data": {…}).
 struct DataRequest {
   std::vector<std::filesystem::path> files;                  ///< several: replicates
@@ -36,6 +44,8 @@ struct DataRequest {
   std::vector<std::pair<std::string, std::string>> where;  ///< column → value, all must match
   std::optional<double> time_rate;                         ///< abscissa per second, from `time_from`
   std::vector<std::pair<std::string, Noise>> noise;        ///< by channel; absent = estimated
+  Order order = Order::unknown;                            ///< time says it too
+  bool sorted = false;  ///< rows by their values, whatever their order in the file; for a diagnosis
 };
 
 /// One fitted channel: the measured values and what is known of their noise.
@@ -47,13 +57,16 @@ struct Channel {
   std::optional<Noise> noise;
 };
 
-/// The data of one test in base units, rows in loading order.
+/// The data of one test in base units, rows as in the file unless they were asked for sorted.
 struct Dataset {
   std::size_t count = 0;
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;  ///< observable → values
   std::vector<double> time;                                            ///< empty = none
   std::vector<Channel> channels;
+  bool ordered = false;            ///< the order of the rows is that of measurement: said so, or by time
   std::vector<std::size_t> lines;  ///< line of each row in the (first) file
+  /// Row of the file, counted behind `where` and `rows`, that each row is; empty = in the order of the file.
+  std::vector<std::size_t> file_rows;
   std::vector<std::string> warnings;
   std::vector<std::string> sha256;  ///< of each file, for the provenance
   /// Column names and units of the source, by observable, so that `simulate` writes what it read.

@@ -32,22 +32,33 @@ struct Explained {
   Explanation explanation;
 };
 
+/// Noise that the residuals of the base said is asked once more of what the extension leaves.
+Explained with_noise_of_extension(const Inquiry& inquiry, Explained found) {
+  if (!found.explanation.claim.best || !found.explanation.gross.empty()) return found;
+  auto analysis = restated(inquiry, found.analysis, found.explanation.claim.best->fit);
+  if (!analysis) return found;
+  Explanation explanation = explain(inquiry, *analysis, {});
+  return {std::move(*analysis), std::move(explanation)};
+}
+
 /// Rows that the causes explain were no gross errors: they come back, and everything is looked at again.
 Explained explained(const Inquiry& inquiry) {
   Screening screening = screen(inquiry);
   Explanation explanation = explain(inquiry, screening.analysis, screening.gross);
   const std::vector<GrossRow> gross = still_gross(screening.analysis, explanation.claim);
   if (gross.size() == screening.analysis.evidence.gross.size())
-    return {std::move(screening.analysis), std::move(explanation)};
+    return with_noise_of_extension(inquiry, {std::move(screening.analysis), std::move(explanation)});
   Analysis analysis = analyse(inquiry, gross);
   explanation = explain(inquiry, analysis, {});
-  return {std::move(analysis), std::move(explanation)};
+  return with_noise_of_extension(inquiry, {std::move(analysis), std::move(explanation)});
 }
 
 }  // namespace
 
 std::vector<Warning> Diagnosis::warnings() const {
   std::vector<Warning> all = analysis.evidence.warnings;
+  const std::vector<Warning>& noise = analysis.evidence.noise_warnings;
+  all.insert(all.end(), noise.begin(), noise.end());
   all.insert(all.end(), prospects.warnings.begin(), prospects.warnings.end());
   return all;
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +40,15 @@ struct Inquiry {
 
   void report(const std::string& stage, double share) const {
     if (progress) progress(stage, share);
+  }
+  /// Called by any thread each time that one of `count` pieces of a stage is done; the stage takes the share of the
+  /// whole between `from` and `to`.
+  [[nodiscard]] auto steps(const std::string& stage, double from, double to, std::size_t count) const {
+    report(stage, from);
+    return [this, stage, from, to, count, done = std::make_shared<std::atomic<std::size_t>>(0)] {
+      report(stage,
+             from + (to - from) * static_cast<double>(++*done) / static_cast<double>(std::max<std::size_t>(count, 1)));
+    };
   }
   [[nodiscard]] const MechanismFactory& mechanism(const std::string& id) const {
     return catalogue.mechanisms().at(id).factory;

@@ -60,6 +60,51 @@ const char* code_of(ReasonKind kind) {
   return "restored_by_larger";
 }
 
+const char* code_of(CauseGroup group) { return group == CauseGroup::material ? "material" : "rig"; }
+
+const char* code_of(Standing standing) {
+  switch (standing) {
+    case Standing::probable:
+      return "probable";
+    case Standing::at_bound:
+      return "at_bound";
+    case Standing::implausible:
+      return "implausible";
+    case Standing::rest_is_left:
+      break;
+  }
+  return "rest_is_left";
+}
+
+const char* code_of(Absence absence) {
+  switch (absence) {
+    case Absence::none:
+      return "none";
+    case Absence::no_trace:
+      return "no_trace";
+    case Absence::absorbed:
+      return "absorbed";
+    case Absence::no_clock:
+      return "no_clock";
+    case Absence::already_there:
+      return "already_there";
+    case Absence::no_place:
+      return "no_place";
+    case Absence::not_applicable:
+      return "not_applicable";
+    case Absence::isotropic:
+      return "isotropic";
+    case Absence::no_past:
+      break;
+  }
+  return "no_past";
+}
+
+bool can_hide(Absence absence) {
+  return absence == Absence::none || absence == Absence::no_trace || absence == Absence::absorbed ||
+         absence == Absence::no_clock || absence == Absence::no_past;
+}
+
 const char* code_of(WarningKind kind) {
   switch (kind) {
     case WarningKind::channel_without_weight:
@@ -70,6 +115,8 @@ const char* code_of(WarningKind kind) {
       return "test_held_out";
     case WarningKind::noise_estimated:
       return "noise_estimated";
+    case WarningKind::rows_correlated:
+      return "rows_correlated";
     case WarningKind::gross_rows_left_out:
       return "gross_rows_left_out";
     case WarningKind::optimizer_has_stages:
@@ -82,6 +129,10 @@ const char* code_of(WarningKind kind) {
       return "noise_too_large";
     case WarningKind::noise_vanishes:
       return "noise_vanishes";
+    case WarningKind::memory_not_looked_for:
+      return "memory_not_looked_for";
+    case WarningKind::order_assumed:
+      return "order_assumed";
     case WarningKind::run_differs_in_noise:
       return "run_differs_in_noise";
     case WarningKind::run_keeps_gross_rows:
@@ -107,7 +158,7 @@ const char* code_of(BlockVerdict verdict) {
 std::string Place::words() const {
   if (tests.empty()) return model.empty() ? "in the material" : fmt::format("in the material of '{}'", model);
   if (tests.size() > 1) return fmt::format("alike in the tests '{}'", fmt::join(tests, "', '"));
-  const std::string where = row ? fmt::format(", row {}", *row) : std::string();
+  const std::string where = row ? fmt::format(", row {}", file_row) : std::string();
   if (channel.empty()) return fmt::format("in the test '{}'{}", tests.front(), where);
   return fmt::format("in the channel '{}' of the test '{}'{}", channel, tests.front(), where);
 }

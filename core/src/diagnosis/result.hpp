@@ -45,6 +45,7 @@ enum class WarningKind {
   constraints_not_applied,
   test_held_out,
   noise_estimated,
+  rows_correlated,
   gross_rows_left_out,
   optimizer_has_stages,
   optimizer_failed,
@@ -52,6 +53,8 @@ enum class WarningKind {
   base_model,
   noise_too_large,
   noise_vanishes,
+  memory_not_looked_for,
+  order_assumed,
   run_differs_in_noise,
   run_keeps_gross_rows
 };
@@ -62,14 +65,37 @@ struct Warning {
   std::string text;
 };
 
+/// What a cause is a property of: causes are ranked by the same evidence, and shown in these two groups.
+enum class CauseGroup { material, rig };
+const char* code_of(CauseGroup group);
+
+/// Why a mechanism is not looked for, or would not be seen.
+enum class Absence {
+  none,            ///< it leaves a trace
+  no_trace,        ///< the predictions do not depend on it
+  absorbed,        ///< a refit of the parameters takes it all
+  no_clock,        ///< the data have no time
+  already_there,   ///< the base has it
+  no_place,        ///< no test of a kind that it acts on
+  not_applicable,  ///< the mechanism refuses the base
+  isotropic,       ///< it acts along directions, and the base has none
+  no_past          ///< it has memory, and nobody says what a test bore before each row
+};
+const char* code_of(Absence absence);
+/// Whether the effect may be in the data all the same.
+bool can_hide(Absence absence);
+
 /// Where a mechanism acts.
 struct Place {
   std::vector<std::string> tests;       ///< empty: the model; several: one amplitude in all of them
   std::string channel = {};             ///< of a mechanism that takes one
   std::optional<std::size_t> row = {};  ///< of a mechanism that takes rows; none = the whole curve
   std::string model = {};               ///< where a run has several, and no tests are named
+  std::size_t file_row = 0;             ///< the number that `row` has in the file; of no meaning without it
 
-  bool operator==(const Place&) const = default;
+  bool operator==(const Place& other) const {
+    return tests == other.tests && channel == other.channel && row == other.row && model == other.model;
+  }
   /// "in the material", "in the material of 'media'", "in the test 'strip'", "alike in the tests 'a', 'b'", "in the
   /// channel 'stress' of the test 'strip', row 12"
   [[nodiscard]] std::string words() const;
@@ -79,8 +105,9 @@ struct Place {
 struct GrossRow {
   std::string test, channel;
   std::size_t row = 0;
-  double residual = 0;  ///< in σ
-  std::string where;    ///< "stretch 1.25, measured 14 kPa"
+  std::size_t file_row = 0;  ///< the number that it has in the file
+  double residual = 0;       ///< in σ
+  std::string where;         ///< "stretch 1.25, measured 14 kPa"
 };
 
 /// Where measured and predicted values disagree more than noise explains.
@@ -100,6 +127,7 @@ struct Amplitude {
 struct Cause {
   std::string id;
   Place place;
+  CauseGroup group = CauseGroup::material;
   /// Of the fall of |r|² at finite amplitude (beside others: of its rise without the cause), where nothing is wrong and
   /// the mechanism is looked for in all its places.
   double p_value = 1;
@@ -124,11 +152,13 @@ struct RankedMechanism {
   double probability = 0;
   double score = 0;            ///< T at the null, of the best hypothesis
   std::optional<double> gain;  ///< of |r|² at finite amplitude; none: too far behind to be fitted again
+  CauseGroup group = CauseGroup::material;
 };
 
 /// The least amplitude of a mechanism that would be found on these data with 80 % power, and named.
 struct Detectable {
   std::string id, unit, absent;  ///< absent: why it leaves no trace; else empty
+  Absence absence = Absence::none;
   Place place;
   /// Distances of the amplitude from its null; identifiable: infinite where another has the same signature.
   double detectable = 0, identifiable = 0;
@@ -139,6 +169,16 @@ struct Detectable {
   std::string closest;     ///< the other mechanism whose projected signature is most alike
   double correlation = 0;  ///< with it, absolute
 };
+
+/// What the probability of a cause is worth. It compares mechanisms of the catalogue, so it says nothing where none of
+/// them is the answer.
+enum class Standing {
+  probable,     ///< it is what it says
+  at_bound,     ///< the amplitude ended at its bound
+  implausible,  ///< the amplitude is beyond what is plausible
+  rest_is_left  ///< what the causes leave is not noise
+};
+const char* code_of(Standing standing);
 
 /// What the extension makes of rows that it has not seen.
 enum class BlockVerdict { predicted, not_predicted, inconclusive };

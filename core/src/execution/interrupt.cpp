@@ -2,7 +2,9 @@
 #include "execution/interrupt.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <utility>
 
 namespace tunica::execution {
 
@@ -32,5 +34,27 @@ InterruptWatch::~InterruptWatch() {
 }
 
 bool InterruptWatch::interrupted() { return raised.load(std::memory_order_relaxed); }
+
+InterruptLimit::InterruptLimit(std::function<void()> leave) {
+  if (!leave) return;
+  watch_ = std::thread([this, leave = std::move(leave)] {
+    constexpr std::chrono::milliseconds heartbeat{100};
+    constexpr int patience = 5;  // heartbeats; rows reach the disk within one
+    int waited = 0;
+    for (std::unique_lock lock(mutex_); !over_.wait_for(lock, heartbeat, [this] { return ended_; });) {
+      waited = InterruptWatch::interrupted() ? waited + 1 : 0;
+      if (waited > patience) return leave();
+    }
+  });
+}
+
+InterruptLimit::~InterruptLimit() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  over_.notify_all();
+  if (watch_.joinable()) watch_.join();
+}
 
 }  // namespace tunica::execution

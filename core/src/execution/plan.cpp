@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/memory.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
@@ -106,6 +107,21 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
                         run.label});
 }
 
+/// Whatever has memory takes rows for the whole loading path, whether or not somebody said that they are.
+void warn_of_assumed_orders(const experiment::Experiment& experiment, const PlannedRun& run,
+                            const plugins::Catalogue& catalogue, std::vector<Warning>& warnings) {
+  std::vector<assembly::TestPast> assumed;
+  Warning warning{WarningKind::order_assumed, {}, run.label};
+  for (const assembly::TestPast& one : assembly::unknown_pasts(experiment, *run.entry, catalogue))
+    if (assembly::has_memory(experiment, experiment.test(one.test), *run.entry, catalogue)) {
+      assumed.push_back(one);
+      warning.subjects.push_back(one.test);
+    }
+  if (assumed.empty()) return;
+  warning.sentence = assembly::assumption_words(assumed);
+  warnings.push_back(std::move(warning));
+}
+
 /// The plugins behind every model, test, mechanism and optimiser of the experiment.
 std::vector<std::string> used_plugins(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
   std::set<std::string> used;
@@ -153,6 +169,7 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
     run.stages = plan_stages(experiment, entry, catalogue);
     run.assembly = std::make_unique<assembly::Assembly>(experiment, entry, catalogue);
     check_needs(run, plan.warnings);
+    warn_of_assumed_orders(experiment, run, catalogue, plan.warnings);
     for (std::uint64_t realisation = 1; realisation <= entry.realisations; ++realisation)
       plan.tasks.push_back({plan.runs.size() - 1, realisation});
   }

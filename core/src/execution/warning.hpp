@@ -38,10 +38,11 @@ enum class WarningKind {
   differenced_derivatives,
   equal_realisations,
   plugin_refused,
+  order_assumed,
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 28> warning_codes{
+inline constexpr text::Codes<WarningKind, 29> warning_codes{
     {{WarningKind::noise_contradicted, "noise_contradicted"},
      {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
@@ -69,6 +70,7 @@ inline constexpr text::Codes<WarningKind, 28> warning_codes{
      {WarningKind::differenced_derivatives, "differenced_derivatives"},
      {WarningKind::equal_realisations, "equal_realisations"},
      {WarningKind::plugin_refused, "plugin_refused"},
+     {WarningKind::order_assumed, "order_assumed"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());

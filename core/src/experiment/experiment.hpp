@@ -39,6 +39,10 @@ struct MechanismEntry {
   std::string type;
   Options options;
   ParameterSettings parameters;  ///< the mechanism's own names, without its prefix
+  std::string as = {};           ///< name of one of several of a type; empty = the type
+
+  /// The prefix of its parameters.
+  [[nodiscard]] const std::string& name() const { return as.empty() ? type : as; }
 };
 
 struct ModelEntry {

@@ -32,11 +32,19 @@ std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string
     const std::string type = node.require("type", of).one_of(names_of(catalogue.mechanisms()), "mechanism");
     const MechanismFactory& factory = catalogue.mechanisms().find(type)->second.factory;
     suits(node, factory);
-    if (std::any_of(mechanisms.begin(), mechanisms.end(), [&](const MechanismEntry& m) { return m.type == type; }))
-      node.fail(fmt::format("the mechanism '{}' appears twice in {}", type, owner),
-                "Its parameters would share their names; remove one.");
-    const std::string name = fmt::format("mechanism '{}'", type);
-    MechanismEntry mechanism{type, read_options(node, factory.options, {"type", "parameters"}, name), {}};
+    MechanismEntry mechanism{type, {}, {}};
+    if (const auto as = node.find("as")) {
+      mechanism.as = as->text("a name for the parameters of this mechanism");
+      as->check_name(mechanism.as, "mechanism");
+      if (!factory.native.empty())
+        as->fail(fmt::format("the mechanism '{}' is a parameter that a test has once", type), "Take \"as\" out.");
+    }
+    if (std::any_of(mechanisms.begin(), mechanisms.end(),
+                    [&](const MechanismEntry& m) { return m.name() == mechanism.name(); }))
+      node.fail(fmt::format("the mechanism '{}' appears twice in {}", mechanism.name(), owner),
+                "Its parameters would share their names; remove one, or name one of them with \"as\".");
+    const std::string name = fmt::format("mechanism '{}'", mechanism.name());
+    mechanism.options = read_options(node, factory.options, {"type", "as", "parameters"}, name);
     mechanism.parameters = read_parameters(node, factory.parameters, name, shared);
     mechanisms.push_back(std::move(mechanism));
   }

@@ -130,7 +130,7 @@ void read_time_from(const Node& node, const std::vector<Observable>& observables
 
 data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                             const std::filesystem::path& folder) {
-  block.allow_only({"file", "files", "columns", "stress_measure", "rows", "where", "time_from", "noise"},
+  block.allow_only({"file", "files", "columns", "stress_measure", "rows", "where", "order", "time_from", "noise"},
                    fmt::format("the data of {}", owner));
   data::DataRequest data;
   const auto file = block.find("file"), files = block.find("files");
@@ -157,6 +157,10 @@ data::DataRequest read_data(const Node& block, const std::vector<Observable>& ob
       if (!value.is_text() && !value.is_number()) value.fail_expected("the text or number to look for in the column");
       data.where.emplace_back(column, value.is_text() ? value.text("") : value.dumped());
     }
+  if (const auto node = block.find("order")) {
+    const std::string name = node->one_of(names_in(data::order_names), "order of rows");
+    data.order = text::value_of(data::order_names, name).value();
+  }
   if (const auto node = block.find("time_from")) read_time_from(*node, observables, data);
   if (const auto node = block.find("noise")) read_noise(*node, observables, data);
   return data;

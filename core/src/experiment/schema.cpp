@@ -64,6 +64,9 @@ void define_data(Json& definitions) {
   definitions["where"] = {{"description", "Column → value: only rows that match all."},
                           {"type", "object"},
                           {"additionalProperties", {{"type", {"string", "number"}}}}};
+  definitions["order"] =
+      choice_schema("Whether rows stand in the order in which they were measured (default unknown; time says it too).",
+                    names_in(data::order_names));
   definitions["time_from"] = object_schema(
       "Time from the path of the abscissa, where none was recorded.",
       {{"rate", quantity_schema("Change of the first abscissa per second, for example \"0.01/s\".")}}, {"rate"});

@@ -118,7 +118,7 @@ Json data_schema(const TestFactory& factory) {
                          {"items", {{"type", "string"}}},
                          {"minItems", 1}};
   properties["columns"] = columns_schema(factory.observables);
-  for (const char* name : {"stress_measure", "rows", "where", "time_from"}) properties[name] = reference(name);
+  for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
   Json per_channel = Json::object();
   for (const Observable& observable : factory.observables)
     if (observable.role == Role::channel) per_channel[observable.name] = reference("noise");
@@ -140,6 +140,9 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     if (factory.stage < Stage::test) of_models.push_back(id);
     Json properties = with_options(id, factory.options);
     properties["parameters"] = parameters_schema(factory.parameters);
+    if (factory.native.empty())
+      properties["as"] = {{"type", "string"},
+                          {"description", "Name of its parameters, where several of a type stand side by side."}};
     definitions["mechanism_" + id] = object_schema(described(factory.cause, factory.reference, entry.plugin),
                                                    std::move(properties), required_keys(factory.options, {"type"}));
   }

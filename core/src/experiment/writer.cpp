@@ -55,6 +55,7 @@ Json to_json(const data::DataRequest& data) {
   json["stress_measure"] = data.stress_measure;
   json["rows"] = to_json(data.rows);
   for (const auto& [column, value] : data.where) json["where"][column] = value;
+  if (data.order != data::Order::unknown) json["order"] = text::code_of(data::order_names, data.order);
   if (data.time_rate) json["time_from"] = {{"rate", *data.time_rate}};
   for (const auto& [channel, noise] : data.noise)
     json["noise"][channel] = {
@@ -79,6 +80,7 @@ class Writer {
     Json list = Json::array();
     for (const MechanismEntry& entry : entries) {
       Json json = {{"type", entry.type}};
+      if (!entry.as.empty()) json["as"] = entry.as;
       add_options(json, entry.options, catalogue_.mechanisms().find(entry.type)->second.factory.options);
       json["parameters"] = to_json(entry.parameters);
       list.push_back(std::move(json));

@@ -37,6 +37,7 @@ Json series_json(const Series& series) {
   if (series.hidden) result["hidden"] = true;
   if (series.faint) result["faint"] = true;
   if (!series.label.empty()) result["label"] = series.label;
+  if (!series.tag.empty()) result["tag"] = series.tag;
   return result;
 }
 

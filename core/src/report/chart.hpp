@@ -30,6 +30,7 @@ struct Series {
   bool hidden = false;     ///< switched off until someone asks for it
   bool faint = false;      ///< one of many
   std::string label = {};  ///< which of those of the same name; the legend switches them together
+  std::string tag = {};    ///< written where the curve reaches its largest x
 };
 
 /// One category of a chart of rows: a value, an interval or both.

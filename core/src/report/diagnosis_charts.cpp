@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "report/diagnosis_pieces.hpp"
-#include "report/thinning.hpp"
 #include "text/units.hpp"
 
 namespace tunica::report {
@@ -15,10 +15,53 @@ namespace {
 constexpr std::size_t most_points = 400;
 constexpr std::string_view signature = "signature_";
 
-std::string long_curve_note(const ResidualCurve& curve) {
-  return curve.rows.size() <= most_points
-             ? ""
-             : fmt::format("{} of {} rows are drawn, peaks kept. ", most_points, curve.rows.size());
+/// A column with one value a row; empty where the table has none.
+Series along(const Table& table, const ResidualCurve& curve, std::string_view column, Series series) {
+  const auto values = table.find(column);
+  if (!values) return series;
+  for (const std::size_t row : curve.rows) {
+    series.x.push_back(table.number(row, "abscissa"));
+    series.y.push_back(table.number(row, *values));
+  }
+  return series;
+}
+
+/// Adds the lines of a series, and to the note what was left out.
+void add(Chart& chart, const ResidualCurve& curve, const Series& whole, std::size_t& left_out) {
+  if (whole.x.empty()) return;
+  for (Series& part : by_line(whole, curve.lines, most_points, left_out)) chart.series.push_back(std::move(part));
+}
+
+std::string note_of(std::size_t left_out) {
+  return left_out == 0 ? "" : "Long curves are thinned, peaks kept; the table has all rows. ";
+}
+
+using Range = std::pair<double, double>;
+
+Range range_of(const std::vector<double>& values) {
+  Range range{INFINITY, -INFINITY};
+  for (const double value : values)
+    if (std::isfinite(value)) range = {std::min(range.first, value), std::max(range.second, value)};
+  return range;
+}
+
+/// A signature may run far beyond the residuals that it is held against. The axis ends a little beyond those, and the
+/// words say how far the signature goes.
+std::string cut_to_residuals(Chart& chart, Range residuals, const std::vector<std::pair<std::string, Range>>& lines) {
+  constexpr double room = 0.25, margin = 0.04;  // of the range of the residuals
+  const double span = residuals.second - residuals.first;
+  const Range limits{residuals.first - room * span, residuals.second + room * span};
+  std::string text;
+  for (const auto& [cause, range] : lines)
+    if (range.first < limits.first || range.second > limits.second)
+      text += fmt::format("{} {} runs from {} to {} σ", text.empty() ? "Cut off: what" : ", what", cause,
+                          figure(range.first), figure(range.second));
+  if (text.empty()) return "";
+  const auto reaches = [&](auto beyond) { return std::any_of(lines.begin(), lines.end(), beyond); };
+  const bool below = reaches([&](const auto& line) { return line.second.first < residuals.first; });
+  const bool above = reaches([&](const auto& line) { return line.second.second > residuals.second; });
+  chart.y.range = {residuals.first - (below ? room : margin) * span, residuals.second + (above ? room : margin) * span};
+  return text + ". ";
 }
 
 /// Residuals over the noise, the region of misfit, and what each candidate would leave.
@@ -34,19 +77,27 @@ Chart residual_chart(const Table& table, const Json& diagnosis, const ResidualCu
   chart.rule(2, "2 σ");
   chart.rule(-2, "");
   mark_misfit(chart, diagnosis, curve);
-  chart.note = (chart.bands.empty() ? "" : "Shaded: where the model misses the data. ") + long_curve_note(curve);
-  chart.series.push_back(curve_series(table, curve, "residual", "residual", "points", -1));
+  std::size_t left_out = 0;
+  const Series residual = along(table, curve, "residual", {"residual", "points", -1});
+  add(chart, curve, residual, left_out);
+  chart.note = (chart.bands.empty() ? "" : "Shaded: where the model misses the data. ") + tag(chart.series);
+  std::vector<std::pair<std::string, Range>> signatures;
   int style = 0;
   for (const auto& column : table.columns()) {
     if (!column.name.starts_with(signature)) continue;
-    Series series = curve_series(table, curve, column.text, "what " + column.name.substr(signature.size()) + " changes",
-                                 "line", style);
+    const std::string cause = column.name.substr(signature.size());
+    Series series = along(table, curve, column.text, {"what " + cause + " changes", "line", style});
     series.hidden = style++ >= 3;
-    chart.series.push_back(std::move(series));
+    signatures.emplace_back(cause, range_of(series.y));
+    add(chart, curve, series, left_out);
   }
-  Series after = curve_series(table, curve, "residual_extended", "residual with the cause", "points", 2);
+  Series after = along(table, curve, "residual_extended", {"residual with the cause", "points", 2});
   after.hidden = true;
-  if (!after.x.empty()) chart.series.push_back(std::move(after));
+  add(chart, curve, after, left_out);
+  std::vector<double> seen{-3, 3};
+  seen.insert(seen.end(), residual.y.begin(), residual.y.end());
+  seen.insert(seen.end(), after.y.begin(), after.y.end());
+  chart.note += cut_to_residuals(chart, range_of(seen), signatures) + note_of(left_out);
   return chart;
 }
 
@@ -59,22 +110,34 @@ Chart before_and_after(const Table& table, const Json& diagnosis, const Residual
   chart.x.title = curve.abscissa;
   chart.y.title = text::titled(curve.channel, curve.unit);
   chart.files = {table.file_name()};
-  chart.note = long_curve_note(curve);
   mark_misfit(chart, diagnosis, curve);
-  Series band = curve_series(table, curve, "measured", "measured ± 2 σ", "band", 6);
-  const Series sigma = curve_series(table, curve, "sigma", "", "line", 0);
-  if (sigma.x == band.x) {
+  std::size_t left_out = 0;
+  Series band = along(table, curve, "measured", {"measured ± 2 σ", "band", 6});
+  const Series sigma = along(table, curve, "sigma", {"", "line", 0});
+  if (sigma.x.size() == band.x.size() && range_of(sigma.y).second > 0) {
     for (std::size_t k = 0; k < band.y.size(); ++k) {
       band.low.push_back(band.y[k] - 2 * sigma.y[k]);
       band.high.push_back(band.y[k] + 2 * sigma.y[k]);
     }
-    chart.series.push_back(std::move(band));
+    add(chart, curve, band, left_out);
   }
-  chart.series.push_back(curve_series(table, curve, "measured", "measured", "points", -1));
-  chart.series.push_back(curve_series(table, curve, "predicted", "model as given", "line", 1));
-  Series extended = curve_series(table, curve, "extended", "with the cause", "line", 0);
-  if (!extended.x.empty()) chart.series.push_back(std::move(extended));
+  const auto measured = static_cast<std::ptrdiff_t>(chart.series.size());
+  add(chart, curve, along(table, curve, "measured", {"measured", "points", -1}), left_out);
+  std::vector<Series> parts(chart.series.begin() + measured, chart.series.end());
+  const std::string tags = tag(parts);
+  std::move(parts.begin(), parts.end(), chart.series.begin() + measured);
+  add(chart, curve, along(table, curve, "predicted", {"model as given", "line", 1}), left_out);
+  add(chart, curve, along(table, curve, "extended", {"with the cause", "line", 0}), left_out);
+  chart.note = tags + note_of(left_out);
   return chart;
+}
+
+/// The mechanisms that these data cannot show, whatever their amplitude.
+std::set<std::string> absent_of(const Json& diagnosis) {
+  std::set<std::string> ids;
+  for (const Json& one : list(diagnosis, "detectable"))
+    if (!word(one, "absent").empty()) ids.insert(word(one, "id"));
+  return ids;
 }
 
 void add_confusability(Page& page, const Folder& folder) {
@@ -85,14 +148,21 @@ void add_confusability(Page& page, const Folder& folder) {
   chart.id = "confusability";
   chart.title = "Confusability of the candidates in these data";
   chart.about = "How alike the traces of two causes are, from 0 for unlike to 1 for the same";
-  chart.note = "1: these data cannot tell the two apart.";
+  chart.note = "1: these data cannot tell the two apart. Only causes that would leave a trace in these data.";
   chart.legend_title = "likeness";
   chart.files = {table->file_name()};
-  for (std::size_t k = 1; k < table->columns().size(); ++k) chart.columns.push_back(table->columns()[k].name);
+  // Tables of older diagnoses list every mechanism.
+  const std::set<std::string> absent = absent_of(member(folder.result(), "diagnosis"));
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 1; k < table->columns().size(); ++k)
+    if (absent.count(table->columns()[k].name) == 0) columns.push_back(k);
+  if (columns.size() < 2) return;  // nothing to confuse it with
+  for (const std::size_t k : columns) chart.columns.push_back(table->columns()[k].name);
   for (std::size_t row = 0; row < table->rows(); ++row) {
+    if (absent.count(table->text(row, std::size_t{0})) > 0) continue;
     chart.labels.push_back(table->text(row, std::size_t{0}));
     std::vector<double> line;
-    for (std::size_t k = 1; k < table->columns().size(); ++k) line.push_back(table->number(row, k));
+    for (const std::size_t k : columns) line.push_back(table->number(row, k));
     chart.values.push_back(std::move(line));
   }
   page.chart(std::move(chart), folder.address());
@@ -120,27 +190,20 @@ std::vector<ResidualCurve> residual_curves(const Table& table) {
                                         channel,
                                         text::titled(table.text(row, abscissa_name), table.text(row, "abscissa_unit")),
                                         table.text(row, "unit"),
+                                        {},
                                         {}});
     at->rows.push_back(row);
   }
-  return curves;
-}
-
-Series curve_series(const Table& table, const ResidualCurve& curve, std::string_view column, std::string name,
-                    std::string mark, int style) {
-  Series series{std::move(name), std::move(mark), style, {}, {}, {}, {}};
-  const auto values = table.find(column);
-  if (!values) return series;
-  // The rows that are kept are those of the measured curve, the same for every column.
-  std::vector<double> measured;
-  for (const std::size_t row : curve.rows) measured.push_back(table.number(row, "measured"));
-  for (const std::size_t k : shape_keeping(measured, most_points)) {
-    const double y = table.number(curve.rows[k], *values);
-    if (!std::isfinite(y)) continue;
-    series.x.push_back(table.number(curve.rows[k], "abscissa"));
-    series.y.push_back(y);
+  for (ResidualCurve& curve : curves) {
+    std::vector<double> abscissa;
+    std::vector<std::string> members;
+    for (const std::size_t row : curve.rows) {
+      abscissa.push_back(table.number(row, "abscissa"));
+      members.push_back(table.text(row, "curve"));
+    }
+    curve.lines = data::lines_of(abscissa, members);
   }
-  return series;
+  return curves;
 }
 
 void mark_misfit(Chart& chart, const Json& diagnosis, const ResidualCurve& curve) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "report/lines.hpp"
 #include "report/sections.hpp"
 
 /// What the charts of a diagnosis share.
@@ -15,12 +16,9 @@ std::string place_words(const Json& target);
 struct ResidualCurve {
   std::string test, channel, abscissa, unit;  ///< the abscissa with its unit
   std::vector<std::size_t> rows;
+  std::vector<data::Line> lines;  ///< of positions in `rows`
 };
 std::vector<ResidualCurve> residual_curves(const Table& table);
-
-/// A column over the abscissa, thinned where it is long.
-Series curve_series(const Table& table, const ResidualCurve& curve, std::string_view column, std::string name,
-                    std::string mark, int style);
 
 /// Marks the regions of misfit of this curve.
 void mark_misfit(Chart& chart, const Json& diagnosis, const ResidualCurve& curve);

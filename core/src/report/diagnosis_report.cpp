@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,17 +13,27 @@ namespace tunica::report {
 
 namespace {
 
-/// Scores of all candidates and the probabilities of those that came into question.
-Chart ranking_chart(const Json& diagnosis) {
-  struct Candidate {
-    std::string label, id;
-    double score, p, gain = NAN;
-    [[nodiscard]] double most() const { return std::isfinite(gain) ? std::max(score, gain) : score; }
-  };
+/// Causes are a property of the material or of the rig. Results of older programs do not say so: one group, "".
+struct Group {
+  const char *code, *heading, *candidates;
+};
+constexpr std::array<Group, 3> all_groups{
+    {{"material", "In the material", "What each candidate in the material explains"},
+     {"rig", "In the rig", "What each candidate in the rig explains"},
+     {"", "Others", "What each candidate explains"}}};
+
+struct Candidate {
+  std::string label, id, group;
+  double score, p, gain = NAN;
+  [[nodiscard]] double most() const { return std::isfinite(gain) ? std::max(score, gain) : score; }
+};
+
+/// All candidates, the one that explains most first.
+std::vector<Candidate> candidates_of(const Json& diagnosis) {
   std::vector<Candidate> candidates;
   for (const Json& one : list(diagnosis, "scores"))
-    candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), number(one, "score"),
-                          number(one, "p_value")});
+    candidates.push_back({word(one, "id") + place_words(member(one, "target")), word(one, "id"), word(one, "group"),
+                          number(one, "score"), number(one, "p_value")});
   // A cause whose trace is no straight line shows only once it is fitted, perhaps in another place.
   for (const Json& one : list(diagnosis, "ranking"))
     for (Candidate& candidate : candidates)
@@ -32,11 +43,16 @@ Chart ranking_chart(const Json& diagnosis) {
       }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.most() > b.most(); });
+  return candidates;
+}
+
+/// Scores of the candidates of a group, and the gains of those that were fitted. All groups have the same axis.
+Chart ranking_chart(const std::vector<Candidate>& candidates, const Group& group) {
   Chart chart;
   chart.kind = "rows";
   chart.bars = true;
-  chart.id = "scores";
-  chart.title = "What each candidate explains";
+  chart.id = *group.code == 0 ? "scores" : std::string("scores_") + group.code;
+  chart.title = group.candidates;
   chart.about = "How much each candidate lowers the sum of squares, the largest first";
   chart.note =
       "Gain: by fitting the cause. Score: what it promises to first order; only the promising ones are fitted.";
@@ -44,24 +60,28 @@ Chart ranking_chart(const Json& diagnosis) {
   chart.files = {"result.json"};
   RowSeries gains{"gain", 0, {}}, scores{"score", 1, {}};
   for (const Candidate& one : candidates) {
+    if (std::isfinite(one.most())) chart.x.include.push_back(one.most());
+    if (one.group != group.code) continue;
     chart.labels.push_back(one.label);
     gains.rows.push_back({one.gain, std::isfinite(one.gain) ? 0 : NAN, one.gain,
                           std::isfinite(one.gain) ? "gain " + figure(one.gain) : "not fitted"});
     scores.rows.push_back({one.score, NAN, NAN, fmt::format("score {}, {}", figure(one.score), chance(one.p))});
   }
-  if (!candidates.empty()) chart.rows = {std::move(gains), std::move(scores)};
+  if (!chart.labels.empty()) chart.rows = {std::move(gains), std::move(scores)};
   return chart;
 }
 
 /// A fall of the sum of squares, which rounding may leave a hair below nothing.
 std::string fall(double value) { return std::abs(value) < 5e-3 ? "0" : figure(value); }
 
-void add_ranking_table(Page& page, const Json& diagnosis) {
+/// The candidates of a group by their probability. A heading stands above where there are several groups.
+void add_ranking_table(Page& page, const Json& diagnosis, const Group& group, bool headed) {
   std::vector<std::vector<Cell>> rows;
   std::vector<bool> first;
   const auto named = words(list(diagnosis, "ambiguity_set"));
   const bool ranked = !list(diagnosis, "ranking").empty();
   for (const Json& one : list(diagnosis, ranked ? "ranking" : "causes")) {
+    if (word(one, "group") != group.code) continue;
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
                     {share(number(one, "probability")), true},
                     {fall(number(one, "score")), true},
@@ -69,6 +89,7 @@ void add_ranking_table(Page& page, const Json& diagnosis) {
     first.push_back(std::find(named.begin(), named.end(), word(one, "id")) != named.end());
   }
   if (rows.empty()) return;
+  if (headed) page.heading(group.heading);
   constexpr std::size_t shown = 8;
   const std::vector<std::string> head{"cause", "probability as the only cause", "score", "gain in squares"};
   const auto cut = static_cast<std::ptrdiff_t>(std::min(shown, rows.size()));
@@ -152,10 +173,11 @@ void add_noise(Page& page, const Json& diagnosis) {
     const double relative = number(one, "relative");
     rows.push_back({{word(one, "test")},
                     {word(one, "channel")},
-                    {source == "stated"        ? "stated in the experiment"
-                     : source == "replicates"  ? "from replicates"
-                     : source == "differences" ? "estimated from differences of neighbouring rows"
-                                               : source},
+                    {source == "stated"         ? "stated in the experiment"
+                     : source == "replicates"   ? "from replicates"
+                     : source == "differences"  ? "estimated from differences of neighbouring rows"
+                     : source == "encompassing" ? "estimated from what no candidate explains"
+                                                : source},
                     {amount(number(one, "absolute"), word(one, "unit")), true},
                     {std::isfinite(relative) ? fmt::format("{:.3g} %", 100 * relative) : "–", true},
                     {figure(number(one, "correlation")), true}});
@@ -170,16 +192,20 @@ void add_noise(Page& page, const Json& diagnosis) {
 
 void add_candidates(Page& page, const Folder& folder) {
   const Json& diagnosis = member(folder.result(), "diagnosis");
-  Chart scores = ranking_chart(diagnosis);
-  if (scores.empty() && list(diagnosis, "causes").empty()) return;
+  const std::vector<Candidate> candidates = candidates_of(diagnosis);
+  if (candidates.empty() && list(diagnosis, "causes").empty()) return;
   page.section("Candidate causes");
-  add_ranking_table(page, diagnosis);
+  const bool grouped =
+      std::any_of(candidates.begin(), candidates.end(), [](const auto& one) { return !one.group.empty(); });
+  if (grouped)
+    page.paragraph("Causes in the material and causes in the rig are ranked together, by the same evidence.");
+  for (const Group& group : all_groups) add_ranking_table(page, diagnosis, group, grouped);
   if (std::vector<std::string> rivals = words(list(diagnosis, "explanations")); rivals.size() > 1) {
     const std::string first = rivals.front();
     rivals.erase(rivals.begin());
     page.box("", "What explains the misfit about as well as " + first, rivals);
   }
-  page.chart(std::move(scores), folder.address());
+  for (const Group& group : all_groups) page.chart(ranking_chart(candidates, group), folder.address());
 }
 
 void add_extension(Page& page, const Folder& folder) {

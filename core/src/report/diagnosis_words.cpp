@@ -95,7 +95,7 @@ std::vector<std::string> next_words(const Json& diagnosis) {
   if (std::string text = word(next, "description"); !text.empty()) {
     if (const double repeats = number(next, "repeats"); repeats > 1)
       text += fmt::format(" Repeats: {}.", figure(repeats));
-    lines.push_back(text::capitalised(std::move(text)));
+    lines.push_back(text::capitalised(std::move(text), words(list(next, "separates"))));
   }
   if (const std::string file = word(member(diagnosis, "extension"), "experiment"); !file.empty())
     lines.push_back(fmt::format("tunica run {} fits the model with the cause added.", file));

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "report/lines.hpp"
 #include "report/sections.hpp"
-#include "report/thinning.hpp"
 
 namespace tunica::report {
 
@@ -15,58 +15,69 @@ namespace {
 
 constexpr std::size_t most_points = 400;
 
-/// The column that a test sweeps: of those before the first measured one, which are the prescribed quantities, the one
-/// that wanders least on its way through its range. A pressure that was to be held still shows its noise.
-std::size_t swept(const Table& table, const std::vector<std::size_t>& rows, std::size_t first_measured) {
-  std::size_t best = 1;
-  double least = INFINITY;
-  for (std::size_t column = 1; column < first_measured; ++column) {
-    if (table.columns()[column].name == "time" && first_measured > 2) continue;
-    double low = INFINITY, high = -INFINITY, way = 0, last = NAN;
-    for (const std::size_t row : rows) {
-      const double value = table.number(row, column);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-      way += std::isfinite(last) ? std::abs(value - last) : 0;
-      last = value;
-    }
-    const double range = high - low, size = std::max(std::abs(low), std::abs(high));
-    if (!(range > 1e-3 * size) || way / range > least / 1.5) continue;
-    best = column;
-    least = way / range;
-  }
-  return best;
+/// The quantities that were prescribed: the columns before the first measured one. Time is one only where it is alone.
+std::vector<std::size_t> prescribed_columns(const Table& table, std::size_t first_measured) {
+  std::vector<std::size_t> columns;
+  for (std::size_t column = 1; column < first_measured; ++column)
+    if (table.columns()[column].name != "time" || first_measured <= 2) columns.push_back(column);
+  return columns.empty() ? std::vector<std::size_t>{1} : columns;
+}
+
+/// What the run says that a channel is drawn over; older results do not. The file name holds the test in short.
+std::string own_abscissa(const Json& result, const std::string& test, const std::string& channel) {
+  const auto same = [&](const std::string& name) {
+    return std::equal(name.begin(), name.end(), test.begin(), test.end(), [](char of_name, char of_file) {
+      return of_name == of_file || of_file == '-';  // see comparison::file_stem
+    });
+  };
+  for (const Json& run : list(result, "runs"))
+    for (const auto& [name, fit] : member(member(run, "best"), "per_test").items())
+      for (const Json& one : list(fit, "channels"))
+        if (same(name) && word(one, "channel") == channel) return word(one, "over");
+  return "";
 }
 
 /// One observable of one test, and where its table has what about it.
 struct Channel {
   const Table& table;
   std::string test;
-  std::size_t over, measured, predicted;
+  std::size_t over = 1, measured, predicted;
+  std::vector<std::string> curves;  ///< one a row of a run; empty where they are one curve
   std::optional<std::size_t> ci95, lowest, highest;
 
-  Channel(const Table& of, std::string name, std::size_t abscissa, std::size_t column, std::size_t fit)
-      : table(of), test(std::move(name)), over(abscissa), measured(column), predicted(fit) {
+  Channel(const Table& of, std::string name, const std::vector<std::size_t>& prescribed, std::size_t column,
+          std::size_t fit, const std::string& own)
+      : table(of), test(std::move(name)), measured(column), predicted(fit) {
     const std::string& observable = table.columns()[measured].name;
     ci95 = table.find(observable + ".ci95");
     lowest = table.find(observable + ".lowest");
     highest = table.find(observable + ".highest");
+    const auto& rows = table.groups("run").front().second;
+    std::vector<data::Prescribed> quantities;
+    for (const std::size_t k : prescribed) {
+      auto& quantity = quantities.emplace_back(data::Prescribed{table.columns()[k].name, table.columns()[k].unit.value_or(""), {}});
+      for (const std::size_t row : rows) quantity.values.push_back(table.number(row, k));
+    }
+    data::Abscissa chosen = data::abscissa_of(quantities, own);
+    over = prescribed[chosen.column];
+    curves = std::move(chosen.curves);
+  }
+
+  /// A series with one value a row.
+  [[nodiscard]] Series along(const std::vector<std::size_t>& rows, Series series) const {
+    for (const std::size_t row : rows) {
+      series.x.push_back(table.number(row, over));
+      series.y.push_back(NAN);
+    }
+    return series;
+  }
+
+  [[nodiscard]] std::vector<data::Line> lines(const std::vector<std::size_t>& rows) const {
+    std::vector<double> x;
+    for (const std::size_t row : rows) x.push_back(table.number(row, over));
+    return data::lines_of(x, curves.size() == x.size() ? curves : std::vector<std::string>{});
   }
 };
-
-/// Keeps what the thinned curve keeps of everything beside it.
-std::size_t thin(Series& series) {
-  const auto kept = shape_keeping(series.y, most_points);
-  const std::size_t left_out = series.y.size() - kept.size();
-  for (auto* values : {&series.x, &series.y, &series.low, &series.high}) {
-    if (values->empty()) continue;
-    std::vector<double> few;
-    for (const std::size_t i : kept) few.push_back((*values)[i]);
-    *values = std::move(few);
-  }
-  return left_out;
-}
 
 std::string thinning_note(std::size_t left_out) {
   return left_out == 0 ? ""
@@ -74,19 +85,23 @@ std::string thinning_note(std::size_t left_out) {
                                      most_points);
 }
 
+/// Adds the lines of a series to a chart; returns how many points that leaves out.
+std::size_t add_lines(Chart& chart, const Series& whole, const std::vector<data::Line>& lines) {
+  std::size_t left_out = 0;
+  for (Series& part : by_line(whole, lines, most_points, left_out)) chart.series.push_back(std::move(part));
+  return left_out;
+}
+
 /// What was measured, and apart from it what was held out.
 std::size_t add_measured(Chart& chart, const Channel& channel, const std::vector<std::size_t>& rows) {
-  Series data{"measured", "points", -1}, held{"measured, held out", "points", 6};
-  for (const std::size_t row : rows) {
-    Series& series = channel.table.number(row, "held_out") > 0 ? held : data;
-    series.x.push_back(channel.table.number(row, channel.over));
-    series.y.push_back(channel.table.number(row, channel.measured));
-  }
-  std::size_t left_out = 0;
-  for (Series* series : {&data, &held}) {
-    left_out += thin(*series);
-    if (!series->x.empty()) chart.series.push_back(std::move(*series));
-  }
+  Series data = channel.along(rows, {"measured", "points", -1}),
+         held = channel.along(rows, {"measured, held out", "points", 6});
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    (channel.table.number(rows[k], "held_out") > 0 ? held : data).y[k] =
+        channel.table.number(rows[k], channel.measured);
+  const auto lines = channel.lines(rows);
+  std::size_t left_out = add_lines(chart, data, lines) + add_lines(chart, held, lines);
+  chart.note += tag(chart.series);
   return left_out;
 }
 
@@ -116,13 +131,9 @@ std::size_t add_curve(Chart& chart, const Channel& channel, const std::vector<st
     curve.low.clear();
     curve.high.clear();
   }
-  std::size_t left_out = thin(curve);
-  if (spread) {
-    left_out += thin(range);
-    chart.series.push_back(std::move(range));
-  }
-  chart.series.push_back(std::move(curve));
-  return left_out;
+  const auto lines = channel.lines(rows);
+  std::size_t left_out = spread ? add_lines(chart, range, lines) : 0;
+  return left_out + add_lines(chart, curve, lines);
 }
 
 std::string bands_note(const Chart& chart) {
@@ -161,18 +172,15 @@ void add_channel(Page& page, const Folder& folder, const Order& order, const Cha
     if (drawn == 0) left_out += add_measured(fit, channel, *rows);
     const bool hidden = drawn++ >= shown_runs;
     Series curve{table.text(rows->front(), "run"), "line", static_cast<int>(place), {}, {}, {}, {}, hidden};
-    Series errors = curve;
+    Series errors = channel.along(*rows, curve);
     errors.mark = "both";
-    for (const std::size_t row : *rows) {
-      errors.x.push_back(table.number(row, channel.over));
-      errors.y.push_back(table.number(row, channel.measured) - table.number(row, channel.predicted));
-    }
-    left_out += thin(errors) + add_curve(fit, channel, *rows, std::move(curve));
-    rest.series.push_back(std::move(errors));
+    for (std::size_t k = 0; k < rows->size(); ++k)
+      errors.y[k] = table.number((*rows)[k], channel.measured) - table.number((*rows)[k], channel.predicted);
+    left_out += add_lines(rest, errors, channel.lines(*rows)) + add_curve(fit, channel, *rows, std::move(curve));
   }
   rest.legend = true;
   rest.note = hidden_note(groups.size()) + thinning_note(left_out);
-  fit.note = bands_note(fit) + rest.note;
+  fit.note += bands_note(fit) + rest.note;
   page.begin_pair();
   page.chart(std::move(fit), folder.address());
   page.chart(std::move(rest), folder.address());
@@ -216,11 +224,12 @@ void add_fits(Page& page, const Folder& folder, const Order& order) {
       add_quality(page, order);
     }
     const std::string test = file.substr(4, file.size() - 8);
-    std::size_t over = 0;
+    std::vector<std::size_t> prescribed;
     for (std::size_t k = 2; k < table->columns().size(); ++k)
       if (const auto predicted = table->find(table->columns()[k].name + ".predicted")) {
-        if (over == 0) over = swept(*table, table->groups("run").front().second, k);
-        add_channel(page, folder, order, {*table, test, over, k, *predicted});
+        if (prescribed.empty()) prescribed = prescribed_columns(*table, k);
+        const std::string own = own_abscissa(folder.result(), test, table->columns()[k].name);
+        add_channel(page, folder, order, {*table, test, prescribed, k, *predicted, own});
       }
   }
 }

@@ -68,9 +68,10 @@ void add_table(Page& page, const Order::Run& run) {
   if (rows.empty()) return;
   page.heading(run.label);
   page.html(table_html(head, rows));
-  std::vector<std::string> sentences;
+  std::vector<std::string> sentences, names;
+  for (const auto& entry : parameters.items()) names.push_back(entry.key());
   for (const std::string& sentence : words(list(best, "uncertainty")))
-    sentences.push_back(text::capitalised(sentence) + '.');
+    sentences.push_back(text::capitalised(sentence, names) + '.');
   if (!sentences.empty()) page.box("", "What to make of the intervals", sentences, 3);
 }
 

@@ -194,6 +194,8 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
     const Doubts doubts = doubts_of(best);
+    std::vector<std::string> names;
+    for (const auto& entry : member(best, "parameters").items()) names.push_back(entry.key());
     page.word_lists(
         {{"Best run",
           {fmt::format("{}{}, objective {}", first->label, rivals > 1 ? fmt::format(", first of {}", rivals) : "",
@@ -201,7 +203,7 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
          {"How well", fit_words(best)},
          {"What is wrong",
           {doubts.wrong.empty() ? "Nothing was found."
-                                : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")))}},
+                                : text::capitalised(fmt::format("{}.", fmt::join(doubts.wrong, "; ")), names)}},
          {"What to do next",
           {doubts.next.empty() ? "Use it: tunica simulate EXPERIMENT --parameters result.json"
                                : fmt::format("{}", fmt::join(doubts.next, " "))}}});

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "report/lines.hpp"
 #include "report/sections.hpp"
-#include "report/thinning.hpp"
 #include "text/lists.hpp"
 
 namespace tunica::report {
@@ -34,36 +37,87 @@ void add_words(Page& page, const Folder& folder) {
        {"What to do next", "Lay it beside a calibration: tunica report DIR THIS_FOLDER -o FILE."}});
 }
 
+/// What a column is drawn over, and which rows are one curve: as the folder says. Older folders do not; their columns
+/// are drawn over the first.
+struct Over {
+  std::size_t column = 0;
+  std::vector<data::Line> lines;
+};
+
+Over over_of(const Json& record, const Table& table, const std::string& test, const std::string& column) {
+  std::vector<double> x;
+  Over over;
+  std::vector<std::string> curves;
+  for (const Json& one : list(record, "curves")) {
+    if (word(one, "test") != test || word(one, "column") != column) continue;
+    std::vector<std::size_t> columns;
+    std::vector<data::Prescribed> quantities;
+    for (const std::string& name : words(list(one, "prescribed")))
+      if (const auto k = table.find(name)) {
+        columns.push_back(*k);
+        auto& quantity = quantities.emplace_back(data::Prescribed{name, table.columns()[*k].unit.value_or(""), {}});
+        for (std::size_t row = 0; row < table.rows(); ++row) quantity.values.push_back(table.number(row, *k));
+      }
+    if (quantities.empty()) continue;
+    data::Abscissa chosen = data::abscissa_of(quantities, word(one, "over"));
+    over.column = columns[chosen.column];
+    curves = std::move(chosen.curves);
+  }
+  for (std::size_t row = 0; row < table.rows(); ++row) x.push_back(table.number(row, over.column));
+  over.lines = data::lines_of(x, curves);
+  return over;
+}
+
+/// The curves that lie over a prescribed quantity; each member of a family is a series of its own.
+Chart predicted_chart(const Table& table, const std::string& test, std::size_t column, const Over& over) {
+  Chart chart;
+  chart.id = test + '_' + table.columns()[column].name;
+  chart.title = test + ": " + table.columns()[column].name;
+  chart.x.title = table.title(over.column);
+  chart.y.title = table.title(column);
+  chart.about = fmt::format("{} over {}", chart.y.title, chart.x.title);
+  chart.files = {table.file_name()};
+  Series whole{table.columns()[column].name, "line", 0};
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    whole.x.push_back(table.number(row, over.column));
+    whole.y.push_back(table.number(row, column));
+  }
+  std::size_t left_out = 0;
+  std::vector<std::string> members;
+  for (Series& part : by_line(whole, over.lines, 600, left_out)) {
+    if (!part.label.empty()) {
+      auto at = std::find(members.begin(), members.end(), part.label);
+      if (at == members.end()) at = members.insert(members.end(), part.label);
+      part.style = static_cast<int>(at - members.begin());
+      part.name = std::exchange(part.label, "");
+    }
+    chart.series.push_back(std::move(part));
+  }
+  if (left_out > 0)
+    chart.note = fmt::format("{} of {} rows are drawn, peaks kept.", table.rows() - left_out, table.rows());
+  return chart;
+}
+
 }  // namespace
 
-/// Every column of every table over the first.
+/// Every column of every table over its abscissa.
 void add_simulation(Page& page, const Folder& folder) {
   add_words(page, folder);
   page.section("Predicted curves");
   page.begin_pair();
+  const Json& said = folder.result();
   for (const std::string& file : folder.tables("")) {
     const auto table = folder.table(file);
     if (!table || file.ends_with("_section.csv")) continue;  // those are drawn with the wall
-    for (std::size_t k = 1; k < table->columns().size(); ++k) {
-      Chart chart;
-      chart.id = file.substr(0, file.size() - 4) + '_' + table->columns()[k].name;
-      chart.title = file.substr(0, file.size() - 4) + ": " + table->columns()[k].name;
-      chart.x.title = table->title(0);
-      chart.y.title = table->title(k);
-      chart.about = fmt::format("{} over {}", chart.y.title, chart.x.title);
-      chart.files = {file};
-      std::vector<double> y;
-      for (std::size_t row = 0; row < table->rows(); ++row) y.push_back(table->number(row, k));
-      Series series{table->columns()[k].name, "line", 0, {}, {}, {}, {}};
-      const auto kept = shape_keeping(y, 600);
-      for (const std::size_t row : kept) {
-        series.x.push_back(table->number(row, std::size_t{0}));
-        series.y.push_back(y[row]);
-      }
-      if (kept.size() < table->rows())
-        chart.note = fmt::format("{} of {} rows are drawn, peaks kept.", kept.size(), table->rows());
-      if (!series.x.empty()) chart.series.push_back(std::move(series));
-      page.chart(std::move(chart), folder.address());
+    const std::string test = file.substr(0, file.size() - 4);
+    std::set<std::string> prescribed;
+    for (const Json& one : list(said, "curves"))
+      if (word(one, "test") == test)
+        for (const std::string& name : words(list(one, "prescribed"))) prescribed.insert(name);
+    for (std::size_t k = prescribed.empty() ? 1 : 0; k < table->columns().size(); ++k) {
+      const std::string& name = table->columns()[k].name;
+      if (prescribed.count(name) == 0)
+        page.chart(predicted_chart(*table, test, k, over_of(said, *table, test, name)), folder.address());
     }
   }
   page.end_pair();

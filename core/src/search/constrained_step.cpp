@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/QR>
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::search {
 namespace {
@@ -31,7 +31,7 @@ Vector non_negative_least_squares(const Matrix& E, const Vector& f) {
       for (Index i = 0; i < m; ++i)
         if (free(i)) at.push_back(i);
       if (at.empty()) break;
-      const Vector z = Eigen::CompleteOrthogonalDecomposition<Matrix>(E(Eigen::all, at)).solve(f);
+      const Vector z = numerics::shortest_least_squares_solution(E(Eigen::all, at), f);
       double share = 1;
       for (std::size_t k = 0; k < at.size(); ++k)
         if (const double to = z[static_cast<Index>(k)]; to <= 0) share = std::min(share, u[at[k]] / (u[at[k]] - to));
@@ -56,9 +56,8 @@ std::optional<ConstrainedStep> constrained_step(const Matrix& J, const Vector& r
   stacked << J, ridge * Matrix::Identity(n, n);
   Vector right = Vector::Zero(rows + n);
   right.head(rows) = -r;
-  const Eigen::HouseholderQR<Matrix> qr(stacked);
-  const Vector q = (qr.householderQ().transpose() * right).head(n);
-  const auto R = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+  const auto [upper, q] = numerics::triangular(stacked, right);
+  const auto R = upper.triangularView<Eigen::Upper>();
   // With z = R s − q the objective is ‖z‖² and a constant, and the inequalities G z ≥ h.
   Matrix G = -R.transpose().solve(A.transpose()).transpose();
   Vector h = c - G * q;

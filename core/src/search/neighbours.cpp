@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+
+#include "numerics/eigenpairs.hpp"
 
 namespace tunica::search {
 namespace {
@@ -51,9 +52,9 @@ void add_principal_directions(const assembly::Assembly& assembly, std::span<cons
     normal += block.weight * slope * J.transpose() * J;
   }
   if (!normal.allFinite()) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(normal);
+  const Matrix vectors = numerics::eigenpairs(normal).vectors;
   for (Eigen::Index k = 0; k < normal.rows(); ++k) {
-    const Eigen::VectorXd v = eigen.eigenvectors().col(k);
+    const Eigen::VectorXd v = vectors.col(k);
     directions.push_back({fmt::format("direction {} of the residuals' curvature", k + 1), {v.begin(), v.end()}});
   }
 }

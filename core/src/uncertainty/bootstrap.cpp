@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "assembly/whitening.hpp"
+#include "numerics/orthogonal.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::uncertainty {
@@ -29,9 +29,7 @@ struct Pool {
 /// Diagonal of the hat matrix of the rows, by a rank-revealing factorisation: directions that the data do not see take
 /// nothing away.
 Eigen::VectorXd leverages(const Eigen::MatrixXd& rows) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows.rows(), qr.rank());
-  return Q.rowwise().squaredNorm();
+  return numerics::orthonormal_basis(rows).rowwise().squaredNorm();
 }
 
 bool fill(const assembly::Assembly& assembly, std::span<const double> best, Pool& pool) {

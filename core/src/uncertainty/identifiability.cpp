@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "assembly/whitening.hpp"
+#include "numerics/singular.hpp"
 #include "uncertainty/sandwich.hpp"
 #include "uncertainty/straightness.hpp"
 #include "uncertainty/valley_words.hpp"
@@ -82,10 +82,10 @@ Matrix tangent_space(const Matrix& gradients) {
   const Eigen::Index n = gradients.cols();
   if (gradients.rows() == 0 || n == 0) return Matrix::Identity(n, n);
   constexpr double parallel = 0.02;
-  const Eigen::JacobiSVD<Matrix> svd(gradients.rowwise().normalized(), Eigen::ComputeFullV);
+  const auto [values, V] = numerics::right_singular_vectors(gradients.rowwise().normalized());
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > parallel * svd.singularValues()[0]) ++rank;
-  return svd.matrixV().rightCols(n - rank);
+  while (rank < values.size() && values[rank] > parallel * values[0]) ++rank;
+  return V.rightCols(n - rank);
 }
 
 /// Parameters inside their bounds, along active constraints, from the singular values of their columns. Empty where
@@ -100,12 +100,12 @@ Spectrum spectrum_of(const Matrix& rows, const Matrix& active, const std::vector
   const Eigen::Index inside = tangent.cols();
   if (inside == 0) return {Matrix::Zero(rows.cols(), 0), Vector(), Vector(), {}, 0};
   const Matrix inner = rows(Eigen::all, position) * tangent;
-  const Eigen::JacobiSVD<Matrix> svd(inner, Eigen::ComputeFullV);
+  const numerics::SingularVectors singular = numerics::right_singular_vectors(inner);
   Spectrum found;
   found.values = Vector::Zero(inside);
-  found.values.head(svd.singularValues().size()) = svd.singularValues();
+  found.values.head(singular.values.size()) = singular.values;
   found.V = Matrix::Zero(rows.cols(), inside);
-  found.V(position, Eigen::all) = tangent * svd.matrixV();
+  found.V(position, Eigen::all) = tangent * singular.vectors;
   found.variance = Vector::Ones(inside);
   for (Eigen::Index k = 0; k < inside; ++k) {
     const double s = found.values[k];

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include "numerics/cholesky.hpp"
+#include "numerics/eigenpairs.hpp"
+#include "numerics/singular.hpp"
 
 namespace tunica::uncertainty {
 namespace {
@@ -99,16 +99,14 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
   const Matrix scaled = spectrum.V(Eigen::all, seen) * width.asDiagonal();
   Bread bread;
   if (Status status = linearise(assembly, free, noise, {}, scaled, bread); !status.ok()) return status;
-  const Eigen::LDLT<Matrix> solver(bread.curvature);
-  const Eigen::LLT<Matrix> root(bread.score);
-  if (solver.info() != Eigen::Success || !solver.isPositive() || root.info() != Eigen::Success)
-    return Status::failed("the objective's curvature is singular in directions that the data see");
-  const Matrix spread = width.asDiagonal() * solver.solve(Matrix(root.matrixL()));
-  const Eigen::JacobiSVD<Matrix> svd(spread, Eigen::ComputeFullU);
-  const Matrix V = spectrum.V(Eigen::all, seen) * svd.matrixU();
+  const std::optional<Matrix> half = numerics::half_sandwich(bread.curvature, bread.score);
+  if (!half) return Status::failed("the objective's curvature is singular in directions that the data see");
+  const Matrix spread = width.asDiagonal() * *half;
+  const numerics::SingularVectors singular = numerics::left_singular_vectors(spread);
+  const Matrix V = spectrum.V(Eigen::all, seen) * singular.vectors;
   for (Eigen::Index a = 0; a < k; ++a) {  // singular values fall, so widths in reverse
     const Eigen::Index from = k - 1 - a, to = seen[static_cast<std::size_t>(a)];
-    const double sd = svd.singularValues()[from];
+    const double sd = singular.values[from];
     spectrum.V.col(to) = V.col(from);
     spectrum.values[to] = 1 / sd;
     spectrum.variance[to] = sd * sd;
@@ -140,12 +138,11 @@ Status objective_scales(const assembly::Assembly& assembly, std::span<const doub
     const Matrix H = all.curvature(moving, moving), M = all.score(moving, moving);
     // Scaled to a diagonal of one, so that no unit decides which direction is seen.
     const Vector width = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(width.asDiagonal() * H * width.asDiagonal());
+    const auto [values, vectors] = numerics::eigenpairs(width.asDiagonal() * H * width.asDiagonal());
     Vector d = Vector::Zero(H.rows());
-    const double least = std::max(weakest * weakest, 1e-13) * eigen.eigenvalues().maxCoeff();
+    const double least = std::max(weakest * weakest, 1e-13) * values.maxCoeff();
     for (Eigen::Index k = 0; k < d.size(); ++k)
-      if (eigen.eigenvalues()[k] > least)
-        d += eigen.eigenvectors()(own, k) / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+      if (values[k] > least) d += vectors(own, k) / values[k] * vectors.col(k);
     d = width.cwiseProduct(d);
     const double curvature = d.dot(H * d), score = d.dot(M * d);
     if (curvature > 0 && score > 0 && std::isfinite(score / curvature)) scales[j] = score / (2 * curvature);

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/QR>
-
+#include "numerics/orthogonal.hpp"
 #include "search/constrained_step.hpp"
 
 namespace tunica::uncertainty {
@@ -47,8 +46,7 @@ void Straightness::move_along(Eigen::Index parameter, double by, std::vector<dou
   std::vector<Eigen::Index> moving;
   for (Eigen::Index j = 0; j < n; ++j)
     if (j != parameter) moving.push_back(j);
-  const Vector others =
-      Eigen::CompleteOrthogonalDecomposition<Matrix>(J(Eigen::all, moving)).solve(-(r + by * J.col(parameter)));
+  const Vector others = numerics::shortest_least_squares_solution(J(Eigen::all, moving), -(r + by * J.col(parameter)));
   for (std::size_t a = 0; a < moving.size(); ++a) {
     double& value = x[static_cast<std::size_t>(moving[a])];
     value = std::clamp(value + others[static_cast<Eigen::Index>(a)], 0.0, 1.0);
@@ -89,7 +87,7 @@ Vector Straightness::step(const std::vector<double>& x, const std::vector<Eigen:
   const auto n = static_cast<Eigen::Index>(x.size()), m = static_cast<Eigen::Index>(constraints_.size());
   const Eigen::Map<const Rows> J(jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
   const Eigen::Map<const Vector> r(residuals_.data(), J.rows());
-  if (m == 0) return Eigen::CompleteOrthogonalDecomposition<Matrix>(J(Eigen::all, moving)).solve(-r);
+  if (m == 0) return numerics::shortest_least_squares_solution(J(Eigen::all, moving), -r);
   const auto k = static_cast<Eigen::Index>(moving.size());
   Matrix A = Matrix::Zero(m + 2 * k, k);
   Vector c(m + 2 * k);

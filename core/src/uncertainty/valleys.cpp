@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "numerics/eigenpairs.hpp"
 #include "uncertainty/remedy.hpp"
 #include "uncertainty/valley_words.hpp"
 
@@ -61,9 +60,9 @@ std::vector<Group> connected(const Matrix& P) {
 /// Steps along the valley: the eigenvectors of the projector within the group, the largest component positive.
 void add_directions(const Matrix& P, const Group& group, const assembly::Assembly& assembly,
                     std::span<const double> free, Valley& valley) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(P(group, group));
-  for (Eigen::Index k = eigen.eigenvalues().size() - 1; k >= 0 && eigen.eigenvalues()[k] > 0.5; --k) {
-    Vector v = eigen.eigenvectors().col(k);
+  const auto [values, vectors] = numerics::eigenpairs(P(group, group));
+  for (Eigen::Index k = values.size() - 1; k >= 0 && values[k] > 0.5; --k) {
+    Vector v = vectors.col(k);
     Eigen::Index largest = 0;
     v.cwiseAbs().maxCoeff(&largest);
     if (v[largest] < 0) v = -v;

@@ -48,19 +48,23 @@ class ModelWithPart final : public Model {
     const std::size_t n = points.count, by_base = 3 * count_ * n;
     AxisResponse of_base = out;
     of_base.gradient_dp = out.gradient_dp.first(out.gradient_dp.empty() ? 0 : by_base);
+    of_base.energy_dp = out.energy_dp.first(out.energy_dp.empty() ? 0 : count_ * n);
     if (Status status = base_->evaluate_axes({n, points.c, points.parameters.first(count_)}, of_base); !status.ok())
       return status;
-    if (points.parameters[count_] == 0 && out.gradient_dp.empty()) return {};
+    if (points.parameters[count_] == 0 && out.gradient_dp.empty() && out.energy_dp.empty()) return {};
     std::vector<double> energy(out.energy.size()), gradient(out.gradient.size()), hessian(out.hessian.size()),
-        gradient_dp(out.gradient_dp.size());
-    if (Status status = part_.evaluate_axes(points, {energy, gradient, hessian, gradient_dp}); !status.ok())
+        gradient_dp(out.gradient_dp.size()), energy_dp(out.energy_dp.size());
+    if (Status status = part_.evaluate_axes(points, {energy, gradient, hessian, gradient_dp, energy_dp}); !status.ok())
       return status;
+    if (!out.energy_dp.empty())
+      std::fill(out.energy_dp.begin() + static_cast<std::ptrdiff_t>(count_ * n), out.energy_dp.end(), 0.0);
     if (!out.gradient_dp.empty())
       std::fill(out.gradient_dp.begin() + static_cast<std::ptrdiff_t>(by_base), out.gradient_dp.end(), 0.0);
     add(energy, out.energy);
     add(gradient, out.gradient);
     add(hessian, out.hessian);
     add(gradient_dp, out.gradient_dp);
+    add(energy_dp, out.energy_dp);
     return {};
   }
 
@@ -68,6 +72,7 @@ class ModelWithPart final : public Model {
   static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
     ModelDescription description = base.describe();
     description.parameters.insert(description.parameters.end(), own.begin(), own.end());
+    description.axis_history_size = 0;  // memory of the base is followed in tensors
     return description;
   }
   static void add(const std::vector<double>& more, std::span<double> onto) {

@@ -186,7 +186,8 @@ std::vector<MechanismFactory> factories() {
                 .plausible_max = 1.5,
                 .look_alikes = {"fibre_dispersion", "axial_fibres", "matrix_stiffening"},
                 .isolated_by = "imaging of the fibres' waviness, or small stretches",
-                .reference = "Lanir, J. Biomech. 16:1 (1983)"},
+                .reference = "Lanir, J. Biomech. 16:1 (1983)",
+                .directional = true},
                "fibres, for example in hgo or gho", recruited)};
 }
 

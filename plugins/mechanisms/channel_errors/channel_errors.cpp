@@ -67,19 +67,25 @@ MechanismFactory partly_shifted(MechanismFactory mechanism, Share share) {
   return mechanism;
 }
 
+/// An offset in the unit of its channel is plausible up to a fifth of what the channel spans.
+MechanismFactory by_range(MechanismFactory mechanism) {
+  mechanism.plausible_effect = 0.2;
+  return mechanism;
+}
+
 std::vector<MechanismFactory> of_known_channels() {
   const std::string load_cells = "ISO 7500-1:2018, Calibration and verification of static uniaxial testing machines";
   const std::string tube_rigs = "Humphrey, Kang, Sakarda, Anjanappa, Ann. Biomed. Eng. 21:33 (1993)";
   const std::string not_zeroed = "The load cell was not zeroed: every force reading carries the same error.";
   return {
-      reading(described("force_offset", {"uniaxial"},
-                        {"value", "kPa", 0, -50, 50, Scale::linear,
-                         "Stress the load cell shows at no load, in the data's measure.", ""},
-                        10,
-                        {not_zeroed,
-                         {"outliers", "reference_length_error", "active_tone"},
-                         "a reading of the load cell without specimen",
-                         load_cells}),
+      reading(by_range(described("force_offset", {"uniaxial"},
+                                 {"value", "kPa", 0, -50, 50, Scale::linear,
+                                  "Stress the load cell shows at no load, in the data's measure.", ""},
+                                 10,
+                                 {not_zeroed,
+                                  {"outliers", "reference_length_error", "active_tone"},
+                                  "a reading of the load cell without specimen",
+                                  load_cells})),
               {"stress"}, shifted),
       reading(described("force_scale_error", {"uniaxial"},
                         {"gain", "1", 0, -0.5, 1, Scale::linear, "Measured over true stress, less one.", ""}, 0.2,
@@ -88,13 +94,14 @@ std::vector<MechanismFactory> of_known_channels() {
                          "a known weight on the load cell",
                          load_cells}),
               {"stress"}, scaled),
-      reading(described("axial_force_offset", tubes,
-                        {"value", "mN", 0, -1000, 1000, Scale::linear, "True less measured axial force.", ""}, 100,
-                        {not_zeroed,
-                         {"axial_force_scale_error", "axial_stretch_error", "outliers"},
-                         "a reading of the load cell without specimen",
-                         load_cells}),
-              {"axial_force"}, shifted_back),
+      reading(
+          by_range(described("axial_force_offset", tubes,
+                             {"value", "mN", 0, -1000, 1000, Scale::linear, "True less measured axial force.", ""}, 100,
+                             {not_zeroed,
+                              {"axial_force_scale_error", "axial_stretch_error", "outliers"},
+                              "a reading of the load cell without specimen",
+                              load_cells})),
+          {"axial_force"}, shifted_back),
       reading(described("axial_force_scale_error", tubes,
                         {"gain", "1", 0, -0.5, 1, Scale::linear, "True over measured axial force, less one.", ""}, 0.2,
                         {"The load cell's gain is wrong.",
@@ -123,6 +130,7 @@ std::vector<MechanismFactory> of_chosen_channels() {
                  "a reading at no load after the test, or the same loading in reverse",
                  "JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift"});
   drift.options = {channel_option()};
+  drift.memory = true;  // without a clock the row stands for it
   MechanismFactory outliers =
       described("outliers", {},
                 {"value", "1", 0, -widest, widest, Scale::linear,

@@ -101,7 +101,8 @@ MechanismFactory factory() {
       .plausible_max = 1. / 3,
       .look_alikes = {"matrix_stiffening", "chain_extensibility", "fibre_recruitment"},
       .isolated_by = "transverse stretch of a strip, or imaging of the fibre directions",
-      .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)"};
+      .reference = "Gasser, Ogden, Holzapfel, J. R. Soc. Interface 3:15 (2006)",
+      .directional = true};
   mechanism.wrap_model = [](std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> shared(std::move(base));
     return std::make_unique<DecoratedModel>(shared, std::vector<Parameter>{kappa()}, 0, dispersed(shared));

@@ -29,6 +29,7 @@ MechanismFactory residual_stress() {
           .look_alikes = {"pressure_scale_error", "layered_wall", "pressure_offset"},
           .isolated_by = "the opening angle of a ring that is cut",
           .reference = "Chuong, Fung, J. Biomech. Eng. 108:189 (1986)",
+          .origin = MechanismFactory::Origin::material,
           .native = "opening_angle",
           .shared = true};
 }
@@ -64,6 +65,7 @@ MechanismFactory tethering() {
           .look_alikes = {"pressure_scale_error", "layered_wall", "residual_stress"},
           .isolated_by = "the same test with the surrounding tissue taken off",
           .reference = "Liu, Dang, Garcia, Gregersen, Kassab, Am. J. Physiol. Heart 293:H3290 (2007)",
+          .origin = MechanismFactory::Origin::material,
           .native = "tethering",
           .shared = true};
 }
@@ -83,6 +85,7 @@ MechanismFactory layered_wall() {
           .look_alikes = {"residual_stress", "pressure_scale_error", "axial_force_scale_error"},
           .isolated_by = "strips of the separated layers",
           .reference = "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)",
+          .origin = MechanismFactory::Origin::material,
           .options = {Option::number(
               "layer_interface", 0.5, {0.05, 0.95},
               "Where the layers meet: fraction of the thickness from inside. It takes the place of the "
@@ -124,6 +127,7 @@ MechanismFactory specimen_misalignment() {
           .look_alikes = {"force_scale_error", "reference_length_error", "circumferential_fibres"},
           .isolated_by = "imaging of the fibre directions, or shear strains in the middle of the strip",
           .reference = "Pagano, Halpin, J. Compos. Mater. 2:18 (1968)",
+          .directional = true,
           .native = "misalignment"};
 }
 

@@ -42,11 +42,12 @@ struct Softening {
   }
 };
 
-/// State: Wmax. The energy it returns is that of the base, with which Wmax is compared.
+/// State: Wmax; in principal axes W at rest and Wmax. The energy it returns is that of the base, with which Wmax is
+/// compared.
 class SoftenedModel final : public HistoryModel {
  public:
   explicit SoftenedModel(std::unique_ptr<Model> base)
-      : HistoryModel("stress_softening", std::move(base), own_parameters(), 1) {}
+      : HistoryModel("stress_softening", std::move(base), own_parameters(), 1, 2) {}
 
  private:
   Status evaluate_step(Step& step) const override {
@@ -87,6 +88,49 @@ class SoftenedModel final : public HistoryModel {
       if (!step.new_state.empty()) step.new_state[i] = std::isnan(W) ? W : std::max(before, W);
     }
     return {};
+  }
+
+  void remember_step(const AxisStep& step) const override {
+    const std::size_t n = step.width;
+    double* const at_rest = step.state;
+    double* const largest = step.state + n;
+    if (step.at_rest) {
+      std::copy_n(step.energy, n, at_rest);
+      return;
+    }
+    const double W = step.energy[0] - at_rest[0];
+    const double* const g = step.gradient;
+    const double stress = 2 * std::max({std::abs(g[0]), std::abs(g[n]), std::abs(g[2 * n])});
+    const bool below = !step.first && W < largest[0];
+    if (below && largest[0] > unloaded * stress) {
+      soften(step, W);
+    } else if (!below && (W > 0 || std::isnan(W))) {
+      for (std::size_t k = 0; k < n; ++k) largest[k] = step.energy[k] - at_rest[k];
+    }
+  }
+
+  /// g → η g with all derivatives. With x = (Wmax − W)/(m Wmax) and e = 2/√π e^{−x²},
+  ///
+  ///   dη = −erf(x) ds − s e dx,   dx = (dWmax − dW)/(m Wmax) − x (dWmax/Wmax + dm/m).
+  static void soften(const AxisStep& step, double W) {
+    const std::size_t n = step.width;
+    const double* const at_rest = step.state;
+    const double* const largest = step.state + n;
+    const double s = step.parameters[0], m = step.parameters[1];
+    const double width = m * largest[0], x = (largest[0] - W) / width, lost = std::erf(x);
+    const double by_x = -s * 2 * std::numbers::inv_sqrtpi * std::exp(-x * x);
+    const double by_energy = -by_x / width, by_largest = by_x * (1 / width - x / largest[0]);
+    const double eta = 1 - s * lost;
+    for (std::size_t a = 0; a < 3; ++a) {
+      double* const g = step.gradient + a * n;
+      const double bare = g[0];
+      for (std::size_t k = 1; k < n; ++k)
+        g[k] = eta * g[k] + bare * (by_energy * (step.energy[k] - at_rest[k]) + by_largest * largest[k]);
+      g[0] = eta * bare;
+      if (step.parameter_place == 0) continue;
+      g[step.parameter_place] -= lost * bare;
+      g[step.parameter_place + 1] -= by_x * x / m * bare;
+    }
   }
 
   Status energy_at_rest(std::span<const double> parameters, double& W) const {

@@ -26,6 +26,7 @@ class Biaxial final : public Test {
   explicit Biaxial(const TestSetup& setup) : sheet_(bind(setup)) {
     description_.diagnostics = {"normal_stretch"};
     description_.diagnostic_units = {"1"};
+    description_.path_derivatives = true;
     rows_.count = sheet_.count();
     for (std::size_t k = 0; k < sheet_.columns.size(); ++k) {
       rows_.abscissae.push_back({sheet_.names[k], sheet_.columns[k]});
@@ -41,9 +42,10 @@ class Biaxial final : public Test {
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
     const Response::Wants wants{!output.abscissa_derivative.empty(), !output.jacobian.empty()};
-    if (model.history_size > 0 && (wants.tangent || wants.parameters))
+    const bool followed = model.axis_history_size > 0;
+    if (model.history_size > 0 && (wants.tangent || (wants.parameters && !followed)))
       return Status::failed("biaxial: no exact Jacobian along the path of a model with history");
-    if (!model.parameter_derivatives && wants.parameters)
+    if (!model.parameter_derivatives && !followed && wants.parameters)
       return Status::failed("biaxial: the model has no parameter derivatives");
     const auto columns = input.abscissae.empty() ? std::span<const std::span<const double>>(bound_) : input.abscissae;
     const std::size_t n = rows_.count, rows = sheet_.channels.size() * n, parameters = input.model_parameters.size();
@@ -162,8 +164,9 @@ TestFactory factory() {
        {"stretch", "1", Role::abscissa, false, "The one stretch of the protocols equibiaxial and pure_shear.",
         Kind::stretch},
        {"time", "s", Role::time, false, "Time since the unloaded state.", Kind::plain},
-       {"stress_circumferential", "kPa", Role::channel, false, "Circumferential stress.", Kind::stress},
-       {"stress_axial", "kPa", Role::channel, false, "Axial stress.", Kind::stress},
+       {"stress_circumferential", "kPa", Role::channel, false, "Circumferential stress.", Kind::stress,
+        "stretch_circumferential"},
+       {"stress_axial", "kPa", Role::channel, false, "Axial stress.", Kind::stress, "stretch_axial"},
        {"stress", "kPa", Role::channel, false,
         "Stress along the pulled direction of pure_shear; mean of both directions in equibiaxial.", Kind::stress}},
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Biaxial>(setup); },

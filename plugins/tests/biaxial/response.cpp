@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tunica/detail/axis_path.hpp"
+
 namespace tunica::biaxial {
 namespace {
 
@@ -24,6 +26,11 @@ Status Response::evaluate(const Model& model, std::span<const double> parameters
                           std::size_t n, Wants wants) {
   const ModelDescription& description = model.describe();
   if (description.principal_axes && description.history_size == 0) return on_axes(model, parameters, n, wants);
+  if (description.axis_history_size > 0 && !wants.tangent) {
+    if (wants.parameters || model.remembers(parameters)) return on_path(model, parameters, time, n, wants);
+    const Model& elastic = model.elastic();
+    return on_axes(elastic, parameters.first(elastic.describe().parameters.size()), n, wants);
+  }
   return on_tensors(model, parameters, time, n, wants);
 }
 
@@ -38,6 +45,29 @@ Status Response::on_axes(const Model& model, std::span<const double> parameters,
   for (std::size_t k = 0; k < 3 * n; ++k) stress[k] *= 2;
   for (std::size_t k = 0; wants.tangent && k < 6 * n; ++k) tangent[k] *= 4;
   for (std::size_t k = 0; wants.parameters && k < 3 * n * parameters.size(); ++k) stress_dp[k] *= 2;
+  return {};
+}
+
+/// Stretches are prescribed: nothing has to be solved, and derivatives by the parameters run along.
+Status Response::on_path(const Model& model, std::span<const double> parameters, std::span<const double> time,
+                         std::size_t n, Wants wants) {
+  thread_local detail::AxisPath path;
+  path.prepare(model, parameters, n);
+  for (std::size_t a = 0; a < 3; ++a) std::copy_n(c.begin() + static_cast<std::ptrdiff_t>(a * n), n, path.c(a));
+  if (Status status = path.evaluate(wants.parameters); !status.ok()) return status;
+  path.begin(0, 0, wants.parameters, !time.empty());
+  for (std::size_t i = 0; i < n; ++i) {
+    path.load(i);
+    double step = 0;
+    if (!time.empty()) step = i == 0 ? std::max(0.0, time[0]) : time[i] - time[i - 1];
+    path.remember(step);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double* const g = path.g_row(a);
+      stress[a * n + i] = 2 * g[0];
+      for (std::size_t j = 0; wants.parameters && j < parameters.size(); ++j)
+        stress_dp[(3 * j + a) * n + i] = 2 * g[path.parameter_place() + j];
+    }
+  }
   return {};
 }
 

@@ -24,13 +24,15 @@ struct Response {
   };
 
   void reserve(std::size_t n, std::size_t parameters);
-  /// Evaluates all n rows: in principal axes where the model offers that and has no history, else over full tensors, in
-  /// the rows' order. `time`: n clock readings, or empty.
+  /// Evaluates all n rows: in principal axes where the model offers that, else over full tensors, in the rows' order.
+  /// `time`: n clock readings, or empty.
   Status evaluate(const Model& model, std::span<const double> parameters, std::span<const double> time, std::size_t n,
                   Wants wants);
 
  private:
   Status on_axes(const Model& model, std::span<const double> parameters, std::size_t n, Wants wants);
+  Status on_path(const Model& model, std::span<const double> parameters, std::span<const double> time, std::size_t n,
+                 Wants wants);
   Status on_tensors(const Model& model, std::span<const double> parameters, std::span<const double> time, std::size_t n,
                     Wants wants);
   std::vector<double> tensor_, tensor_stress_, tensor_tangent_, tensor_stress_dp_, old_state_, new_state_;

@@ -3,13 +3,20 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
+#include "memory.hpp"
 #include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
 namespace {
 
-/// y at which the tube carries the row's pressure, from `row.y`; leaves its forces in the row.
+constexpr int newton_iterations = 8;
+constexpr double settled = 1e-9;  ///< of y = ln ri; such a step is applied to first order
+constexpr double largest_guess = 0.1;
+
+/// y at which the tube carries the row's pressure, from `row.y`; leaves its forces in the row. Newton's method alone
+/// where it contracts from there, else inside a bracket.
 bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall) {
   const auto evaluate = [&](double y, const Memory& with) {
     const Section section{row.axial_stretch, y};
@@ -27,6 +34,23 @@ bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall)
     }
     return detail::Residual{p - row.pressure, p_y};
   };
+  const double begun = row.y;
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < newton_iterations; ++iteration) {
+    if (!evaluate(row.y, memory)) break;
+    double p = row.forces.p, p_y = row.forces.p_y;
+    if (row.support_free > 0) {
+      p += support(wall, row.y, row.axial_stretch, row.support_free);
+      p_y += support_slope(wall, row.y, row.axial_stretch);
+    }
+    row.step = (row.pressure - p) / p_y;
+    if (!(p_y > 0) || !(std::abs(row.step) < 0.5 * before)) break;
+    if (std::abs(row.step) < settled) return true;
+    before = std::abs(row.step);
+    row.y += row.step;
+  }
+  row.y = begun;
+  row.step = 0;
   return detail::safeguarded_newton(residual, row.y) && evaluate(row.y, memory);
 }
 
@@ -37,29 +61,44 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
   std::vector<double> pressure, axial_stretch;
   Wall wall(tube, input.test_parameters);
   const Layers layers(input);
+  const bool followed = !output.jacobian.empty();
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
-  if (Status status = close_sector(tube, layers, rule, sections, wall, nullptr); !status.ok()) return status;
+  // At equilibrium only the elastic part of a model plays a part.
+  SectorDerivative sector;
+  const Model& elastic = input.model.elastic();
+  const Layers bare(followed ? TestInput{elastic, input.model_parameters.first(elastic.describe().parameters.size()),
+                                         input.test_parameters}
+                             : input);
+  if (Status status = close_sector(tube, bare, rule, sections, wall, followed ? &sector : nullptr); !status.ok())
+    return status;
   sections.begin(layers, wall, rule);
+  std::optional<MemoryDerivatives> derivatives;
+  if (followed) {
+    derivatives.emplace(tube, wall, rule, sector, input);
+    if (Status status = derivatives->begin(); !status.ok()) return status;
+  }
 
   const std::size_t n = pressure.size(), points = sections.points_per_section();
   const std::size_t history = layers.history_size(points / layers.size());
   std::vector<double> old_state(history), new_state(history), time_step(points);
   std::vector<Row> rows(n);
   Row free{.axial_stretch = 1, .y = std::log(wall.Ri)};
-  double y = free.y;
+  double y = free.y, slope = std::numeric_limits<double>::infinity(), pressure_before = 0;
   for (std::size_t i = 0; i < n; ++i) {
     Row& row = rows[i];
     const double before = i == 0 ? 1 : axial_stretch[i - 1];
     row.axial_stretch = axial_stretch[i];
     row.pressure = pressure[i];
-    row.y = y - 0.5 * std::log(row.axial_stretch / before);  // the bulk of the wall goes with 1/√λz
+    // The bulk of the wall goes with 1/√λz, and along the last tangent.
+    const double ahead = (row.pressure - pressure_before) / slope;
+    row.y = y - 0.5 * std::log(row.axial_stretch / before) + (std::abs(ahead) < largest_guess ? ahead : 0);
     if (wall.tether != 0) {
       free.y -= 0.5 * std::log(row.axial_stretch / before);
       free.axial_stretch = row.axial_stretch;
       if (!solve(free, {}, sections, wall))
         return Status::failed("thick_wall_pressurisation: no equilibrium without pressure at " +
                               TubeRows::row_name(i, row.pressure, row.axial_stretch));
-      row.support_free = outer_radius(wall, free.y, free.axial_stretch);
+      row.support_free = outer_radius(wall, free.y + free.step, free.axial_stretch);
     }
     double step = 0;
     if (!tube.time.empty()) step = i == 0 ? std::max(0.0, tube.time[0]) : tube.time[i] - tube.time[i - 1];
@@ -72,6 +111,10 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
                             ": the energy overflows, or the pressure stops rising (limit pressure)");
     std::swap(old_state, new_state);
     y = row.y;
+    slope = row.forces.p_y;
+    pressure_before = row.pressure;
+    if (!derivatives) continue;
+    if (Status status = derivatives->add(i, row, step, output.jacobian); !status.ok()) return status;
   }
   return write_rows(tube, wall, rows, output);
 }

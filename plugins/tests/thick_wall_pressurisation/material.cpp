@@ -10,6 +10,8 @@ namespace {
 
 /// (a, b) of the six pairs tt, zz, rr, tz, zr, tr.
 constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+/// The reverse: which of the six (a, b) is.
+constexpr std::array<std::array<std::size_t, 3>, 3> component{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
 
 }  // namespace
 
@@ -32,8 +34,83 @@ Material::Material(const Model& model, std::span<const double> parameters) : mod
 
 Status Material::evaluate(std::size_t n, std::span<const double> c, std::span<double> gradient,
                           std::span<double> hessian, std::span<double> gradient_dp, const Memory& memory) const {
+  if (model_->describe().axis_history_size > 0 && gradient_dp.empty())
+    return with_memory(n, c, gradient, hessian, memory);
   if (!axes_) return on_tensors(n, c, gradient, hessian, gradient_dp, memory);
   return model_->evaluate_axes({n, c, parameters_}, {{}, gradient, hessian, gradient_dp});
+}
+
+/// The elastic response in one batch, at rest too where the path begins; then memory point by point, with derivatives
+/// by the three squared stretches. The state of a point without memory given is that at rest.
+Status Material::with_memory(std::size_t n, std::span<const double> c, std::span<double> gradient,
+                             std::span<double> hessian, const Memory& memory) const {
+  thread_local std::vector<double> points, energy, g, h, state;
+  const Model& elastic = model_->elastic();
+  const std::size_t history = model_->describe().axis_history_size, all = n + 1;
+  const bool begins = memory.old_state.empty();
+  points.resize(3 * all);
+  energy.resize(all);
+  g.resize(3 * all);
+  h.resize(hessian.empty() ? 0 : 6 * all);
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::copy_n(&c[a * n], n, &points[a * all]);
+    points[a * all + n] = 1;
+  }
+  const auto elastic_parameters = parameters_.first(elastic.describe().parameters.size());
+  if (Status status = elastic.evaluate_axes({all, points, elastic_parameters}, {energy, g, h, {}, {}}); !status.ok())
+    return status;
+
+  const std::size_t width = hessian.empty() ? 1 : 4;
+  std::array<double, 12> stretches{}, gradients{};
+  std::array<double, 4> energies{};
+  state.assign(2 * history * width, 0);
+  const std::span<double> at_rest(state.data() + history * width, history * width);
+  AxisStep step{width,
+                0,
+                parameters_,
+                0,
+                !memory.time_step.empty(),
+                true,
+                begins,
+                stretches.data(),
+                energies.data(),
+                gradients.data(),
+                at_rest.data()};
+  const auto load = [&](std::size_t i) {
+    energies[0] = energy[i];
+    for (std::size_t a = 0; a < 3; ++a) {
+      stretches[a * width] = points[a * all + i];
+      gradients[a * width] = g[a * all + i];
+      if (width == 1) continue;
+      energies[1 + a] = g[a * all + i];
+      for (std::size_t b = 0; b < 3; ++b) {
+        stretches[a * width + 1 + b] = a == b;
+        gradients[a * width + 1 + b] = h[component[a][b] * all + i];
+      }
+    }
+  };
+  if (begins) {
+    load(n);
+    model_->remember(step);
+    for (std::size_t s = 0; s < history; ++s) std::fill_n(at_rest.data() + s * width + 1, width - 1, 0.0);
+  }
+  step.at_rest = false;
+  step.state = state.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    load(i);
+    for (std::size_t s = 0; s < history; ++s) {
+      std::fill_n(&state[s * width], width, 0.0);
+      state[s * width] = begins ? at_rest[s * width] : memory.old_state[s * n + i];
+    }
+    if (step.timed) step.time_step = memory.time_step[i];
+    model_->remember(step);
+    for (std::size_t a = 0; a < 3; ++a) gradient[a * n + i] = gradients[a * width];
+    for (std::size_t k = 0; k < 6 && width > 1; ++k)
+      hessian[k * n + i] = gradients[pair[k][0] * width + 1 + pair[k][1]];
+    if (!memory.new_state.empty())
+      for (std::size_t s = 0; s < history; ++s) memory.new_state[s * n + i] = state[s * width];
+  }
+  return {};
 }
 
 Status Material::on_tensors(std::size_t n, std::span<const double> c, std::span<double> gradient,

@@ -27,7 +27,11 @@ class Material {
   Material(const Model& model, std::span<const double> parameters);
 
   [[nodiscard]] std::size_t parameter_count() const { return parameters_.size(); }
-  [[nodiscard]] std::size_t history_size() const { return model_->describe().history_size; }
+  /// Doubles that a point remembers, in principal axes where the model can do that.
+  [[nodiscard]] std::size_t history_size() const {
+    const ModelDescription& model = model_->describe();
+    return model.axis_history_size > 0 ? model.axis_history_size : model.history_size;
+  }
   [[nodiscard]] std::span<const Switch> switches() const { return switches_; }
 
   /// n points; layouts of AxisPoints and AxisResponse. An empty span means "not wanted".
@@ -35,6 +39,8 @@ class Material {
                   std::span<double> gradient_dp, const Memory& memory = {}) const;
 
  private:
+  Status with_memory(std::size_t n, std::span<const double> c, std::span<double> gradient, std::span<double> hessian,
+                     const Memory& memory) const;
   Status on_tensors(std::size_t n, std::span<const double> c, std::span<double> gradient, std::span<double> hessian,
                     std::span<double> gradient_dp, const Memory& memory) const;
   const Model* model_;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "axes_path.hpp"
+#include "memory_path.hpp"
 #include "tensor_path.hpp"
 #include "tunica/plugin.hpp"
 
@@ -20,12 +21,14 @@ std::vector<Parameter> own_parameters() {
 /// A strip pulled along the circumferential or axial direction, its lateral faces free.
 class Uniaxial final : public Test {
  public:
-  explicit Uniaxial(const TestSetup& setup) : axes_(bind(setup)) {
+  explicit Uniaxial(const TestSetup& setup) : axes_(bind(setup)), memory_(strip_) {
     description_.parameters = own_parameters();
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
     description_.free_strip_axis = strip_.loaded;
+    description_.path_derivatives = true;
+    description_.path_exceptions = {"misalignment"};
   }
 
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
@@ -34,10 +37,16 @@ class Uniaxial final : public Test {
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
     const double misalignment = input.test_parameters[0];
+    if (misalignment == 0 && model.axis_history_size > 0) return predict_with_memory(input, output);
     if (misalignment != 0 || model.history_size > 0 || !model.principal_axes)
       return predict_on_tensors(strip_, input, misalignment, output);
     if (!model.parameter_derivatives && !output.jacobian.empty())
       return Status::failed("uniaxial: the model has no parameter derivatives");
+    return predict_on_axes(input, output);
+  }
+
+ private:
+  Status predict_on_axes(const TestInput& input, const TestOutput& output) const {
     Status status = axes_.predict(strip_, input, output);
     // At α = 0 the mirrored families make every channel even in α.
     if (status.ok() && !output.jacobian.empty()) {
@@ -47,7 +56,22 @@ class Uniaxial final : public Test {
     return status;
   }
 
- private:
+  /// At the nulls of its mechanisms the elastic model answers. A path that Newton's method does not find in one go is
+  /// followed row by row on tensors, without derivatives.
+  Status predict_with_memory(const TestInput& input, const TestOutput& output) const {
+    if (output.jacobian.empty() && !input.model.remembers(input.model_parameters)) {
+      const Model& elastic = input.model.elastic();
+      return predict_on_axes({elastic, input.model_parameters.first(elastic.describe().parameters.size()),
+                              input.test_parameters, input.abscissae},
+                             output);
+    }
+    if (output.abscissa_derivative.empty()) {
+      Status status = memory_.predict(strip_, input, output);
+      if (status.ok() || !output.jacobian.empty()) return status;
+    }
+    return predict_on_tensors(strip_, input, 0, output);
+  }
+
   const Strip& bind(const TestSetup& setup) {
     const bool circumferential = setup.options.text("direction") == "circumferential";
     strip_.loaded = circumferential ? 0 : 1;
@@ -83,6 +107,7 @@ class Uniaxial final : public Test {
   TestRows rows_;
   TestDescription description_;
   AxesPath axes_;
+  MemoryPath memory_;
 };
 
 TestFactory factory() {

@@ -14,7 +14,7 @@ void set_tissue(World& world, const Protocol&, const HiddenEffect& hidden) {
 /// Of one tube or of all.
 template <double TubeFaults::*member>
 void set_tubes(World& world, const Protocol&, const HiddenEffect& hidden) {
-  for (std::size_t i = 0; i < tube_count; ++i)
+  for (std::size_t i = 0; i < world.tubes.size(); ++i)
     if (hidden.target.tube.value_or(i) == i) world.tubes[i].*member = hidden.amplitude();
 }
 template <double StripFaults::*member>

@@ -55,6 +55,12 @@ const std::vector<Effect>& outsiders();
 /// Throws std::invalid_argument with the known ids.
 const Effect& effect(const std::string& id);
 
+/// Whether the effect can be hidden there: no fibres in rubber, no tube where there is none, no second of what the base
+/// has already.
+bool makes_sense(const Effect& effect, const Specimen& specimen);
+/// Whether it needs to be known in which order the rows were recorded.
+bool remembers(const Effect& effect);
+
 /// Draws target, nuisances and side.
 HiddenEffect draw(const Effect& effect, const Specimen& specimen, std::mt19937_64& random);
 World world_with(const Specimen& specimen, const std::vector<HiddenEffect>& hidden);

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bases.hpp"
 #include "sealed_case.hpp"
 
 namespace {
@@ -37,21 +38,35 @@ void list() {
   }
 }
 
-std::vector<CaseOrder> orders(const std::string& set, std::vector<std::string> effects, std::vector<double> lambdas,
-                              std::pair<std::size_t, std::size_t> cases, std::uint64_t seed,
-                              const std::vector<std::string>& noise) {
+/// Of the effects that nobody named one by one, those that make sense in this class.
+bool offered(const Effect& effect, const CaseOrder& like) {
+  std::mt19937_64 random(1);
+  return makes_sense(effect, draw_specimen(random, like.base, like.protocol)) &&
+         (like.order_recorded || !remembers(effect));
+}
+
+/// `like` is an order whose set, effect, Λ and index are filled in.
+std::vector<CaseOrder> orders(CaseOrder like, std::vector<std::string> effects, std::vector<double> lambdas,
+                              std::pair<std::size_t, std::size_t> cases) {
+  const std::string& set = like.set;
   if (set == "nulls") {
     effects = {""};
     lambdas = {0};
   }
   if (set == "pairs") effects = {""};
   if (effects.empty())
-    for (const Effect& effect : set == "outside" ? outsiders() : catalogue()) effects.push_back(effect.id);
+    for (const Effect& effect : set == "outside" ? outsiders() : catalogue())
+      if (offered(effect, like)) effects.push_back(effect.id);
   if (lambdas.empty()) lambdas = set == "pairs" ? std::vector<double>{60} : std::vector<double>{10, 25, 60, 150};
   std::vector<CaseOrder> all;
   for (std::size_t index = cases.first; index < cases.second; ++index)
     for (const std::string& effect : effects)
-      for (const double lambda : lambdas) all.push_back({seed, set, effect, lambda, index, noise});
+      for (const double lambda : lambdas) {
+        like.effect = effect;
+        like.lambda = lambda;
+        like.index = index;
+        all.push_back(like);
+      }
   return all;
 }
 
@@ -63,7 +78,8 @@ int main(int count, char** arguments) {
   std::uint64_t seed = 1;
   std::vector<std::string> effects, noise{"white", "relative", "quantised"};
   std::vector<double> lambdas;
-  bool only_list = false, oracle = false;
+  std::string base = "hgo", protocol = "artery";
+  bool only_list = false, oracle = false, unstated = false, unordered = false;
   app.add_option("--out", out, "folder of the cases; truths go to its folder 'sealed'");
   app.add_option("--seed", seed, "root of all random numbers");
   app.add_option("--set", set, "what is hidden")->check(CLI::IsMember({"nulls", "singles", "pairs", "outside"}));
@@ -73,6 +89,12 @@ int main(int count, char** arguments) {
       ->check(CLI::PositiveNumber);
   app.add_option("--noise", noise, "kinds to draw from; default: white relative quantised")
       ->check(CLI::IsMember(noise_kinds()));
+  app.add_option("--base", base, "model of the specimen")->check(CLI::IsMember(base_names()));
+  app.add_option("--protocol", protocol,
+                 "artery: strips and tubes; sheets: biaxial; rubber: uniaxial, equibiaxial, shear")
+      ->check(CLI::IsMember(protocol_names()));
+  app.add_flag("--noise-not-stated", unstated, "the same data, but the files say nothing of their noise");
+  app.add_flag("--order-not-recorded", unordered, "rows reversed or shuffled, no time; no effect that has a memory");
   app.add_flag("--oracle", oracle, "write beside each truth what could be found by who knew noise and base parameters");
   app.add_flag("--list", only_list, "list the effects and end");
   try {
@@ -84,7 +106,8 @@ int main(int count, char** arguments) {
     if (out.empty()) throw CLI::RequiredError("--out");
     for (const std::string& id : effects) (void)effect(id);
     std::size_t written = 0;
-    const auto all = orders(set, effects, lambdas, range(cases), seed, noise);
+    const auto all = orders({seed, set, "", 0, 0, noise, base_called(base), protocol, !unstated, !unordered}, effects,
+                            lambdas, range(cases));
     for (const CaseOrder& order : all) written += write(order, out, oracle);
     fmt::print("{} cases in {}, {} of them new\n", all.size(), out, written);
     return 0;

@@ -15,20 +15,22 @@ double significant(double value, int digits) {
 }  // namespace
 
 const std::vector<std::string>& noise_kinds() {
-  static const std::vector<std::string> all{"white", "relative", "quantised", "outliers", "ar1", "none"};
+  static const std::vector<std::string> all{"white", "relative", "quantised", "outliers", "ar1", "correlated", "none"};
   return all;
 }
 
 /// 1 to 2 % of what each curve of the bare specimen spans.
 NoiseModel draw_noise(const std::string& kind, const Specimen& specimen, std::mt19937_64& random) {
-  const auto y = observe(specimen.protocol, {specimen.tissue, {}, {}, {}, {}});
+  const auto y = observe(specimen.protocol, {specimen.tissue});
   const auto layout = channels(specimen.protocol);
-  NoiseModel model{.kind = kind};
+  NoiseModel model{.kind = kind, .absolute = {}, .relative = {}, .step = {}};
   if (kind == "ar1") {
     model.correlation = 0.3;
     model.replicates = 4;
   }
-  for (std::size_t k = 0; k < channel_count; ++k) {
+  if (kind == "correlated") model.correlation = 0.3;
+  for (auto* part : {&model.absolute, &model.relative, &model.step}) part->assign(layout.size(), 0.0);
+  for (std::size_t k = 0; k < layout.size(); ++k) {
     const auto begin = y.begin() + static_cast<std::ptrdiff_t>(layout[k].first);
     const auto [low, high] = std::minmax_element(begin, begin + static_cast<std::ptrdiff_t>(layout[k].count));
     const double sd = significant(between(random, 0.01, 0.02) * (*high - *low), 3);
@@ -45,7 +47,7 @@ NoiseModel draw_noise(const std::string& kind, const Specimen& specimen, std::mt
 Noise NoiseModel::about(const Protocol& protocol, std::span<const double> truth) const {
   Noise noise{Eigen::VectorXd(static_cast<Eigen::Index>(truth.size())), correlation};
   const auto layout = channels(protocol);
-  for (std::size_t k = 0; k < channel_count; ++k) {
+  for (std::size_t k = 0; k < layout.size(); ++k) {
     for (std::size_t i = layout[k].first; i < layout[k].first + layout[k].count; ++i) {
       const double a = absolute[k], b = relative[k] * truth[i], q = step[k];
       noise.sd[static_cast<Eigen::Index>(i)] =
@@ -62,7 +64,7 @@ Records add_noise(const NoiseModel& model, const Protocol& protocol, std::span<c
   Records records;
   for (std::size_t replicate = 0; replicate < model.replicates; ++replicate) {
     std::vector<double> y(truth.begin(), truth.end());
-    for (std::size_t k = 0; k < channel_count && model.kind != "none"; ++k) {
+    for (std::size_t k = 0; k < layout.size() && model.kind != "none"; ++k) {
       double error = normal(random);
       for (std::size_t row = 0; row < layout[k].count; ++row) {
         if (row > 0)

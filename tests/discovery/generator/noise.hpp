@@ -13,11 +13,12 @@ namespace blind {
 ///   relative   σ² = a² + (b y)², stated
 ///   quantised  white, then rounded to a step of about σ; stated σ² = σ² + step²/12
 ///   outliers   white, stated, but one row in a hundred has an error eight times as large on top
+///   correlated like white, but correlated along the rows, ρ = 0.3, which nothing states
 ///   ar1        correlated along the rows, ρ = 0.3, four replicates; nothing is stated
 ///   none       no noise in the files, and that of `white` stated: to compare simulations
 struct NoiseModel {
   std::string kind;
-  std::array<double, channel_count> absolute{}, relative{}, step{};
+  std::vector<double> absolute, relative, step;  ///< of every channel
   double correlation = 0;
   std::size_t replicates = 1;
 

@@ -18,16 +18,16 @@ constexpr double alpha = 0.05;
 Eigen::MatrixXd smooth_columns(const Protocol& protocol, const Noise& noise, const Eigen::MatrixXd& jacobian) {
   const auto layout = channels(protocol);
   const auto n = noise.sd.size();
-  Eigen::MatrixXd all(n, 3 * static_cast<Eigen::Index>(channel_count));
-  for (std::size_t k = 0; k < channel_count; ++k) {
-    const auto& path = k < strip_count ? protocol.strips[k].stretch : protocol.tubes[(k - strip_count) / 2].pressure;
+  Eigen::MatrixXd all(n, 3 * static_cast<Eigen::Index>(layout.size()));
+  for (std::size_t k = 0; k < layout.size(); ++k) {
+    const auto& path = *layout[k].path;
     const auto [low, high] = std::minmax_element(path.begin(), path.end());
     for (int degree = 0; degree <= 2; ++degree) {
       std::vector<double> column(static_cast<std::size_t>(n), 0.0);
       for (std::size_t i = 0; i < layout[k].count; ++i) {
         const std::size_t at = layout[k].first + i;
         column[at] = noise.sd[static_cast<Eigen::Index>(at)] *
-                     boost::math::legendre_p(degree, 2 * (path[i] - *low) / (*high - *low) - 1);
+                     boost::math::legendre_p(degree, 2 * (path[i] - *low) / std::max(*high - *low, 1e-9) - 1);
       }
       all.col(3 * static_cast<Eigen::Index>(k) + degree) = projected(jacobian, whiten(protocol, noise, column));
     }
@@ -81,7 +81,7 @@ OracleVerdict ask_oracle(const SealedCase& made) {
   const Noise noise = made.noise.about(protocol, made.truth);
   const Tissue& base = made.specimen.tissue;
   // The Jacobian at the truth: that of a fit to what the truth predicts.
-  const auto bare = observe(protocol, {base, {}, {}, {}, {}});
+  const auto bare = observe(protocol, {base});
   const Eigen::MatrixXd jacobian = refit(protocol, noise, bare, base).jacobian;
   const auto all = signatures(made.specimen, base, noise, jacobian);
   Eigen::MatrixXd shapes(noise.sd.size(), static_cast<Eigen::Index>(all.size()));

@@ -4,35 +4,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bases.hpp"
+
 namespace blind {
 namespace {
 
-using Point = Eigen::Vector4d;
+using Point = Eigen::VectorXd;
 
-Point point_of(const Tissue& t) { return {std::log(t.mu), std::log(t.k1), std::log(t.k2), t.theta / 30}; }
-Tissue tissue_of(const Point& x) {
-  Tissue t;
-  t.mu = std::exp(x[0]);
-  t.k1 = std::exp(x[1]);
-  t.k2 = std::exp(x[2]);
-  t.theta = 30 * x[3];
-  return t;
+Point point_of(const Tissue& tissue) {
+  const auto& own = fitted(tissue.base);
+  Point x(static_cast<Eigen::Index>(own.size()));
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    const double value = tissue.*own[j].member;
+    x[static_cast<Eigen::Index>(j)] = own[j].logarithmic ? std::log(value) : value / own[j].unit;
+  }
+  return x;
+}
+/// What is held is that of `start`.
+Tissue tissue_of(const Point& x, const Tissue& start) {
+  Tissue tissue = start;
+  const auto& own = fitted(start.base);
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    const double value = x[static_cast<Eigen::Index>(j)];
+    tissue.*own[j].member = own[j].logarithmic ? std::exp(value) : own[j].unit * value;
+  }
+  return tissue;
 }
 
-Point clamped(Point x) {
-  for (int j = 0; j < 4; ++j) {
-    const Bounds& b = bounds()[static_cast<std::size_t>(j)];
-    x[j] = j < 3 ? std::clamp(x[j], std::log(b.low), std::log(b.high)) : std::clamp(x[j], b.low / 30, b.high / 30);
+Point clamped(Point x, Base base) {
+  const auto& own = fitted(base);
+  for (std::size_t j = 0; j < own.size(); ++j) {
+    double& value = x[static_cast<Eigen::Index>(j)];
+    value = own[j].logarithmic ? std::clamp(value, std::log(own[j].low), std::log(own[j].high))
+                               : std::clamp(value, own[j].low / own[j].unit, own[j].high / own[j].unit);
   }
   return x;
 }
 
 }  // namespace
-
-const std::array<Bounds, 4>& bounds() {
-  static const std::array<Bounds, 4> all{{{0.1, 200}, {0.01, 1000}, {0.001, 100}, {0, 90}}};
-  return all;
-}
 
 Eigen::VectorXd whiten(const Protocol& protocol, const Noise& noise, std::span<const double> error) {
   Eigen::VectorXd r = Eigen::Map<const Eigen::VectorXd>(error.data(), static_cast<Eigen::Index>(error.size()));
@@ -51,36 +60,37 @@ Eigen::VectorXd whiten(const Protocol& protocol, const Noise& noise, std::span<c
 /// Levenberg–Marquardt with forward differences (Marquardt 1963).
 Refit refit(const Protocol& protocol, const Noise& noise, std::span<const double> data, const Tissue& start) {
   const auto residual = [&](const Point& x) {
-    auto y = observe(protocol, {tissue_of(x), {}, {}, {}, {}});
+    auto y = observe(protocol, {tissue_of(x, start)});
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = data[i] - y[i];
     return whiten(protocol, noise, y);
   };
-  Point x = clamped(point_of(start));
+  Point x = clamped(point_of(start), start.base);
   Eigen::VectorXd r = residual(x);
   double misfit = r.squaredNorm(), damping = 1e-4;
   Refit result;
-  Eigen::MatrixXd J(r.size(), 4);
+  const Eigen::Index count = x.size();
+  Eigen::MatrixXd J(r.size(), count);
   for (int iteration = 0; iteration < 60; ++iteration) {
-    for (int j = 0; j < 4; ++j) {
+    for (Eigen::Index j = 0; j < count; ++j) {
       Point moved = x;
       moved[j] += 1e-6;
-      if (clamped(moved)[j] != moved[j]) moved[j] = x[j] - 1e-6;
+      if (clamped(moved, start.base)[j] != moved[j]) moved[j] = x[j] - 1e-6;
       const double step = moved[j] - x[j];
       J.col(j) = (r - residual(moved)) / step;
     }
     if (!J.allFinite()) break;
-    const Eigen::Matrix4d normal = J.transpose() * J;
+    const Eigen::MatrixXd normal = J.transpose() * J;
     const Point slope = J.transpose() * r;
     bool moved = false;
     for (int trial = 0; trial < 12 && !moved; ++trial, damping *= 8) {
-      Eigen::Matrix4d damped = normal;
+      Eigen::MatrixXd damped = normal;
       damped.diagonal() *= 1 + damping;
-      for (int j = 0; j < 4; ++j) {  // what is pressed against a bound stays there
+      for (Eigen::Index j = 0; j < count; ++j) {  // what is pressed against a bound stays there
         Point outward = x;
         outward[j] += slope[j] > 0 ? 1e-9 : -1e-9;
-        if (clamped(outward)[j] != outward[j]) damped(j, j) = 1e12 * normal.trace();
+        if (clamped(outward, start.base)[j] != outward[j]) damped(j, j) = 1e12 * normal.trace();
       }
-      const Point next = clamped(x + damped.ldlt().solve(slope));
+      const Point next = clamped(x + damped.ldlt().solve(slope), start.base);
       const Eigen::VectorXd r_next = residual(next);
       const double better = r_next.squaredNorm();
       if (!(better <= misfit)) continue;
@@ -94,7 +104,7 @@ Refit refit(const Protocol& protocol, const Noise& noise, std::span<const double
     if (!moved) result.converged = true;  // no step gets lower: rounding
     if (result.converged) break;
   }
-  result.tissue = tissue_of(x);
+  result.tissue = tissue_of(x, start);
   result.misfit = misfit;
   result.residual = r;
   result.jacobian = J;

@@ -18,7 +18,7 @@ struct Noise {
 /// e → L⁻¹ e, L Lᵀ the covariance: e_k/σ_k less ρ e_{k−1}/σ_{k−1}, over √(1 − ρ²), the first of a channel as it is.
 Eigen::VectorXd whiten(const Protocol& protocol, const Noise& noise, std::span<const double> error);
 
-/// The base model refitted: μ, k1 and k2 as logarithms, θ in degrees, within the bounds of the experiment file.
+/// The base model refitted: its parameters (bases.hpp) within the bounds of the experiment file, moduli as logarithms.
 struct Refit {
   Tissue tissue;
   double misfit = 0;         ///< whitened sum of squares, Λ when the data have no noise
@@ -27,11 +27,5 @@ struct Refit {
   bool converged = false;
 };
 Refit refit(const Protocol& protocol, const Noise& noise, std::span<const double> data, const Tissue& start);
-
-/// Bounds of μ, k1, k2 and θ, as the experiment file states them.
-struct Bounds {
-  double low, high;
-};
-const std::array<Bounds, 4>& bounds();
 
 }  // namespace blind

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sealed_case.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bases.hpp"
 #include "seal.hpp"
 
 namespace blind {
@@ -48,6 +51,7 @@ void hide_pair(SealedCase& made, std::mt19937_64& random) {
     };
     const Effect &one = pick(), &other = pick();
     if (!compatible(one.id, other.id)) continue;
+    if (!makes_sense(one, made.specimen) || !makes_sense(other, made.specimen)) continue;
     made.hidden = {hide(made, one, random), hide(made, other, random)};
     if (!made.hidden[0].reached || !made.hidden[1].reached) continue;
     made.correlation = likeness(made);
@@ -61,21 +65,49 @@ void hide_pair(SealedCase& made, std::mt19937_64& random) {
   throw std::runtime_error("no pair of effects found for " + made.order.text());
 }
 
+/// Half of the tests are reversed, half shuffled.
+std::map<std::string, std::vector<std::size_t>> mixed_rows(const Protocol& protocol, std::mt19937_64& random) {
+  std::map<std::string, std::vector<std::size_t>> all;
+  for (const Channel& channel : channels(protocol)) {
+    if (all.contains(channel.test)) continue;
+    std::vector<std::size_t>& rows = all[channel.test];
+    rows.resize(channel.count);
+    std::iota(rows.rbegin(), rows.rend(), std::size_t{0});
+    if (between(random, 0, 1) < 0.5) std::shuffle(rows.begin(), rows.end(), random);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string CaseOrder::text() const {
-  return fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));
+  std::string words = fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));
+  if (base != Base::hgo || protocol != "artery") words += fmt::format(" {} {}", name_of(base), protocol);
+  if (!order_recorded) words += " order not recorded";
+  return words + (noise_stated ? "" : " noise not stated");
+}
+CaseOrder CaseOrder::stated() const {
+  CaseOrder same = *this;
+  same.noise_stated = true;
+  return same;
 }
 std::string CaseOrder::name() const { return "case-" + sha256("name of " + text()).substr(0, 12); }
 
 SealedCase make(const CaseOrder& order) {
-  auto random = stream(order.text());
+  auto random = stream(order.stated().text());
   SealedCase made;
   made.order = order;
-  made.specimen = draw_specimen(random);
+  made.specimen = draw_specimen(random, order.base, order.protocol);
   const auto kind = std::uniform_int_distribution<std::size_t>(0, order.noise.size() - 1)(random);
   made.noise = draw_noise(order.noise[kind], made.specimen, random);
   if (order.set == "pairs") hide_pair(made, random);
+  if (!order.effect.empty()) {
+    const Effect& asked = effect(order.effect);
+    if (!makes_sense(asked, made.specimen) || (!order.order_recorded && remembers(asked)))
+      throw std::invalid_argument(fmt::format("{} cannot be hidden in {} and protocol {}{}", asked.id,
+                                              name_of(order.base), order.protocol,
+                                              order.order_recorded ? "" : " without the order of rows"));
+  }
   if (order.set == "singles" || order.set == "outside") made.hidden = {hide(made, effect(order.effect), random)};
   std::vector<HiddenEffect> hidden;
   for (const ScaledEffect& one : made.hidden) hidden.push_back(one.hidden);
@@ -90,6 +122,7 @@ SealedCase make(const CaseOrder& order) {
     }
   }
   made.records = add_noise(made.noise, made.specimen.protocol, made.truth, random);
+  if (!order.order_recorded) made.rows = mixed_rows(made.specimen.protocol, random);
   return made;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,13 @@ struct CaseOrder {
   double lambda = 0;   ///< asked of every effect alone
   std::size_t index = 0;
   std::vector<std::string> noise;  ///< kinds to draw from
+  Base base = Base::hgo;
+  std::string protocol = "artery";
+  bool noise_stated = true;    ///< false: the files say nothing of the noise; all else is that of the stated case
+  bool order_recorded = true;  ///< false: rows reversed or shuffled, no time
   [[nodiscard]] std::string text() const;
+  /// The same case with its noise stated: the source of its random numbers.
+  [[nodiscard]] CaseOrder stated() const;
   /// Says nothing about the case to who does not know the order.
   [[nodiscard]] std::string name() const;
 };
@@ -34,6 +41,8 @@ struct SealedCase {
   Explanation account;     ///< of effects outside the catalogue: the catalogue's best for it
   std::vector<double> truth;
   Records records;
+  /// Of every test, where nobody recorded the order: which row stands k-th in the file. Empty: as recorded.
+  std::map<std::string, std::vector<std::size_t>> rows = {};
 };
 SealedCase make(const CaseOrder& order);
 

@@ -7,7 +7,7 @@ namespace blind {
 namespace {
 
 /// Every place an effect can sit, but for the single rows.
-std::vector<Target> targets(const Effect& effect) {
+std::vector<Target> targets(const Effect& effect, const Protocol& protocol) {
   using enum Effect::Where;
   std::vector<Target> all;
   switch (effect.where) {
@@ -16,17 +16,20 @@ std::vector<Target> targets(const Effect& effect) {
       return {{}};
     case tube_or_all:
       all.push_back({});
-      for (std::size_t i = 0; i < tube_count; ++i) all.push_back({.strip = {}, .tube = i, .channel = {}, .row = {}});
+      for (std::size_t i = 0; i < protocol.tubes.size(); ++i)
+        all.push_back({.strip = {}, .tube = i, .channel = {}, .row = {}});
       return all;
     case strip:
-      for (std::size_t i = 0; i < strip_count; ++i) all.push_back({.strip = i, .tube = {}, .channel = {}, .row = {}});
+      for (std::size_t i = 0; i < protocol.strips.size(); ++i)
+        all.push_back({.strip = i, .tube = {}, .channel = {}, .row = {}});
       return all;
     case channel:
-      for (std::size_t k = 0; k < channel_count; ++k) all.push_back({.strip = {}, .tube = {}, .channel = k, .row = {}});
+      for (std::size_t k = 0; k < channel_count(protocol); ++k)
+        all.push_back({.strip = {}, .tube = {}, .channel = k, .row = {}});
       return all;
     case points:  // whole curves: of diameters, since other mechanisms shift those of forces
-      for (std::size_t k = strip_count; k < channel_count; k += 2)
-        all.push_back({.strip = {}, .tube = {}, .channel = k, .row = {}});
+      for (std::size_t i = 0; i < protocol.tubes.size(); ++i)
+        all.push_back({.strip = {}, .tube = {}, .channel = protocol.strips.size() + 2 * i, .row = {}});
   }
   return all;
 }
@@ -40,7 +43,7 @@ Eigen::VectorXd projected(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd
 std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted, const Noise& noise,
                                   const Eigen::MatrixXd& jacobian) {
   const Specimen about{fitted, specimen.protocol};
-  const auto bare = observe(about.protocol, {fitted, {}, {}, {}, {}});
+  const auto bare = observe(about.protocol, {fitted});
   std::vector<Signature> all;
   const auto add = [&](const Effect& effect, const Target& target, std::vector<double> change) {
     const Eigen::VectorXd whole = whiten(about.protocol, noise, change), left = projected(jacobian, whole);
@@ -50,12 +53,13 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
     all.push_back({&effect, target, one_sided, left / length, length / whole_length});
   };
   for (const Effect& effect : catalogue()) {
+    if (!makes_sense(effect, about)) continue;
     std::vector<std::map<std::string, double>> settings{{}};
     for (const Effect::Nuisance& nuisance : effect.nuisances) {
       settings.clear();
       for (const double value : nuisance.grid) settings.push_back({{nuisance.name, value}});
     }
-    for (const Target& target : targets(effect)) {
+    for (const Target& target : targets(effect, about.protocol)) {
       for (const auto& nuisance : settings) {
         HiddenEffect hidden{.effect = &effect, .target = target, .nuisance = nuisance};
         hidden.largest = effect.logarithmic ? std::log(effect.high) : effect.high - effect.null;
@@ -71,7 +75,7 @@ std::vector<Signature> signatures(const Specimen& specimen, const Tissue& fitted
     }
     if (effect.where != Effect::Where::points) continue;
     const auto layout = channels(about.protocol);
-    for (std::size_t k = 0; k < channel_count; ++k) {
+    for (std::size_t k = 0; k < layout.size(); ++k) {
       for (std::size_t row = 0; row < layout[k].count; ++row) {
         std::vector<double> spike(bare.size(), 0.0);
         spike[layout[k].first + row] = 1;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <random>
+#include <string>
+#include <vector>
 
 #include "world.hpp"
 
@@ -13,7 +15,9 @@ struct Specimen {
   Tissue tissue;
   Protocol protocol;
 };
-Specimen draw_specimen(std::mt19937_64& random);
+Specimen draw_specimen(std::mt19937_64& random, Base base = Base::hgo, const std::string& protocol = "artery");
+/// artery, sheets, rubber.
+const std::vector<std::string>& protocol_names();
 
 double between(std::mt19937_64& random, double low, double high);
 double between_log(std::mt19937_64& random, double low, double high);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tissue.hpp"
@@ -11,6 +12,7 @@ namespace blind {
 struct Strip {
   Material::First direction = Material::First::circumferential;
   std::vector<double> time, stretch;  ///< s; as recorded
+  std::string name = {};
 };
 
 /// What may be wrong with a strip and its load cell, each at its null.

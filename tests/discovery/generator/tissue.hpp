@@ -10,12 +10,20 @@ namespace blind {
 
 using Triple = std::array<double, 3>;
 
-/// What a specimen is made of: the Holzapfel–Gasser–Ogden wall, and what may be hidden in it, each at its null.
+/// What the specimen is, before anything is hidden in it.
+enum class Base { hgo, gho, holzapfel_2015, four_fibre, yeoh, ogden };
+
+/// What a specimen is made of, and what may be hidden in it, each at its null.
 struct Tissue {
-  double mu = 0, k1 = 0, k2 = 0, theta = 0;   ///< θ from the axial direction
-  double kappa = 0;                           ///< mean squared sine of the fibres' scatter, over two
-  double axial_k = 0, axial_k2 = 1;           ///< fibres along z
-  double around_k = 0, around_k2 = 1;         ///< fibres along t
+  Base base = Base::hgo;
+  double mu = 0, k1 = 0, k2 = 0, theta = 0;  ///< θ from the axial direction
+  double kappa = 0;                          ///< mean squared sine of the fibres' scatter, over two
+  double A = 0, B = 0;                       ///< of holzapfel_2015: mean squares across, and along less across
+  double axial_k = 0, axial_k2 = 1;          ///< fibres along z: of four_fibre, or hidden
+  double around_k = 0, around_k2 = 1;        ///< fibres along t
+  double c10 = 0, c20 = 0, c30 = 0;          ///< of yeoh, kPa
+  double mu_1 = 0, alpha_1 = 1;              ///< of ogden, kPa and 1
+  double mu_2 = 0, alpha_2 = 1;
   double stiffening = 0, inverse_limit = 0;   ///< of the matrix: exponential; chains with an end
   double second_invariant = 0;                ///< kPa
   double recruitment = 1;                     ///< stretch at which the fibres are taken up
@@ -57,6 +65,8 @@ class Material {
     double power;     ///< ψ' ∝ E^(1 + power)
   };
   [[nodiscard]] double energy(const Triple& c) const;
+  [[nodiscard]] double matrix_energy(const Triple& c) const;
+  [[nodiscard]] Triple matrix(const Triple& c) const;
   [[nodiscard]] Triple deviator(const Triple& S, const Triple& c) const;
 
   Tissue tissue_;
@@ -67,8 +77,13 @@ class Material {
 /// ∫ ρ n_1² dn of fibres scattered rotationally symmetrically about axis 1, and ∫ ρ n_2² dn: von Mises density whose
 /// concentration is such that the second is κ (Gasser, Ogden, Holzapfel 2006, eqs. 2.22 and 2.24), by quadrature.
 struct Scatter {
-  double along = 1, across = 0;
+  double along = 1, across = 0, normal = 0;
 };
 Scatter scatter(double kappa);
+
+/// Mean squares of fibres scattered differently in the wall and out of it, by quadrature over both angles: density
+/// exp(a cos 2Φ) in the wall and exp(b cos 2Θ) cos Θ out of it, Θ being the elevation (Holzapfel et al. 2015, section
+/// 2).
+Scatter scatter_in_and_out(double a, double b);
 
 }  // namespace blind

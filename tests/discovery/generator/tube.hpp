@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tissue.hpp"
@@ -13,6 +14,7 @@ struct Tube {
   double inner_radius = 0, thickness = 0;  ///< mm, as recorded
   double axial_stretch = 1;
   std::vector<double> time, pressure;  ///< s, kPa, as recorded; the axial stretch is reached at once at time 0
+  std::string name = {};
 };
 
 /// What may be wrong with the tube, its surroundings and the rig, each at its null.

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
+#include "sheet.hpp"
 #include "strip.hpp"
 #include "tube.hpp"
 
 namespace blind {
 
-constexpr std::size_t strip_count = 2, tube_count = 3, channel_count = strip_count + 2 * tube_count;
-
-/// What is done to the specimen: two cyclic strips and three inflations at different axial stretches.
+/// What is done to the specimen:
+///   artery  two cyclic strips and three inflations at different axial stretches
+///   sheets  planar biaxial extension at five ratios
+///   rubber  a strip, equibiaxial extension and pure shear
 struct Protocol {
-  std::array<Strip, strip_count> strips;
-  std::array<Tube, tube_count> tubes;
+  std::vector<Strip> strips;
+  std::vector<Tube> tubes;
+  std::vector<Sheet> sheets = {};
 };
 
 /// One measured curve: where it stands among all observations, and what files call it. Strips first, then diameter and
-/// force of each tube.
+/// force of each tube, then the stresses of each sheet.
 struct Channel {
   std::string test, name, unit;
   std::size_t first, count;
+  const std::vector<double>*time, *path;  ///< of the protocol: when, and what was prescribed
 };
-std::array<Channel, channel_count> channels(const Protocol& protocol);
-const std::array<std::string, strip_count>& strip_names();
-const std::array<std::string, tube_count>& tube_names();
+std::vector<Channel> channels(const Protocol& protocol);
+std::size_t channel_count(const Protocol& protocol);
 std::size_t observation_count(const Protocol& protocol);
 
 /// What may be wrong with the recording of one channel.
@@ -43,10 +45,10 @@ struct GrossError {
 /// Specimen, rigs and records with whatever is hidden in them.
 struct World {
   Tissue tissue;
-  std::array<StripFaults, strip_count> strips;
-  std::array<TubeFaults, tube_count> tubes;
-  std::array<ChannelFaults, channel_count> channels;
-  std::vector<GrossError> shifts;
+  std::vector<StripFaults> strips = {};      ///< shorter than the protocol: the others are without fault
+  std::vector<TubeFaults> tubes = {};        ///< the same
+  std::vector<ChannelFaults> channels = {};  ///< the same
+  std::vector<GrossError> shifts = {};
 };
 
 /// All observations without noise, channel after channel; NaN where there is no equilibrium.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "bases.hpp"
 #include "oracle.hpp"
 #include "seal.hpp"
 #include "sealed_case.hpp"
@@ -22,10 +24,14 @@ void write_text(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-Json parameters() {
-  const auto& b = bounds();
-  const auto log = [](const Bounds& of) { return Json{{"min", of.low}, {"max", of.high}, {"scale", "log"}}; };
-  return {{"mu", log(b[0])}, {"k1", log(b[1])}, {"k2", log(b[2])}, {"theta", {{"min", b[3].low}, {"max", b[3].high}}}};
+Json parameters(const Tissue& tissue) {
+  Json all;
+  for (const BaseParameter& one : fitted(tissue.base)) {
+    all[one.name] = {{"min", one.low}, {"max", one.high}};
+    if (one.logarithmic) all[one.name]["scale"] = "log";
+  }
+  for (const BaseParameter& one : held(tissue.base)) all[one.name]["fixed"] = tissue.*one.member;
+  return all;
 }
 
 /// What the file says of the noise of some channels; nothing where it is to be learned from replicates.
@@ -40,7 +46,9 @@ Json stated_noise(const SealedCase& made, std::size_t first, std::size_t count) 
   return all;
 }
 
-Json data(const SealedCase& made, const std::string& test, Json columns, std::size_t first, std::size_t count) {
+/// Without the order of rows there is no time.
+Json data(const SealedCase& made, const std::string& test, std::vector<std::string> columns, std::size_t first,
+          std::size_t count) {
   Json entry;
   if (made.noise.replicates == 1) {
     entry["file"] = test + ".csv";
@@ -48,84 +56,150 @@ Json data(const SealedCase& made, const std::string& test, Json columns, std::si
     for (std::size_t r = 1; r <= made.noise.replicates; ++r)
       entry["files"].push_back(fmt::format("{}_{}.csv", test, r));
   }
-  entry["columns"] = std::move(columns);
-  if (made.noise.kind != "ar1") entry["noise"] = stated_noise(made, first, count);
+  if (made.order.order_recorded) entry["columns"]["time"] = "time";
+  for (const std::string& name : columns) entry["columns"][name] = name;
+  if (made.noise.kind != "ar1" && made.order.noise_stated) entry["noise"] = stated_noise(made, first, count);
   return entry;
 }
 
 Json experiment(const SealedCase& made, const std::string& name) {
+  const Protocol& protocol = made.specimen.protocol;
   Json tests;
-  for (std::size_t i = 0; i < strip_count; ++i) {
-    const Strip& strip = made.specimen.protocol.strips[i];
+  std::size_t channel = 0;
+  for (const Strip& strip : protocol.strips) {
     const bool around = strip.direction == Material::First::circumferential;
-    tests[strip_names()[i]] = {
-        {"type", "uniaxial"},
-        {"direction", around ? "circumferential" : "axial"},
-        {"data", data(made, strip_names()[i], {{"time", "time"}, {"stretch", "stretch"}, {"stress", "stress"}}, i, 1)}};
+    tests[strip.name] = {{"type", "uniaxial"},
+                         {"direction", around ? "circumferential" : "axial"},
+                         {"data", data(made, strip.name, {"stretch", "stress"}, channel, 1)}};
+    channel += 1;
   }
-  for (std::size_t i = 0; i < tube_count; ++i) {
-    const Tube& tube = made.specimen.protocol.tubes[i];
-    const Json columns{{"time", "time"},
-                       {"pressure", "pressure"},
-                       {"outer_diameter_stretch", "outer_diameter_stretch"},
-                       {"axial_force", "axial_force"}};
-    tests[tube_names()[i]] = {{"type", "thick_wall_pressurisation"},
-                              {"inner_radius", tube.inner_radius},
-                              {"thickness", tube.thickness},
-                              {"axial_stretch", tube.axial_stretch},
-                              {"data", data(made, tube_names()[i], columns, strip_count + 2 * i, 2)}};
+  for (const Tube& tube : protocol.tubes) {
+    tests[tube.name] = {
+        {"type", "thick_wall_pressurisation"},
+        {"inner_radius", tube.inner_radius},
+        {"thickness", tube.thickness},
+        {"axial_stretch", tube.axial_stretch},
+        {"data", data(made, tube.name, {"pressure", "outer_diameter_stretch", "axial_force"}, channel, 2)}};
+    channel += 2;
   }
+  for (const Sheet& sheet : protocol.sheets) {
+    using enum Sheet::Kind;
+    const std::size_t count = sheet.channel_count();
+    Json& test = tests[sheet.name];
+    test["type"] = "biaxial";
+    test["protocol"] = sheet.kind == general ? "general" : sheet.kind == equibiaxial ? "equibiaxial" : "pure_shear";
+    if (sheet.kind == general)
+      test["data"] =
+          data(made, sheet.name, {"stretch_circumferential", "stretch_axial", "stress_circumferential", "stress_axial"},
+               channel, count);
+    else
+      test["data"] = data(made, sheet.name, {"stretch", "stress"}, channel, count);
+    channel += count;
+  }
+  const Tissue& tissue = made.specimen.tissue;
+  const std::string& base = name_of(tissue.base);
+  Json model{{"type", base}, {"parameters", parameters(tissue)}};
+  if (tissue.base == Base::ogden) model["terms"] = 2;
   return {{"format", 1},
           {"name", name},
           {"seed", 1},
-          {"models", {{"hgo", {{"type", "hgo"}, {"parameters", parameters()}}}}},
+          {"models", {{base, model}}},
           {"tests", tests},
           {"objective", "least_squares"},
-          {"optimizers", {{"lm", {{"type", "ceres_lm"}, {"starts", 4}}}}},
+          {"optimizers", {{"lm", {{"type", "ceres_lm"}, {"starts", fitted(tissue.base).size() > 4 ? 12 : 4}}}}},
           {"stop", {{"max_evaluations", 2000}}},
-          {"runs", {{{"model", "hgo"}, {"optimizer", "lm"}}}},
-          {"diagnosis", {{"model", "hgo"}, {"optimizer", "lm"}, {"alpha", 0.05}, {"mechanisms", "all"}}}};
+          {"runs", {{{"model", base}, {"optimizer", "lm"}}}},
+          {"diagnosis", {{"model", base}, {"optimizer", "lm"}, {"alpha", 0.05}, {"mechanisms", "all"}}}};
+}
+
+/// One column of a file: its heading, and what stands in it.
+struct Column {
+  std::string heading;
+  const double* values;
+};
+
+void write_columns(const SealedCase& made, const fs::path& folder, const std::string& test, std::size_t replicate,
+                   std::vector<Column> columns, const std::vector<double>& time) {
+  if (made.order.order_recorded) columns.insert(columns.begin(), {"time [s]", time.data()});
+  std::string text;
+  for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.heading;
+  text += "\n";
+  const auto mixed = made.rows.find(test);
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const std::size_t row = mixed == made.rows.end() ? k : mixed->second[k];
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      text += fmt::format("{}{:.9g}", j == 0 ? "" : ",", columns[j].values[row]);
+    text += "\n";
+  }
+  write_text(folder / (made.noise.replicates == 1 ? test + ".csv" : fmt::format("{}_{}.csv", test, replicate + 1)),
+             text);
 }
 
 void write_data(const SealedCase& made, const fs::path& folder) {
   const Protocol& protocol = made.specimen.protocol;
-  const auto layout = channels(protocol);
   for (std::size_t r = 0; r < made.noise.replicates; ++r) {
-    const std::vector<double>& y = made.records.replicates[r];
-    const auto file = [&](const std::string& test) {
-      return folder / (made.noise.replicates == 1 ? test + ".csv" : fmt::format("{}_{}.csv", test, r + 1));
+    const double* y = made.records.replicates[r].data();
+    const auto measured = [&y](std::size_t count) {
+      const double* const begin = y;
+      y += count;
+      return begin;
     };
-    for (std::size_t i = 0; i < strip_count; ++i) {
-      const Strip& strip = protocol.strips[i];
-      std::string text = "time [s],stretch [-],stress [kPa]\n";
-      for (std::size_t row = 0; row < strip.stretch.size(); ++row)
-        text += fmt::format("{:.9g},{:.9g},{:.9g}\n", strip.time[row], strip.stretch[row], y[layout[i].first + row]);
-      write_text(file(strip_names()[i]), text);
+    for (const Strip& strip : protocol.strips)
+      write_columns(made, folder, strip.name, r,
+                    {{"stretch [-]", strip.stretch.data()}, {"stress [kPa]", measured(strip.time.size())}}, strip.time);
+    for (const Tube& tube : protocol.tubes) {
+      const double *diameter = measured(tube.time.size()), *force = measured(tube.time.size());
+      write_columns(made, folder, tube.name, r,
+                    {{"pressure [kPa]", tube.pressure.data()},
+                     {"outer_diameter_stretch [-]", diameter},
+                     {"axial_force [mN]", force}},
+                    tube.time);
     }
-    for (std::size_t i = 0; i < tube_count; ++i) {
-      const Tube& tube = protocol.tubes[i];
-      const std::size_t diameter = layout[strip_count + 2 * i].first, force = layout[strip_count + 2 * i + 1].first;
-      std::string text = "time [s],pressure [kPa],outer_diameter_stretch [-],axial_force [mN]\n";
-      for (std::size_t row = 0; row < tube.pressure.size(); ++row)
-        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", tube.time[row], tube.pressure[row], y[diameter + row],
-                            y[force + row]);
-      write_text(file(tube_names()[i]), text);
+    for (const Sheet& sheet : protocol.sheets) {
+      const double* const first = measured(sheet.time.size());
+      if (sheet.kind != Sheet::Kind::general) {
+        write_columns(made, folder, sheet.name, r, {{"stretch [-]", sheet.around.data()}, {"stress [kPa]", first}},
+                      sheet.time);
+        continue;
+      }
+      const double* const second = measured(sheet.time.size());
+      write_columns(made, folder, sheet.name, r,
+                    {{"stretch_circumferential [-]", sheet.around.data()},
+                     {"stretch_axial [-]", sheet.along.data()},
+                     {"stress_circumferential [kPa]", first},
+                     {"stress_axial [kPa]", second}},
+                    sheet.time);
     }
   }
 }
 
+/// Where a row stands in the file.
+std::size_t written_row(const SealedCase& made, const std::string& test, std::size_t row) {
+  const auto mixed = made.rows.find(test);
+  if (mixed == made.rows.end()) return row;
+  return static_cast<std::size_t>(std::find(mixed->second.begin(), mixed->second.end(), row) - mixed->second.begin());
+}
+
 /// Test and channel as files call them; null: the material, or all tubes.
-Json target(const Target& of, const Protocol& protocol) {
+Json target(const Target& of, const SealedCase& in) {
+  const Protocol& protocol = in.specimen.protocol;
   Json made{{"test", nullptr}, {"channel", nullptr}};
-  if (of.strip) made["test"] = strip_names()[*of.strip];
-  if (of.tube) made["test"] = tube_names()[*of.tube];
+  if (of.strip) made["test"] = protocol.strips[*of.strip].name;
+  if (of.tube) made["test"] = protocol.tubes[*of.tube].name;
   if (of.channel) {
     const Channel channel = channels(protocol)[*of.channel];
     made["test"] = channel.test;
     made["channel"] = channel.name;
   }
-  if (of.row) made["row"] = *of.row;
+  if (of.row) made["row"] = written_row(in, channels(protocol)[*of.channel].test, *of.row);
   return made;
+}
+
+Json parameters_of(const Tissue& tissue) {
+  Json all;
+  for (const auto* list : {&fitted(tissue.base), &held(tissue.base)})
+    for (const BaseParameter& one : *list) all[one.name] = tissue.*one.member;
+  return all;
 }
 
 Json sealed(const SealedCase& made, const std::string& name) {
@@ -138,7 +212,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
     const bool listed = made.order.set != "outside";
     effects.push_back({{"id", effect.id},
                        {"in_catalogue", listed},
-                       {"target", target(one.hidden.target, made.specimen.protocol)},
+                       {"target", target(one.hidden.target, made)},
                        {"amplitude", one.hidden.amplitude()},
                        {"null", effect.null},
                        {"even", effect.even},
@@ -148,7 +222,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
                        {"reached", one.reached}});
   }
   Json noise{{"kind", made.noise.kind}, {"correlation", made.noise.correlation}, {"replicates", made.noise.replicates}};
-  for (std::size_t k = 0; k < channel_count; ++k)
+  for (std::size_t k = 0; k < layout.size(); ++k)
     noise["channels"].push_back({{"test", layout[k].test},
                                  {"channel", layout[k].name},
                                  {"absolute", made.noise.absolute[k]},
@@ -158,7 +232,7 @@ Json sealed(const SealedCase& made, const std::string& name) {
   for (const GrossError& shift : made.records.gross)
     gross.push_back({{"test", layout[shift.channel].test},
                      {"channel", layout[shift.channel].name},
-                     {"row", shift.row},
+                     {"row", written_row(made, layout[shift.channel].test, shift.row)},
                      {"value", shift.value}});
   Json all{{"format", 1},
            {"case", name},
@@ -167,7 +241,13 @@ Json sealed(const SealedCase& made, const std::string& name) {
            {"index", made.order.index},
            {"lambda_asked", made.order.lambda},
            {"lambda", made.lambda},
-           {"base", {{"mu", base.mu}, {"k1", base.k1}, {"k2", base.k2}, {"theta", base.theta}}},
+           {"class",
+            {{"base", name_of(base.base)},
+             {"protocol", made.order.protocol},
+             {"noise_stated", made.order.noise_stated},
+             {"order_recorded", made.order.order_recorded}}},
+           {"stated_twin", made.order.noise_stated ? "" : made.order.stated().name()},
+           {"base", parameters_of(base)},
            {"noise", noise},
            {"gross_errors", gross},
            {"effects", effects}};

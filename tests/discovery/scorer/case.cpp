@@ -65,6 +65,13 @@ Truth read_truth(const Json& from) {
   for (const Json& one : from.at("effects"))
     truth.effects.push_back({one.at("id"), target_of(one.at("target")), one.at("amplitude"), one.at("null"),
                              one.at("even"), one.at("reached"), !part(one, "nuisance").empty()});
+  if (const Json& known = part(from, "class"); known.is_object()) {
+    truth.base = known.at("base");
+    truth.protocol = known.at("protocol");
+    truth.noise_stated = known.at("noise_stated");
+    truth.order_recorded = known.at("order_recorded");
+    truth.twin = word(from, "stated_twin");
+  }
   if (const Json& outside = part(from, "outside"); !outside.is_null()) {
     truth.look_alike = outside.at("look_alike");
     truth.nearest = outside.at("best");
@@ -183,6 +190,12 @@ OpenedCases open_cases(const fs::path& cases, const fs::path& results, bool part
     }
   }
   return opened;
+}
+
+void add_seconds(std::vector<Case>& cases, const fs::path& file) {
+  const Json seconds = parsed(file, text_of(file));
+  if (!seconds.is_object()) throw InputError(file.string() + ": expected {\"case\": seconds, …}");
+  for (Case& one : cases) one.seconds = number(seconds, one.name.c_str());
 }
 
 LookAlikes read_look_alikes(const fs::path& file) {

@@ -42,6 +42,11 @@ struct Truth {
   std::vector<TrueEffect> effects;
   std::string look_alike, nearest;  ///< of effects outside the catalogue: declared, and by the data
   double remainder = 0;             ///< Λ that the catalogue's best leaves
+  std::string base = "hgo", protocol = "artery";
+  bool noise_stated = true, order_recorded = true;
+  std::string twin = {};  ///< of a case whose noise is not stated: the same data with it stated
+  /// Arteries of `hgo` whose noise and order of rows are known: what the main table counts.
+  [[nodiscard]] bool plain() const { return base == "hgo" && protocol == "artery" && noise_stated && order_recorded; }
 };
 
 struct Cause {
@@ -80,6 +85,7 @@ struct Case {
   Truth truth;
   Verdict verdict;
   std::optional<Oracle> oracle;
+  std::optional<double> seconds = {};  ///< that the diagnosis took
 };
 
 /// `results`/<case>/result.json for every case of `cases`, and only then the truths of `cases`/sealed, each against
@@ -90,6 +96,9 @@ struct OpenedCases {
   std::size_t sealed = 0;
 };
 OpenedCases open_cases(const std::filesystem::path& cases, const std::filesystem::path& results, bool partial);
+
+/// Adds the seconds of {case: seconds} to the cases that have some.
+void add_seconds(std::vector<Case>& cases, const std::filesystem::path& file);
 
 /// Declared look-alikes: {id: [ids]}.
 using LookAlikes = std::map<std::string, std::vector<std::string>>;

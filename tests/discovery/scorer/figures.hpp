@@ -50,7 +50,27 @@ struct EffectRow {
   std::vector<std::pair<std::string, std::size_t>> confused_with;
 };
 
-/// Every row of the table; and effect by effect.
+/// What became of the cases of one class that hide one effect at one Λ: every case is in one column.
+struct MistakeRow {
+  std::string name;  ///< of the class
+  double lambda = 0;
+  std::size_t cases = 0;
+  std::size_t right = 0;       ///< named, or a look-alike that counts for it, and nothing else
+  std::size_t wrong = 0;       ///< something else is named
+  std::size_t over_named = 0;  ///< among several that are said to act together
+  std::size_t unknown = 0;     ///< detected, not named
+  std::size_t missed = 0;      ///< not detected
+  std::size_t oracle_cases = 0, oracle_right = 0, oracle_wrong = 0, oracle_missed = 0;
+};
+
+/// Base × protocol, and what the files leave out.
+std::string class_of(const Truth& truth);
+/// Rows of every class but the plain one; of its twins where the noise is not stated; and of the time it took.
+std::vector<Figure> class_figures(const std::vector<Case>& cases, const LookAlikes& look_alikes);
+std::vector<Figure> time_figures(const std::vector<Case>& cases);
+std::vector<MistakeRow> mistakes(const std::vector<Case>& cases, const LookAlikes& look_alikes);
+
+/// Every row of the table of the plain class; and effect by effect.
 std::vector<Figure> figures(const std::vector<Case>& cases, const LookAlikes& look_alikes);
 std::vector<EffectRow> effects(const std::vector<Case>& cases, const LookAlikes& look_alikes);
 /// Effects that at Λ = 60 neither they themselves nor look-alikes are named for in half of their cases, in words.

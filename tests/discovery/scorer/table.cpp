@@ -31,15 +31,51 @@ std::string of_total(const Share& share) { return share.total == 0 ? "–" : fmt
 
 nlohmann::ordered_json as_json(const Share& share) { return {{"hits", share.hits}, {"total", share.total}}; }
 
-}  // namespace
-
-std::string markdown(const std::string& heading, const std::vector<Figure>& figures,
-                     const std::vector<EffectRow>& effects) {
-  std::string text = heading.empty() ? "" : heading + "\n\n";
-  text += "| figure | measured (95 % interval) | pass | stretch | of | |\n|---|---|---|---|---|---|\n";
+std::string figure_table(const std::string& what, const std::vector<Figure>& figures) {
+  std::string text =
+      fmt::format("| {} | measured (95 % interval) | pass | stretch | of | |\n|---|---|---|---|---|---|\n", what);
   for (const Figure& figure : figures)
     text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", figure.name, measured(figure), met(figure, figure.pass),
                         met(figure, figure.stretch), figure.cases, figure.remark);
+  return text;
+}
+
+std::string mistake_table(const std::vector<MistakeRow>& rows) {
+  std::string text =
+      "\n| class | Λ | cases | right | wrongly named | over-named | unknown | missed | oracle: right | wrong | missed "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const MistakeRow& row : rows) {
+    text += fmt::format("| {} | {:g} | {} | {} | {} | {} | {} | {} |", row.name, row.lambda, row.cases, row.right,
+                        row.wrong, row.over_named, row.unknown, row.missed);
+    text += row.oracle_cases == 0
+                ? " – | – | – |\n"
+                : fmt::format(" {} | {} | {} |\n", row.oracle_right, row.oracle_wrong, row.oracle_missed);
+  }
+  return text;
+}
+
+nlohmann::ordered_json as_json(const Figure& figure) {
+  nlohmann::ordered_json one{{"name", figure.name}, {"cases", figure.cases}};
+  if (figure.cases > 0) {
+    one["value"] = figure.value;
+    one["ci95"] = {figure.low, figure.high};
+  }
+  if (figure.pass) one["pass"] = figure.cases > 0 && !figure.missed();
+  if (figure.stretch) one["stretch"] = figure.cases > 0 && figure.stretch->holds(figure.value);
+  if (!figure.remark.empty()) one["remark"] = figure.remark;
+  return one;
+}
+
+}  // namespace
+
+std::string markdown(const std::string& heading, const Score& score) {
+  std::string text = heading.empty() ? "" : heading + "\n\n";
+  text += figure_table("figure", score.figures);
+  if (!score.classes.empty()) text += "\n" + figure_table("class", score.classes);
+  if (!score.times.empty()) text += "\n" + figure_table("time", score.times);
+  if (!score.mistakes.empty()) text += mistake_table(score.mistakes);
+  const auto& effects = score.effects;
   if (effects.empty()) return text;
   text +=
       "\n| effect | Λ | cases | out of reach | detected | named first | or with a look-alike | mean set | instead |\n"
@@ -55,21 +91,30 @@ std::string markdown(const std::string& heading, const std::vector<Figure>& figu
   return text;
 }
 
-nlohmann::ordered_json as_json(const std::vector<Figure>& figures, const std::vector<EffectRow>& effects) {
-  nlohmann::ordered_json all{{"figures", nlohmann::ordered_json::array()},
-                             {"effects", nlohmann::ordered_json::array()}};
-  for (const Figure& figure : figures) {
-    nlohmann::ordered_json one{{"name", figure.name}, {"cases", figure.cases}};
-    if (figure.cases > 0) {
-      one["value"] = figure.value;
-      one["ci95"] = {figure.low, figure.high};
-    }
-    if (figure.pass) one["pass"] = figure.cases > 0 && !figure.missed();
-    if (figure.stretch) one["stretch"] = figure.cases > 0 && figure.stretch->holds(figure.value);
-    if (!figure.remark.empty()) one["remark"] = figure.remark;
-    all["figures"].push_back(one);
+nlohmann::ordered_json as_json(const Score& score) {
+  nlohmann::ordered_json all;
+  for (const auto& [key, figures] :
+       {std::pair("figures", &score.figures), {"classes", &score.classes}, {"times", &score.times}}) {
+    all[key] = nlohmann::ordered_json::array();
+    for (const Figure& figure : *figures) all[key].push_back(as_json(figure));
   }
-  for (const EffectRow& row : effects) {
+  all["mistakes"] = nlohmann::ordered_json::array();
+  for (const MistakeRow& row : score.mistakes)
+    all["mistakes"].push_back({{"class", row.name},
+                               {"lambda", row.lambda},
+                               {"cases", row.cases},
+                               {"right", row.right},
+                               {"wrong", row.wrong},
+                               {"over_named", row.over_named},
+                               {"unknown", row.unknown},
+                               {"missed", row.missed},
+                               {"oracle",
+                                {{"cases", row.oracle_cases},
+                                 {"right", row.oracle_right},
+                                 {"wrong", row.oracle_wrong},
+                                 {"missed", row.oracle_missed}}}});
+  all["effects"] = nlohmann::ordered_json::array();
+  for (const EffectRow& row : score.effects) {
     nlohmann::ordered_json one{{"id", row.id},
                                {"lambda", row.lambda},
                                {"out_of_reach", row.unreached},

@@ -10,9 +10,15 @@
 
 namespace blind::score {
 
-/// The figures as a table in Markdown, and one row an effect; `heading` tells of date and seeds.
-std::string markdown(const std::string& heading, const std::vector<Figure>& figures,
-                     const std::vector<EffectRow>& effects);
-nlohmann::ordered_json as_json(const std::vector<Figure>& figures, const std::vector<EffectRow>& effects);
+/// Everything that is told.
+struct Score {
+  std::vector<Figure> figures, classes, times;
+  std::vector<MistakeRow> mistakes;
+  std::vector<EffectRow> effects;
+};
+
+/// Tables in Markdown; `heading` tells of date and seeds.
+std::string markdown(const std::string& heading, const Score& score);
+nlohmann::ordered_json as_json(const Score& score);
 
 }  // namespace blind::score

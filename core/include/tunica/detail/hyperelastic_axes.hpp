@@ -49,7 +49,7 @@ void sweep_hessian(double* h, std::size_t n, const double* __restrict second, co
 /// beforehand.
 struct Written {
   bool values = false, hessian = false;  ///< energy and gradient; Hessian
-  std::bitset<max_model_parameters> parameters;
+  std::bitset<max_model_parameters> parameters, energy_parameters;
 };
 
 /// One part at the points [begin, begin + m), C diagonal. A mirrored pair of families then sees the same x: weight 2
@@ -74,6 +74,7 @@ class AxesPart {
       std::array<Invariant, max_part_parameters> derivatives;
       const std::span<Invariant> wanted(derivatives.data(), description_.invariant_parameters.size());
       prepare(wanted, written);
+      add_energy_parameters(wanted, written);
       add_invariant_parameters(wanted, written);
       add_response_parameters(written);
     }
@@ -97,7 +98,8 @@ class AxesPart {
 
     const bool parameters = !out_.gradient_dp.empty();
     const PartBatch::Wants wants{!out_.energy.empty(), !out_.gradient.empty() || parameters || a_.i2 != 0,
-                                 !description_.linear && (!out_.hessian.empty() || !derivatives.empty()), parameters};
+                                 !description_.linear && (!out_.hessian.empty() || !derivatives.empty()), parameters,
+                                 !out_.energy_dp.empty()};
     if (description_.linear) std::fill_n(batch_.second.data(), derivatives.empty() ? 0 : m_, 0.0);
     batch_.respond(part_, points_.parameters, m_, wants);
     const std::size_t response_count = description_.response_parameters.size();
@@ -144,6 +146,29 @@ class AxesPart {
         const double bend = mixed != 0 ? batch_.first[i] * mixed : 0;
         h[k * n_ + i] = (onto ? h[k * n_ + i] : 0) + weight_ * (curvature + bend);
       }
+    }
+  }
+
+  /// ∂W/∂p = Σ w (ψ' ∂x/∂p + ∂ψ/∂p). Before the rows of g_a by the same parameters: those mark them as written.
+  void add_energy_parameters(std::span<const Invariant> derivatives, Written& written) const {
+    if (out_.energy_dp.empty()) return;
+    const auto row = [this, &written](std::size_t parameter) {
+      double* const to = out_.energy_dp.data() + parameter * n_ + begin_;
+      if (!written.energy_parameters[parameter]) std::fill_n(to, m_, 0.0);
+      written.energy_parameters.set(parameter);
+      return to;
+    };
+    for (std::size_t j = 0; j < derivatives.size(); ++j) {
+      const Structure d = structure_derivative(invariant_, derivatives[j], direction_, 1);
+      double* const to = row(description_.invariant_parameters[j]);
+      for (std::size_t i = 0; i < m_; ++i)
+        to[i] += weight_ * batch_.first[i] *
+                 (d.tt * c_[0][i] + d.zz * c_[1][i] + d.rr * c_[2][i] + d.offset +
+                  (d.i2 != 0 ? d.i2 * second_invariant(i) : 0));
+    }
+    for (std::size_t j = 0; j < description_.response_parameters.size(); ++j) {
+      double* const to = row(description_.response_parameters[j]);
+      for (std::size_t i = 0; i < m_; ++i) to[i] += weight_ * batch_.value_dp[j * m_ + i];
     }
   }
 
@@ -236,6 +261,8 @@ inline void evaluate_axes(const Parts& parts, const AxisPoints& points, const Ax
     if (!written.hessian && !out.hessian.empty()) clear(out.hessian, 0, 6, begin, m);
     for (std::size_t j = 0; !out.gradient_dp.empty() && j < points.parameters.size(); ++j)
       if (!written.parameters[j]) clear(out.gradient_dp, 3 * j, 3, begin, m);
+    for (std::size_t j = 0; !out.energy_dp.empty() && j < points.parameters.size(); ++j)
+      if (!written.energy_parameters[j]) clear(out.energy_dp, j, 1, begin, m);
   }
 }
 

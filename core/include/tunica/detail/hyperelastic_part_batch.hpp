@@ -62,7 +62,7 @@ struct PartBatch {
   alignas(16) std::array<double, chunk * max_part_parameters> value_dp, first_dp;
 
   struct Wants {
-    bool value = false, first = false, second = false, parameters = false;
+    bool value = false, first = false, second = false, parameters = false, value_parameters = false;
   };
 
   void respond(const EnergyPart& part, std::span<const double> parameters, std::size_t m, Wants wants) {
@@ -71,7 +71,7 @@ struct PartBatch {
                               {value.data(), wants.value ? m : 0},
                               {first.data(), wants.first ? m : 0},
                               {second.data(), wants.second ? m : 0},
-                              {},
+                              {value_dp.data(), wants.value_parameters ? np * m : 0},
                               {first_dp.data(), wants.parameters ? np * m : 0}});
   }
 
@@ -85,6 +85,7 @@ struct PartBatch {
       if (wants.first) first[i] = 0;
       if (wants.second) second[i] = 0;
       for (std::size_t j = 0; wants.parameters && j < np; ++j) first_dp[j * m + i] = 0;
+      for (std::size_t j = 0; wants.value_parameters && j < np; ++j) value_dp[j * m + i] = 0;
     }
   }
 };

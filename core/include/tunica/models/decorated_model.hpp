@@ -36,7 +36,8 @@ class DecoratedModel final : public Hyperelastic {
     return base_->evaluate(bare, response);
   }
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
-    if (points.parameters[count_] != null_ || !response.gradient_dp.empty() || !base_->describe().principal_axes)
+    if (points.parameters[count_] != null_ || !response.gradient_dp.empty() || !response.energy_dp.empty() ||
+        !base_->describe().principal_axes)
       return Hyperelastic::evaluate_axes(points, response);
     return base_->evaluate_axes({points.count, points.c, points.parameters.first(count_)}, response);
   }

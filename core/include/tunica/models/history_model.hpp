@@ -15,8 +15,10 @@ namespace tunica {
 /// The mechanism's parameters come after those of the base, the amplitude first. Its state comes after the base's
 /// state. This class divides each call between the two; a subclass implements one step and sees only its own part.
 ///
-/// Parameter derivatives of a single step are refused, because the state depends on the parameters of earlier steps;
-/// the host differences whole paths. The principal-axes path is off, because history needs tensors.
+/// Parameter derivatives of a single step are refused, because the state depends on the parameters of earlier steps.
+/// A subclass that says how many doubles it remembers in principal axes, and implements remember_step(), gets exact
+/// derivatives along whole paths in the tests that follow paths in principal axes. Elsewhere the host differences whole
+/// paths. evaluate_axes() is off: a single call knows no past.
 /// Threads and failure: as Model.
 class HistoryModel : public Model {
  public:
@@ -41,6 +43,22 @@ class HistoryModel : public Model {
     return evaluate_step(step);
   }
 
+  [[nodiscard]] const Model& elastic() const final { return base_->elastic(); }
+  [[nodiscard]] bool remembers(std::span<const double> parameters) const final {
+    const std::size_t count = base_->describe().parameters.size();
+    return parameters[count] != null_ || base_->remembers(parameters.first(count));
+  }
+  void remember(const AxisStep& step) const final {
+    const ModelDescription& base = base_->describe();
+    AxisStep own = step;
+    own.parameters = step.parameters.first(base.parameters.size());
+    if (base.axis_history_size > 0) base_->remember(own);
+    own.parameters = step.parameters.subspan(base.parameters.size());
+    if (step.parameter_place > 0) own.parameter_place = step.parameter_place + base.parameters.size();
+    own.state = step.state + base.axis_history_size * step.width;
+    remember_step(own);
+  }
+
  protected:
   /// One call, divided between the base and the mechanism.
   struct Step {
@@ -58,8 +76,16 @@ class HistoryModel : public Model {
   };
 
   /// `id` begins messages; `own` are the mechanism's parameters, `own_history` the doubles of its state at a point.
-  HistoryModel(std::string id, std::unique_ptr<Model> base, const std::vector<Parameter>& own, std::size_t own_history)
-      : id_(std::move(id)), base_(std::move(base)), description_(base_->describe()) {
+  /// `own_axis_history` are the doubles that remember_step() carries, 0 = it is not implemented. `null` is the null of
+  /// the amplitude.
+  HistoryModel(std::string id, std::unique_ptr<Model> base, const std::vector<Parameter>& own, std::size_t own_history,
+               std::size_t own_axis_history = 0, double null = 0)
+      : id_(std::move(id)), base_(std::move(base)), description_(base_->describe()), null_(null) {
+    const ModelDescription& bare = base_->describe();
+    const bool followed = bare.history_size > 0
+                              ? bare.axis_history_size > 0
+                              : bare.principal_axes && bare.parameter_derivatives && bare.energy_derivatives;
+    description_.axis_history_size = followed && own_axis_history > 0 ? bare.axis_history_size + own_axis_history : 0;
     description_.parameters.insert(description_.parameters.end(), own.begin(), own.end());
     description_.history_size += own_history;
     description_.principal_axes = false;
@@ -68,6 +94,8 @@ class HistoryModel : public Model {
 
   /// Evaluates one step. At the null of the amplitude the outputs are those of the base, bit for bit.
   virtual Status evaluate_step(Step& step) const = 0;
+  /// The same step in principal axes: parameters, their place in rows and the state are the mechanism's own.
+  virtual void remember_step([[maybe_unused]] const AxisStep& step) const {}
   /// The model without the mechanism.
   [[nodiscard]] const Model& base() const { return *base_; }
 
@@ -75,6 +103,7 @@ class HistoryModel : public Model {
   std::string id_;
   std::unique_ptr<Model> base_;
   ModelDescription description_;
+  double null_;
 };
 
 }  // namespace tunica

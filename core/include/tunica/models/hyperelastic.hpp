@@ -33,6 +33,7 @@ class Hyperelastic : public Model {
   Hyperelastic(ModelDescription description, EnergyParts parts)
       : description_(std::move(description)), parts_(std::move(parts)) {
     description_.principal_axes = true;
+    description_.energy_derivatives = true;
     if (description_.parameters.size() > hyperelastic::max_model_parameters)
       throw std::invalid_argument("the model has more than 64 parameters");
     if (parts_.empty()) throw std::invalid_argument("the model has no energy part");

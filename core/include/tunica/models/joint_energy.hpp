@@ -36,6 +36,7 @@ class JointEnergy final : public Model {
     description_.type = Energy::type;
     description_.parameters = Energy::parameters();
     description_.principal_axes = true;
+    description_.energy_derivatives = true;
     if constexpr (requires { Energy::admissible(); }) description_.admissible = Energy::admissible();
     if (description_.parameters.size() != Energy::parameter_count)
       throw std::invalid_argument("the energy declares another number of parameters than it counts");
@@ -67,8 +68,9 @@ class JointEnergy final : public Model {
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
     static constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
     const std::size_t n = points.count;
-    const Frame frame(points.parameters, !out.gradient_dp.empty());
-    const int order = !out.gradient_dp.empty() ? 3 : !out.hessian.empty() ? 2 : 1;
+    const bool derivatives = !out.gradient_dp.empty() || !out.energy_dp.empty();
+    const Frame frame(points.parameters, derivatives);
+    const int order = derivatives ? 3 : !out.hessian.empty() ? 2 : 1;
     for (std::size_t i = 0; i < n; ++i) {
       const Tensor C{points.c[i], points.c[n + i], points.c[2 * n + i], 0, 0, 0};
       const Point at(frame, C, points.parameters, order);
@@ -78,6 +80,8 @@ class JointEnergy final : public Model {
         out.hessian[k * n + i] = at.curvature(pair[k][0], pair[k][1], pair[k][0] != pair[k][1] ? 1. : 0.);
       for (std::size_t j = 0; !out.gradient_dp.empty() && j < parameters; ++j)
         for (std::size_t a = 0; a < 3; ++a) out.gradient_dp[(3 * j + a) * n + i] = at.slope_dp(frame, C, j, a);
+      for (std::size_t j = 0; !out.energy_dp.empty() && j < parameters; ++j)
+        out.energy_dp[j * n + i] = at.energy_dp(frame, C, j);
     }
     return {};
   }
@@ -121,6 +125,7 @@ class JointEnergy final : public Model {
     std::array<double, m> first{};
     std::array<std::array<double, m>, m> second{};
     std::array<std::array<double, parameters>, m> first_dp{};
+    std::array<double, parameters> value_dp{};
     std::array<Tensor, m> G;
     std::array<double, m> i2;
 
@@ -165,6 +170,8 @@ class JointEnergy final : public Model {
         ps[j] = Outer(width > m ? Inner(p[j], static_cast<int>(m + j)) : Inner(p[j]));
       const Outer w = Energy::template energy<Outer>(std::span<const Outer>(xs), std::span<const Outer>(ps));
       value = w.a.a;
+      if constexpr (width > m)
+        for (std::size_t j = 0; j < parameters; ++j) value_dp[j] = w.a.v[m + j];
       for (std::size_t k = 0; k < m; ++k) {
         first[k] = w.a.v[k];
         for (std::size_t l = 0; l < m; ++l) second[k][l] = w.v[k].v[l];
@@ -184,6 +191,13 @@ class JointEnergy final : public Model {
         for (std::size_t l = 0; l < m; ++l) sum += second[k][l] * G[k][p] * G[l][q];
         sum += first[k] * i2[k] * of_i2;
       }
+      return sum;
+    }
+    /// ∂Ψ/∂p + Σ_l Ψ_l ∂x_l/∂p
+    [[nodiscard]] double energy_dp(const Frame& frame, const Tensor& C, std::size_t j) const {
+      double sum = value_dp[j];
+      for (std::size_t l = 0; frame.moves[j] && l < m; ++l)
+        sum += first[l] * hyperelastic::invariant_value(frame.x_dp[j][l], C);
       return sum;
     }
     /// Σ_k (∂Ψ_k/∂p + Σ_l Ψ_kl ∂x_l/∂p) G_k + Ψ_k ∂G_k/∂p

@@ -77,6 +77,7 @@ class PrincipalStretches : public Model {
   /// Sets `description.principal_axes`. The parameters are those of the law, in its order.
   explicit PrincipalStretches(ModelDescription description) : description_(std::move(description)) {
     description_.principal_axes = true;
+    description_.energy_derivatives = true;
   }
 
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
@@ -88,9 +89,15 @@ class PrincipalStretches : public Model {
       Stretches s;
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t i = 0; i < m; ++i) s.lambda[a * m + i] = std::sqrt(points.c[a * n + begin + i]);
-      s.respond(points.parameters, 3 * m, !out.energy.empty(), !out.hessian.empty(), !out.gradient_dp.empty());
+      s.respond(points.parameters, 3 * m, !out.energy.empty(), !out.hessian.empty(), !out.gradient_dp.empty(),
+                !out.energy_dp.empty());
       for (std::size_t i = 0; !out.energy.empty() && i < m; ++i)
         out.energy[begin + i] = s.value[i] + s.value[m + i] + s.value[2 * m + i];
+      for (std::size_t j = 0; !out.energy_dp.empty() && j < parameter_count; ++j)
+        for (std::size_t i = 0; i < m; ++i) {
+          const double* const by_p = &s.value_dp[3 * j * m + i];
+          out.energy_dp[j * n + begin + i] = by_p[0] + by_p[m] + by_p[2 * m];
+        }
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t i = 0; i < m; ++i) {
           const std::size_t k = a * m + i, place = a * n + begin + i;
@@ -139,14 +146,15 @@ class PrincipalStretches : public Model {
   struct Stretches {
     Stretches() {}  // leaves the arrays as they are: every entry that is read was written before
     std::array<double, 3 * chunk> lambda, value, first, second;
-    std::array<double, 3 * chunk * parameter_count> first_dp;
+    std::array<double, 3 * chunk * parameter_count> first_dp, value_dp;
 
-    void respond(std::span<const double> p, std::size_t count, bool energy, bool curvature, bool parameters) {
+    void respond(std::span<const double> p, std::size_t count, bool energy, bool curvature, bool parameters,
+                 bool energy_parameters = false) {
       tunica::respond<Law>(p, {{lambda.data(), count},
                                {value.data(), energy ? count : 0},
                                {first.data(), count},
                                {second.data(), curvature ? count : 0},
-                               {},
+                               {value_dp.data(), energy_parameters ? parameter_count * count : 0},
                                {first_dp.data(), parameters ? parameter_count * count : 0}});
     }
     [[nodiscard]] double f(std::size_t k) const { return first[k] / (2 * lambda[k]); }

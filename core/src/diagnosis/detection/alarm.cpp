@@ -34,8 +34,7 @@ Alarm alarm_of(const Inquiry& inquiry, const Evidence& evidence, const Hypothese
   const auto rows = fit.residuals.size();
   Alarm alarm;
   alarm.shapes = smooth_shapes(evidence.curves, rows);
-  alarm.draws =
-      noise_draws(evidence.curves, rows, inquiry.request.quick ? quick_draws : linear_draws, inquiry.request.seed);
+  alarm.draws = noise_draws(evidence, inquiry.request.quick ? quick_draws : linear_draws, inquiry.request.seed);
   alarm.detector = std::make_shared<const Detector>(hypotheses.projection, hypotheses.directions,
                                                     hypotheses.candidates.size(), alarm.shapes, alarm.draws);
   alarm.detection = alarm.detector->test(-fit.residuals);

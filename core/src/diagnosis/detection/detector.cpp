@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -16,9 +16,7 @@ double tail(double T) {
   return T > 0 ? std::erfc(std::sqrt(T / 2)) : 1.0;  // P(χ²₁ > T)
 }
 
-double tail(double Q, double freedom) {
-  return Q > 0 ? boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), Q)) : 1.0;
-}
+double tail(double Q, double freedom) { return Q > 0 ? numerics::chi_squared_above(Q, freedom) : 1.0; }
 
 /// The share of ascending values up to `value`; below the lowest 2 % of them by a straight line through 0.
 double share_up_to(const std::vector<float>& ascending, double value) {

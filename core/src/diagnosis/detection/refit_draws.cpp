@@ -15,8 +15,7 @@ double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Det
                      const Detection& measured, std::size_t draws) {
   const assembly::Assembly& base = *evidence.base;
   const Fit& fit = evidence.fit;
-  const Eigen::MatrixXf noise = noise_draws(evidence.curves, fit.residuals.size(), draws,
-                                            derive_seed(inquiry.request.seed, "refits under nothing"));
+  const Eigen::MatrixXf noise = noise_draws(evidence, draws, derive_seed(inquiry.request.seed, "refits under nothing"));
   const std::vector<Variable> variables = all_variables(base);
   std::vector<char> worse(draws, 0);
   std::atomic<std::size_t> finished = 0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 
@@ -15,7 +15,7 @@ double p_of_squares(const Evidence& evidence, const Fit& fit) {
   const double freedom = static_cast<double>(fit.residuals.size() - interior(fit).cols());
   const double squares = fit.residuals.squaredNorm();
   if (!known || freedom < 1 || !std::isfinite(squares)) return 1;
-  const double p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), squares));
+  const double p = numerics::chi_squared_above(squares, freedom);
   return p < beyond_doubt ? p : 1;
 }
 

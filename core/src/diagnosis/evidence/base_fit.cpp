@@ -107,9 +107,11 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
     base.warnings = std::move(start.warnings);
   }
   std::vector<Fit> fits(starts.size());
+  const auto done = inquiry.steps("fitting the base model", 0.05, 0.1, starts.size());
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t k) {
     const auto workspace = assembly.evaluator().make_workspace();
     fits[k] = least_squares(assembly, variables, starts[k], *workspace, k == 0 || !quick ? 200 : 60);
+    done();
   });
   const Fit* best = nullptr;
   for (const Fit& fit : fits)

@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "diagnosis/evidence/base_fit.hpp"
+#include "diagnosis/evidence/encompassing_noise.hpp"
 #include "diagnosis/evidence/preparation.hpp"
 
 namespace tunica::diagnosis {
 
 Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross) {
   Preparation prepared = prepare(inquiry, gross);
-  inquiry.report("fitting the base model", 0.05);
   const BaseFit fitted = fit_base(inquiry, prepared);
   SettledFit settled = settle_noise(inquiry, prepared, fitted.fit);
   Evidence evidence{std::move(settled.experiment), std::move(prepared.run),
@@ -20,7 +20,9 @@ Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross)
   evidence.warnings.insert(evidence.warnings.end(), fitted.warnings.begin(), fitted.warnings.end());
   for (const std::string& text : evidence.base->layout().warnings)
     evidence.warnings.push_back({WarningKind::base_model, text});
-  return evidence;
+  if (!has_open_noise(evidence)) return evidence;
+  // Signatures are taken at a fit that gives every channel about the weight that it will have.
+  return restated(inquiry, evidence, encompassing_noise(evidence, evidence.fit, {}));
 }
 
 }  // namespace tunica::diagnosis

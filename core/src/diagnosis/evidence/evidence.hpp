@@ -13,6 +13,13 @@
 
 namespace tunica::diagnosis {
 
+/// What the noise of some channels was estimated from: the rest of their whitened rows, outside a span.
+struct EstimatedNoise {
+  Eigen::MatrixXd span;            ///< orthonormal; no columns where nothing was estimated
+  std::vector<std::size_t> group;  ///< by row: the variance that it has a share in; assembly::known_variance
+  double moderation = 0;           ///< degrees of freedom that the other channels add to each (moderation.hpp)
+};
+
 /// What the data say of the base model: noise stated for every channel, gross rows silenced, the model fitted.
 struct Evidence {
   experiment::Experiment experiment;  ///< with noise stated for every channel
@@ -23,6 +30,8 @@ struct Evidence {
   std::vector<Curve> curves;
   Fit fit;  ///< of the base
   std::vector<Warning> warnings;
+  EstimatedNoise estimated = {};
+  std::vector<Warning> noise_warnings = {};  ///< of what the noise was taken from
 };
 
 /// `gross`: rows to leave out. Throws InputError where data or names do not fit, BaseFitFailure where the base model

@@ -21,12 +21,16 @@ std::string four_digits(double value, const std::string& unit) {
 }
 
 /// "stretch 1.25, measured 14 kPa": rows are counted from 0 behind `rows` and `where`, which is hard to find in a file.
-std::string place_of(const Evidence& evidence, const Curve& curve, std::size_t row) {
+GrossRow gross_row(const Evidence& evidence, const Curve& curve, std::size_t row, double residual) {
+  GrossRow found{curve.test, curve.channel, row, row, residual, {}};
   for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
-    if (view.test == curve.test && view.observable == curve.channel)
-      return fmt::format("{} {}, measured {}", view.abscissa_name, four_digits(view.abscissa[row], view.abscissa_unit),
-                         four_digits(view.measured[row], view.unit));
-  return {};
+    if (view.test == curve.test && view.observable == curve.channel) {
+      found.file_row = view.file_row(row);
+      found.where =
+          fmt::format("{} {}, measured {}", view.abscissa_name, four_digits(view.abscissa[row], view.abscissa_unit),
+                      four_digits(view.measured[row], view.unit));
+    }
+  return found;
 }
 
 /// How far a residual lies from the straight line through two neighbours (on either side; at an end both on one), in
@@ -55,8 +59,7 @@ std::vector<GrossRow> gross_rows(const Evidence& evidence) {
       const double r = -evidence.fit.residuals[i], free = 1 - Q.row(i).squaredNorm();
       if (!(free > 0.05) || r * r / free < gross_score) continue;
       if (std::abs(contrast(evidence, curve, k)) > gross_contrast)
-        of_curve.push_back({curve.test, curve.channel, curve.rows[static_cast<std::size_t>(k)], r,
-                            place_of(evidence, curve, curve.rows[static_cast<std::size_t>(k)])});
+        of_curve.push_back(gross_row(evidence, curve, curve.rows[static_cast<std::size_t>(k)], r));
     }
     if (of_curve.size() <= std::max<std::size_t>(1, static_cast<std::size_t>(curve.count) / one_of_curve_in))
       found.insert(found.end(), of_curve.begin(), of_curve.end());
@@ -80,7 +83,7 @@ std::string words_of(const std::vector<GrossRow>& rows) {
   std::vector<std::string> all;
   for (const GrossRow& row : rows)
     all.push_back(
-        fmt::format("row {} of {}, {} ({}; {:+.1f} σ)", row.row, row.test, row.channel, row.where, row.residual));
+        fmt::format("row {} of {}, {} ({}; {:+.1f} σ)", row.file_row, row.test, row.channel, row.where, row.residual));
   return fmt::format("{}", fmt::join(all, "; "));
 }
 

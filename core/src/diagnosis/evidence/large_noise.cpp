@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "diagnosis/evidence/projection.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -18,8 +17,8 @@ constexpr double tail_level = 0.01;
 
 /// P(so small a mean square) under the noise.
 double lower_tail(double squares, double rows, double freedom_of_noise) {
-  if (freedom_of_noise > 0) return boost::math::cdf(boost::math::fisher_f(rows, freedom_of_noise), squares / rows);
-  return boost::math::cdf(boost::math::chi_squared(rows), squares);
+  if (freedom_of_noise > 0) return numerics::f_below(squares / rows, rows, freedom_of_noise);
+  return numerics::chi_squared_below(squares, rows);
 }
 
 }  // namespace

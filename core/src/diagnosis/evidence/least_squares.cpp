@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "numerics/cholesky.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -13,6 +13,8 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 
 constexpr double promised = 1e-6;  ///< of |r|², in noise units
 constexpr double edge = 1e-9;      ///< of the unit box
+constexpr double hopeless = 0.01;  ///< of what is missing to a wanted |r|²
+constexpr int patience = 2;        ///< such steps
 
 class Descent {
  public:
@@ -47,7 +49,7 @@ class Descent {
       Eigen::MatrixXd normal = A.transpose() * A;
       const Eigen::VectorXd g = gradient(moving), diagonal = normal.diagonal();
       for (Eigen::Index k = 0; k < normal.rows(); ++k) normal(k, k) += damping * std::max(diagonal[k], 1e-12);
-      const Eigen::VectorXd step = normal.ldlt().solve(-g);
+      const Eigen::VectorXd step = numerics::solve_symmetric(normal, -g);
       Eigen::VectorXd trial = x_;
       for (std::size_t k = 0; k < moving.size(); ++k)
         trial[moving[k]] = std::clamp(x_[moving[k]] + step[static_cast<Eigen::Index>(k)], 0.0, 1.0);
@@ -71,6 +73,8 @@ class Descent {
         damping /= 10;
         continue;
       }
+      slow_ = squares > data_.wanted && expected < hopeless * (squares - data_.wanted) ? slow_ + 1 : 0;
+      if (slow_ > patience) break;
       move_to(trial);
       Eigen::VectorXd r;
       Eigen::MatrixXd J;
@@ -167,6 +171,7 @@ class Descent {
   Eigen::MatrixXd J_;
   std::size_t evaluations_ = 0;
   double gained_ = 0;
+  int slow_ = 0;  ///< steps in a row that promise too little
 };
 
 }  // namespace

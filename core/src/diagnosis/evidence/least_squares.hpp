@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct Fit {
 struct DataVariant {
   const Eigen::VectorXd* added = nullptr;      ///< to the whitened residuals: simulated noise instead of the real one
   const std::vector<bool>* counted = nullptr;  ///< rows that are fitted; null = all
+  /// A fit is of use only below this |r|². It ends above it once a step promises less than a hundredth of what is
+  /// missing, several times in a row: that is another minimum.
+  double wanted = std::numeric_limits<double>::infinity();
 };
 
 /// Minimises the whitened squares over some of the parameters, the others stay where `start` has them, within the

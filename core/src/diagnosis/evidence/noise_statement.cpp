@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include "assembly/channels.hpp"
 #include "assembly/noise.hpp"
+#include "assembly/restricted_variance.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -93,6 +94,14 @@ std::pair<double, double> neighbours(const data::Channel& channel, const data::N
 /// Effective degrees of freedom of the difference estimator: its n terms overlap (Gasser et al. 1986: var = 35/9 σ⁴/n).
 constexpr double difference_share = 18.0 / 35;
 
+/// What σ is at least: that of rounding to the step of the values, and the digits in which simulations are exact.
+double resolution_of(const data::Channel& channel) {
+  constexpr double exact_digits = 1e-5;
+  double largest = 0;
+  for (const double value : channel.values) largest = std::max(largest, std::abs(value));
+  return std::max(assembly::value_step(channel.values) / std::sqrt(12.0), exact_digits * largest);
+}
+
 NoiseSource from_differences(const data::Channel& channel, const data::Dataset& dataset,
                              const std::vector<bool>& fitted, const std::string& where) {
   std::vector<double> abscissa;
@@ -100,12 +109,22 @@ NoiseSource from_differences(const data::Channel& channel, const data::Dataset& 
     abscissa = dataset.abscissae.front().second;
   else
     for (std::size_t i = 0; i < dataset.count; ++i) abscissa.push_back(static_cast<double>(i));
-  std::vector<std::string> warnings;
-  const auto model = assembly::noise_model(channel, abscissa, fitted, where, warnings);
   NoiseSource source;
   source.kind = NoiseSource::Kind::differences;
-  source.noise.absolute = model.sd.front();
-  source.freedom = std::max(2.0, difference_share * static_cast<double>(model.terms));
+  source.resolution = resolution_of(channel);
+  if (!(source.resolution > 0))
+    throw InputError(fmt::format("{}: every value is 0, which says nothing about noise. State noise.absolute", where));
+  try {
+    std::vector<std::string> warnings;
+    const auto model = assembly::noise_model(channel, abscissa, fitted, where, warnings);
+    source.neighbours = model.sd.front();
+    source.neighbours_freedom = std::max(2.0, difference_share * static_cast<double>(model.terms));
+  } catch (const InputError&) {  // no rows between neighbours, or all of them on straight lines
+  }
+  constexpr double guess = 1000;  // times the digits: a hundredth of the largest value
+  source.noise.absolute =
+      source.neighbours > 0 ? std::max(source.neighbours, source.resolution) : guess * source.resolution;
+  source.freedom = std::max(2.0, source.neighbours_freedom);
   return source;
 }
 
@@ -135,8 +154,7 @@ void pool(std::vector<Correlation>& correlations) {
   }
   double spread = 0;
   for (const Correlation& one : correlations) spread += std::pow((one.value() - all.value()) / one.sd(), 2);
-  const boost::math::chi_squared expected(static_cast<double>(correlations.size() - 1));
-  if (spread > boost::math::quantile(expected, 0.95)) return;
+  if (spread > numerics::chi_squared_quantile(0.95, static_cast<double>(correlations.size() - 1))) return;
   for (Correlation& one : correlations) {
     one.products = all.products;
     one.squares = all.squares;
@@ -156,7 +174,7 @@ std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment,
     const data::Dataset dataset = data::read_dataset(entry.data, observables);
     // What is held out takes no part; a test that is held out as a whole needs a noise of its own all the same.
     const std::vector<bool> fitted =
-        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset.count);
+        entry.hold_out.all ? std::vector<bool>(dataset.count, true) : assembly::fitted_rows(entry, dataset);
     Correlation correlation{entry.name};
     for (const data::Channel& channel : dataset.channels) {
       NoiseSource source;

@@ -13,24 +13,31 @@ namespace tunica::diagnosis {
 
 /// Where the noise of a channel is known from, and how well.
 struct NoiseSource {
-  enum class Kind { stated, replicates, differences };
+  enum class Kind { stated, replicates, encompassing, differences };
   std::string test, channel, unit;
   Kind kind = Kind::stated;
   data::Noise noise;          ///< of one measured value
   double freedom = 0;         ///< degrees of freedom of σ²; 0 = known
   double correlation_sd = 0;  ///< standard deviation of the estimated correlation
+
+  /// Neither stated nor from replicates: it is for the residuals to say (encompassing_noise.hpp).
+  [[nodiscard]] bool open() const { return kind == Kind::encompassing || kind == Kind::differences; }
+  double neighbours = 0;          ///< open: σ from differences of neighbouring rows; 0 where there are none
+  double neighbours_freedom = 0;  ///< degrees of freedom of that
+  double resolution = 0;          ///< open: what σ is at least, from the step of the values or their digits
 };
 
 /// How large the noise of every channel of the tests is, so that every model is judged by the same: what the file
-/// states stays. Else, never from residuals of a fit,
+/// states stays. Else
 ///
 ///   replicates: σ² = a² + (b y)² fitted to the squared deviations from the row means (b only where it raises the
 ///               likelihood by more than 4), and the correlation of neighbouring deviations, pooled over channels and
 ///               over the tests that agree on it, where it exceeds twice its standard deviation;
-///   else:       deviations from the line through neighbouring rows (assembly/noise.hpp), uncorrelated.
+///   else:       deviations from the line through neighbouring rows (assembly/noise.hpp), uncorrelated, until the
+///               residuals can be asked (encompassing_noise.hpp); where there are no neighbours, the resolution of the
+///               values, or a hundredth of the largest.
 ///
-/// Rows that are held out and `gross` ones take no part in those differences. Throws InputError where nothing can be
-/// known.
+/// Rows that are held out and `gross` ones take no part in those differences. Throws InputError where all values are 0.
 std::vector<NoiseSource> noise_sources(const experiment::Experiment& experiment, const std::vector<std::string>& tests,
                                        const plugins::Catalogue& catalogue, const std::vector<GrossRow>& gross = {});
 

@@ -2,12 +2,14 @@
 #include "diagnosis/evidence/preparation.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "assembly/memory.hpp"
 #include "diagnosis/evidence/gross_rows.hpp"
 #include "tunica/error.hpp"
 
@@ -76,13 +78,35 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
   return {std::move(experiment), std::move(warnings)};
 }
 
-Warning estimated_noise_warning(const NoiseSource& source) {
-  return {WarningKind::noise_estimated,
-          fmt::format("test '{}', channel '{}': no noise is stated. σ = {:.3g}{} is estimated from differences of "
-                      "neighbouring rows. It is too small where errors of neighbouring rows are alike (false alarms), "
-                      "and too large where few rows follow a bend (missed misfits). State noise.absolute, "
-                      "noise.relative and noise.correlation, or give replicates",
-                      source.test, source.channel, source.noise.absolute, source.unit == "1" ? "" : " " + source.unit)};
+/// Whether something with memory is in the base or was asked for by name, so that rows have to stay as they are.
+bool asks_for_memory(const Inquiry& inquiry) {
+  const std::vector<std::string>& asked = inquiry.request.mechanisms;
+  return std::any_of(asked.begin(), asked.end(),
+                     [&](const std::string& id) { return assembly::has_memory(inquiry.mechanism(id)); });
+}
+
+struct Ordered {
+  experiment::Experiment experiment;
+  std::vector<Warning> warnings;
+};
+
+/// Rows of unknown order stand by their values, so that nothing can depend on where the file has them. Only what has
+/// memory needs them as the file has them, and then a warning says so.
+Ordered with_orders(const Inquiry& inquiry, experiment::Experiment experiment, const experiment::RunEntry& run) {
+  const bool asked = asks_for_memory(inquiry);
+  std::vector<assembly::TestPast> assumed;
+  for (const assembly::TestPast& one : assembly::unknown_pasts(experiment, run, inquiry.catalogue)) {
+    auto& entries = experiment.tests;
+    auto& entry =
+        *std::find_if(entries.begin(), entries.end(), [&](const auto& test) { return test.name == one.test; });
+    if (asked || assembly::has_memory(experiment, entry, run, inquiry.catalogue))
+      assumed.push_back(one);
+    else
+      entry.data.sorted = one.past == data::Past::order_unknown;
+  }
+  std::vector<Warning> warnings;
+  if (!assumed.empty()) warnings.push_back({WarningKind::order_assumed, assembly::assumption_words(assumed)});
+  return {std::move(experiment), std::move(warnings)};
 }
 
 }  // namespace
@@ -96,8 +120,10 @@ Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) 
   run.optimizer = inquiry.request.optimizer;
   run.objective = experiment::ObjectiveType::least_squares;
 
-  Weightless weightless = without_weights(inquiry.experiment, run.tests, inquiry.catalogue);
-  prepared.warnings = std::move(weightless.warnings);
+  Ordered ordered = with_orders(inquiry, inquiry.experiment, run);
+  Weightless weightless = without_weights(std::move(ordered.experiment), run.tests, inquiry.catalogue);
+  prepared.warnings = std::move(ordered.warnings);
+  std::move(weightless.warnings.begin(), weightless.warnings.end(), std::back_inserter(prepared.warnings));
   prepared.noise = noise_sources(weightless.experiment, run.tests, inquiry.catalogue, gross);
   prepared.experiment = without_rows(with_noise(std::move(weightless.experiment), run.tests, prepared.noise), gross);
   prepared.base = std::make_shared<const assembly::Assembly>(prepared.experiment, run, inquiry.catalogue);
@@ -118,8 +144,6 @@ Preparation prepare(const Inquiry& inquiry, const std::vector<GrossRow>& gross) 
       prepared.warnings.push_back(
           {WarningKind::test_held_out,
            fmt::format("test '{}' is held out and takes no part. Set hold_out to false to include it", test.name)});
-  for (const NoiseSource& source : prepared.noise)
-    if (source.kind == NoiseSource::Kind::differences) prepared.warnings.push_back(estimated_noise_warning(source));
   if (!gross.empty())
     prepared.warnings.push_back(
         {WarningKind::gross_rows_left_out,

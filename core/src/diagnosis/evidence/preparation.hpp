@@ -13,7 +13,7 @@ namespace tunica::diagnosis {
 
 /// The experiment as diagnosis sees it: every channel with its noise, weights of one, whitened least squares of one
 /// model over all tests of the first run (all tests where there is none), no constraints. Channels of weight 0 take no
-/// part.
+/// part. Rows of unknown order stand sorted.
 struct Preparation {
   experiment::Experiment experiment;
   experiment::RunEntry run;

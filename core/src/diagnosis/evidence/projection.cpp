@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::diagnosis {
 
@@ -15,9 +15,7 @@ Eigen::MatrixXd basis(Eigen::MatrixXd columns, double least) {
     if (const double length = columns.col(k).norm(); length > 1e-12 * longest && length > 0)
       columns.col(kept++) = (columns.col(k) / length).eval();
   if (kept == 0) return Eigen::MatrixXd(columns.rows(), 0);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.leftCols(kept));
-  qr.setThreshold(least);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), qr.rank());
+  return numerics::orthonormal_basis(columns.leftCols(kept), least);
 }
 
 Projection::Projection(const Eigen::MatrixXd& J) : Q_(basis(J, 1e-8)) {}

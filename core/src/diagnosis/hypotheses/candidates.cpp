@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include "assembly/memory.hpp"
+#include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/hypotheses/extension.hpp"
+#include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/hypotheses/signatures.hpp"
 #include "plugins/guarded.hpp"
@@ -42,15 +46,23 @@ class CandidateSearch {
         projection_(projection),
         catalogue_(inquiry.catalogue),
         clock_(clock_of(evidence.experiment, evidence.run, inquiry.catalogue)),
-        quick_(inquiry.request.quick) {}
+        quick_(inquiry.request.quick) {
+    for (const assembly::TestPast& one : assembly::unknown_pasts(experiment_, run_, catalogue_))
+      pasts_.emplace(one.test, one.past);
+    const std::vector<std::string>& asked = inquiry.request.mechanisms;
+    asked_.insert(asked.begin(), asked.end());
+    for (std::size_t m = 0; m < base_.models().count(); ++m)
+      if (is_isotropic(base_.models().model(m))) isotropic_.insert(base_.models().name(m));
+  }
 
   Candidate find(const std::string& id, const MechanismFactory& mechanism) const {
     Candidate candidate{id, &mechanism, {}, {}};
     if (needs_clock(mechanism) && !(clock_.longest > 0)) {
       candidate.absent = "the data have no time";
+      candidate.absence = Absence::no_clock;
       return candidate;
     }
-    const std::vector<Place> places = places_of(id, mechanism, candidate.absent);
+    const std::vector<Place> places = places_of(mechanism, candidate);
     std::map<std::string, std::vector<MechanismFactory::Setting>> by_options;
     for (const auto& setting : settings_to_try(mechanism, clock_))
       by_options[options_key(mechanism, setting)].push_back(setting);
@@ -59,35 +71,85 @@ class CandidateSearch {
       return hypothesis.signature.size() == 0 || !hypothesis.signature.allFinite() ||
              !(hypothesis.signature.norm() > 0);
     });
-    if (!candidate.hypotheses.empty())
+    if (!candidate.hypotheses.empty()) {
       candidate.absent.clear();
-    else if (candidate.absent.empty())
+      candidate.absence = Absence::none;
+    } else if (candidate.absent.empty()) {
       candidate.absent = "it leaves no trace in these data";
+      candidate.absence = Absence::no_trace;
+    }
     return candidate;
   }
 
  private:
-  /// The models, or the tests and channels, that have not got it yet; `absent` says why there is nowhere.
-  [[nodiscard]] std::vector<Place> places_of(const std::string& id, const MechanismFactory& mechanism,
-                                             std::string& absent) const {
+  /// Whether it acts along directions that the model does not have, and nobody asked for it.
+  [[nodiscard]] bool lacks_directions(const MechanismFactory& mechanism, const std::string& model) const {
+    return mechanism.directional && !asked_.contains(mechanism.id) && isotropic_.contains(model);
+  }
+
+  /// Whether it remembers what nobody says of this test. A sensor needs the order of rows only, a specimen what it bore
+  /// before the first as well.
+  [[nodiscard]] bool lacks_past(const MechanismFactory& mechanism, const std::string& test) const {
+    if (!assembly::has_memory(mechanism) || asked_.contains(mechanism.id)) return false;
+    const auto found = pasts_.find(test);
+    return found != pasts_.end() &&
+           (found->second == data::Past::order_unknown || group_of(mechanism) == CauseGroup::material);
+  }
+  /// The tests of the model without a past: a material remembers in all of them, or in none.
+  [[nodiscard]] std::vector<std::string> forgotten_in(const MechanismFactory& mechanism,
+                                                      const std::string& model) const {
+    std::vector<std::string> tests;
+    for (const std::string& test : run_.tests) {
+      const std::vector<std::string> models = assembly::models_of_test(experiment_.test(test), run_);
+      if (std::find(models.begin(), models.end(), model) != models.end() && lacks_past(mechanism, test))
+        tests.push_back(test);
+    }
+    return tests;
+  }
+
+  /// The models, or the tests and channels, that have not got it yet; the candidate says why there is nowhere.
+  std::vector<Place> places_of(const MechanismFactory& mechanism, Candidate& candidate) const {
+    const std::string& id = candidate.id;
+    const std::vector<std::string> models = experiment_.models_of(run_);
+    const auto nowhere = [&candidate](Absence absence, const char* why) {
+      candidate.absence = absence;
+      candidate.absent = why;
+      return std::vector<Place>();
+    };
+    if (std::all_of(models.begin(), models.end(),
+                    [&](const std::string& name) { return lacks_directions(mechanism, name); }))
+      return nowhere(Absence::isotropic,
+                     "the base model is isotropic, and the mechanism acts along directions; ask for it by name");
+    const char* const no_past = "the past of the rows is not known";
     if (mechanism.stage < Stage::test) {
       std::vector<Place> materials;
-      const std::vector<std::string> models = experiment_.models_of(run_);
       for (const std::string& name : models) {
-        if (already_there(experiment_.model(name).mechanisms, id)) continue;
+        if (already_there(experiment_.model(name).mechanisms, id) || lacks_directions(mechanism, name)) continue;
+        const std::vector<std::string> forgotten = forgotten_in(mechanism, name);
+        candidate.without_past.insert(forgotten.begin(), forgotten.end());
+        if (!forgotten.empty()) continue;
         Place material;
         if (models.size() > 1) material.model = name;
         materials.push_back(std::move(material));
       }
-      if (materials.empty()) absent = "the model has it already";
-      return materials;
+      if (materials.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
+      return materials.empty() ? nowhere(Absence::already_there, "the model has it already") : materials;
     }
     std::vector<Place> places = single_places(mechanism, experiment_, run_, base_);
     std::erase_if(places, [&](const Place& place) {
       return already_there(experiment_.test(place.tests.front()).mechanisms, id);
     });
-    if (places.empty()) absent = "no test that it applies to";
-    return places;
+    std::erase_if(places, [&](const Place& place) {
+      const bool forgotten = lacks_past(mechanism, place.tests.front());
+      if (forgotten) candidate.without_past.insert(place.tests.front());
+      return forgotten;
+    });
+    if (places.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
+    if (places.empty()) return nowhere(Absence::no_place, "no test that it applies to");
+    // On a first loading a memory is part of what the base model says.
+    if (mechanism.memory)
+      std::erase_if(places, [&](const Place& place) { return !unloads(base_, place.tests.front()); });
+    return places.empty() ? nowhere(Absence::no_trace, "no test takes the load off again") : places;
   }
 
   /// On each place by itself, where the mechanism is shared with one amplitude on all of them, and on single rows.
@@ -101,7 +163,9 @@ class CandidateSearch {
         add(mechanism, {candidate.id, place, alike.front()}, alike, found);
         if (!place.tests.empty()) all.tests.push_back(place.tests.front());
       } catch (const InputError& problem) {
-        if (candidate.absent.empty()) candidate.absent = problem.what();
+        if (!candidate.absent.empty()) continue;
+        candidate.absent = problem.what();
+        candidate.absence = Absence::not_applicable;
       }
     }
     const std::size_t singles = found.size();
@@ -116,28 +180,22 @@ class CandidateSearch {
 
   void add(const MechanismFactory& mechanism, const Addition& first,
            const std::vector<MechanismFactory::Setting>& settings, std::vector<Hypothesis>& into) const {
-    const Extension extended(experiment_, run_of(first.place), {first}, catalogue_);
+    const Addition ranged = with_range(mechanism, first, settings);
+    const Extension extended(experiment_, run_of(first.place), {ranged}, catalogue_);
     const assembly::Assembly& assembly = extended.assembly();
     const auto workspace = assembly.evaluator().make_workspace();
-    const Extension::Part& part = extended.parts().front();
     const std::vector<double> at_null = extended.at_null(fitted_in(extended));
     Eigen::VectorXd bare;
     Eigen::MatrixXd J;
     for (std::size_t s = 0; s < settings.size(); ++s) {
-      std::vector<double> null = at_null;
-      for (std::size_t k = 0; k < part.nuisance.size(); ++k)
-        for (const auto& [name, value] : settings[s])
-          if (name == mechanism.parameters[k + 1].name)
-            for (const std::size_t member : part.nuisance[k])
-              null[member] =
-                  std::clamp(value, assembly.layout().parameters[member].min, assembly.layout().parameters[member].max);
+      const std::vector<double> null = with_setting(extended, mechanism, settings[s], at_null);
       const bool exact = assembly.layout().jacobian_is_exact;
       // At the null nuisance parameters do nothing: without a Jacobian, one simulation serves all settings.
       if ((exact || s == 0) && !whitened(assembly, null, *workspace, bare, exact ? &J : nullptr).ok()) continue;
       for (Slope& slope : slopes_of(extended, mechanism, null, bare, J, *workspace, quick_)) {
         if (slope.signature.size() == 0) continue;
         Hypothesis tangent{&mechanism,
-                           {first.id, first.place, settings[s]},
+                           {first.id, first.place, settings[s], ranged.range},
                            embedded(slope.signature, assembly),
                            slope.side,
                            slope.sign};
@@ -146,6 +204,16 @@ class CandidateSearch {
         into.push_back(std::move(tangent));
       }
     }
+  }
+
+  /// With the amplitudes that the data allow.
+  [[nodiscard]] Addition with_range(const MechanismFactory& mechanism, Addition addition,
+                                    const std::vector<MechanismFactory::Setting>& settings) const {
+    if (addition.place.channel.empty() && !(mechanism.plausible_effect > 0)) return addition;
+    const Extension declared(experiment_, run_of(addition.place), {addition}, catalogue_);
+    addition.range = range_from_data(declared, mechanism, settings, declared.at_null(fitted_in(declared)),
+                                     *declared.assembly().evaluator().make_workspace());
+    return addition;
   }
 
   /// Only the tests that a mechanism acts on have to be simulated; not so where that changes which models there are,
@@ -194,7 +262,8 @@ class CandidateSearch {
     if (tangent.side == MechanismFactory::Side::positive && sign != tangent.sign) return;
     // A channel's unit is not the mechanism's to know, and what acts on data rows is linear; so is memory, nearly.
     if (!tangent.addition.place.channel.empty() || mechanism.stage == Stage::history) return;
-    const double reach = sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.null - mechanism.plausible_min;
+    const AmplitudeRange range = range_of(mechanism, tangent.addition);
+    const double reach = sign > 0 ? range.plausible_max - mechanism.null : mechanism.null - range.plausible_min;
     if (!(reach > 0)) return;
     const Extension::Part& part = extended.parts().front();
     Eigen::VectorXd there;
@@ -222,6 +291,9 @@ class CandidateSearch {
   const plugins::Catalogue& catalogue_;
   Clock clock_;
   bool quick_;
+  std::map<std::string, data::Past> pasts_;  ///< of tests, where they are not known
+  std::set<std::string> asked_;              ///< mechanisms, by name
+  std::set<std::string> isotropic_;          ///< models
 };
 
 }  // namespace
@@ -234,8 +306,11 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
     if (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end())
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());
-  tbb::parallel_for(std::size_t{0}, asked.size(),
-                    [&](std::size_t k) { found[k] = search.find(asked[k]->factory.id, asked[k]->factory); });
+  const auto done = inquiry.steps("signatures of the mechanisms", 0.1, 0.2, asked.size());
+  tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t k) {
+    found[k] = search.find(asked[k]->factory.id, asked[k]->factory);
+    done();
+  });
   return found;
 }
 

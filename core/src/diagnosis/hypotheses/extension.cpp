@@ -13,8 +13,16 @@ namespace {
 using experiment::MechanismEntry;
 
 /// Defaults of its options, with what the addition says: number options of the setting, channel and row of the place.
+/// The bounds of an amplitude whose size depends on the specimen are written down with it.
 MechanismEntry entry_of(const Addition& addition, const MechanismFactory& mechanism) {
-  MechanismEntry entry{addition.id, {}, {}};
+  MechanismEntry entry{addition.id, {}, {}, addition.as};
+  if (addition.range) {
+    const AmplitudeRange& range = *addition.range;
+    experiment::ParameterSetting& amplitude = entry.parameters[mechanism.parameters.front().name];
+    amplitude.min = range.min;
+    amplitude.max = range.max;
+    amplitude.initial = std::clamp(0.1 * range.plausible_max + 0.9 * mechanism.null, range.min, range.max);
+  }
   for (const Option& option : mechanism.options) {
     if (option.fallback) entry.options.set(option.name, *option.fallback);
     if (option.name == "channel") entry.options.set("channel", addition.place.channel);
@@ -62,7 +70,7 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
       Variable variable;
       const auto add = [&](const std::string& owner) {
         const auto index =
-            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.id, mechanism.parameters[k].name));
+            index_of(*assembly_, fmt::format("{}{}.{}", owner, addition.name(), mechanism.parameters[k].name));
         if (!index)
           throw plugins::PluginFailure(
               fmt::format("the mechanism '{}' declares the parameter '{}' but does not have it", addition.id,

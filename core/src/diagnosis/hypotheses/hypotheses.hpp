@@ -22,4 +22,11 @@ struct Hypotheses {
 
 Hypotheses hypotheses_of(const Inquiry& inquiry, const Evidence& evidence);
 
+/// The same hypotheses where only the noise of the evidence is another: signatures in rows of its σ, projected off its
+/// Jacobian.
+Hypotheses restated(const Hypotheses& hypotheses, const Evidence& before, const Evidence& after);
+
+/// Signatures of whole curves that a refit leaves something of.
+std::vector<const Eigen::VectorXd*> visible_signatures(const Hypotheses& hypotheses);
+
 }  // namespace tunica::diagnosis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,11 +13,21 @@
 
 namespace tunica::diagnosis {
 
+/// Amplitudes that are plausible, and the bounds of the search.
+struct AmplitudeRange {
+  double plausible_min, plausible_max, min, max;
+};
+
 /// A mechanism at work: what is added to the experiment.
 struct Addition {
   std::string id;
   Place place;
-  MechanismFactory::Setting setting;  ///< nuisance parameters and number options where the search begins
+  MechanismFactory::Setting setting;         ///< nuisance parameters and number options where the search begins
+  std::optional<AmplitudeRange> range = {};  ///< from the data; none: as the mechanism declares
+  std::string as = {};                       ///< of several side by side, the name; empty = the id
+
+  /// The prefix of its parameters.
+  [[nodiscard]] const std::string& name() const { return as.empty() ? id : as; }
 };
 
 /// One amplitude that may differ from its null, and what the data would show of it.
@@ -34,8 +46,12 @@ struct Hypothesis {
 struct Candidate {
   std::string id;
   const MechanismFactory* mechanism = nullptr;
-  std::vector<Hypothesis> hypotheses;  ///< over places and settings; empty: it leaves no trace in these data
-  std::string absent;                  ///< why, in words
+  std::vector<Hypothesis> hypotheses;   ///< over places and settings; empty: it leaves no trace in these data
+  std::string absent;                   ///< why, in words
+  Absence absence = Absence::no_trace;  ///< why; of no meaning where there are hypotheses
+  /// Tests that it is not looked for in, or that keep it out of their material: it has memory, and their past is
+  /// unknown.
+  std::set<std::string> without_past = {};
 };
 
 }  // namespace tunica::diagnosis

@@ -19,6 +19,27 @@ bool takes(const MechanismFactory& mechanism, const std::string& option) {
                      [&](const Option& declared) { return declared.name == option; });
 }
 
+CauseGroup group_of(const MechanismFactory& mechanism) {
+  using Origin = MechanismFactory::Origin;
+  if (mechanism.origin == Origin::by_stage)
+    return mechanism.stage < Stage::test ? CauseGroup::material : CauseGroup::rig;
+  return mechanism.origin == Origin::material ? CauseGroup::material : CauseGroup::rig;
+}
+
+bool unloads(const assembly::Assembly& base, const std::string& test) {
+  constexpr double part = 0.1;
+  for (const assembly::MeasuredChannel& view : base.layout().channels) {
+    if (view.test != test || view.abscissa.empty()) continue;
+    const auto [low, high] = std::minmax_element(view.abscissa.begin(), view.abscissa.end());
+    double largest = -INFINITY;
+    for (const double value : view.abscissa) {
+      largest = std::max(largest, value);
+      if (value < largest - part * (*high - *low)) return true;
+    }
+  }
+  return false;
+}
+
 Clock clock_of(const Experiment& experiment, const RunEntry& run, const plugins::Catalogue& catalogue) {
   Clock clock;
   for (const std::string& name : run.tests) {
@@ -73,17 +94,6 @@ std::vector<Place> single_places(const MechanismFactory& mechanism, const Experi
   return places;
 }
 
-std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
-                                          const Place& place) {
-  if (place.channel.empty()) return {mechanism.plausible_min, mechanism.plausible_max};
-  for (const assembly::MeasuredChannel& view : base.layout().channels)
-    if (view.test == place.tests.front() && view.observable == place.channel) {
-      const auto [low, high] = std::minmax_element(view.measured.begin(), view.measured.end());
-      return {*low - *high, *high - *low};
-    }
-  return {-INFINITY, INFINITY};
-}
-
 void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into) {
   const std::size_t rows = base.layout().residual_count, predictions = base.layout().prediction_count;
   std::vector<double> unit(rows, 0.0), map(predictions);
@@ -102,6 +112,7 @@ void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vect
       if (!view.fitted[i]) continue;
       Hypothesis one = whole;
       one.addition.place.row = i;
+      one.addition.place.file_row = view.file_row(i);
       one.signature = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
       for (const auto& [k, value] : columns[view.offset + i]) one.signature[static_cast<Eigen::Index>(k)] = value;
       into.push_back(std::move(one));

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "diagnosis/evidence/evidence.hpp"
@@ -13,6 +12,12 @@ namespace tunica::diagnosis {
 
 /// Whether the mechanism has an option of that name.
 bool takes(const MechanismFactory& mechanism, const std::string& option);
+
+/// The group that a mechanism belongs to: as it declares, else by the stage that it acts on.
+CauseGroup group_of(const MechanismFactory& mechanism);
+
+/// Whether the load on a test is taken off: its abscissa falls by a tenth of what it spans from its largest so far.
+bool unloads(const assembly::Assembly& base, const std::string& test);
 
 /// Shortest step and duration of the data's clocks, s; none where no fitted test has one.
 struct Clock {
@@ -28,11 +33,6 @@ std::vector<MechanismFactory::Setting> settings_to_try(const MechanismFactory& m
 /// Tests and channels, one by one, where the mechanism may act; nothing for one that acts on the model.
 std::vector<Place> single_places(const MechanismFactory& mechanism, const experiment::Experiment& experiment,
                                  const experiment::RunEntry& run, const assembly::Assembly& base);
-
-/// Plausible amplitudes: as declared; of a mechanism that acts on a channel, whose unit it cannot know, what the
-/// channel spans.
-std::pair<double, double> plausible_range(const assembly::Assembly& base, const MechanismFactory& mechanism,
-                                          const Place& place);
 
 /// A curve's mean shift restricted to single rows: one column a row, whitened like the residuals.
 void add_rows(const Hypothesis& whole, const assembly::Assembly& base, std::vector<Hypothesis>& into);

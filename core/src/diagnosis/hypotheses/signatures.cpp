@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/hypotheses/amplitude_range.hpp"
+
 namespace tunica::diagnosis {
 
 std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& mechanism,
@@ -11,7 +13,8 @@ std::vector<Slope> slopes_of(const Extension& extended, const MechanismFactory& 
                              assembly::Workspace& workspace, bool quick) {
   using Side = MechanismFactory::Side;
   const Extension::Part& part = extended.parts().front();
-  const double reach = std::max(mechanism.plausible_max - mechanism.null, mechanism.null - mechanism.plausible_min);
+  const AmplitudeRange range = range_of(mechanism, extended.additions().front());
+  const double reach = std::max(range.plausible_max - mechanism.null, mechanism.null - range.plausible_min);
   const auto at = [&](double step, Eigen::VectorXd& into) {
     std::vector<double> free = null;
     for (const std::size_t member : part.amplitude) free[member] = part.null + step;

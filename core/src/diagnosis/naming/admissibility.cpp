@@ -11,6 +11,7 @@
 #include <tbb/parallel_for.h>
 
 #include "comparison/stability_report.hpp"
+#include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/credible.hpp"
 
@@ -75,8 +76,9 @@ std::vector<Trial> trials_of(const Hypotheses& hypotheses) {
 Trial fitted(const Inquiry& inquiry, const Analysis& analysis, Trial trial) {
   const Direction& direction = analysis.hypotheses.directions[trial.direction];
   const MechanismFactory& mechanism = *analysis.hypotheses.candidates[trial.candidate].mechanism;
-  const double side = mechanism.plausible_max > mechanism.null ? mechanism.plausible_max - mechanism.null
-                                                               : mechanism.plausible_min - mechanism.null;
+  const AmplitudeRange range = range_of(mechanism, analysis.hypotheses.hypothesis(direction).addition);
+  const double side =
+      (range.plausible_max > mechanism.null ? range.plausible_max : range.plausible_min) - mechanism.null;
   for (const double amplitude : {score(direction, -analysis.evidence.fit.residuals).amplitude, 0.3 * side}) {
     auto refit =
         fit_with(inquiry, analysis, {analysis.hypotheses.hypothesis(direction).addition}, std::array{amplitude});

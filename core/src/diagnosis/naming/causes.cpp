@@ -5,11 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
+#include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/hypotheses/places.hpp"
+#include "numerics/distributions.hpp"
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -24,7 +25,7 @@ std::vector<double> deviations(const Fit& fit) {
   Eigen::MatrixXd J = fit.jacobian(Eigen::all, free);
   const Eigen::VectorXd lengths = J.colwise().norm().transpose();
   for (Eigen::Index k = 0; k < J.cols(); ++k) J.col(k) /= lengths[k];
-  const Eigen::MatrixXd covariance = (J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::MatrixXd covariance = numerics::pseudo_inverse(J.transpose() * J);
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     sd[static_cast<std::size_t>(free[k])] = std::sqrt(std::max(covariance(i, i), 0.0)) / lengths[i];
@@ -39,7 +40,7 @@ std::string three_digits(double value, const std::string& unit = "1") {
 
 /// One parameter of addition `which`, the first being its amplitude, with the interval that its deviation says.
 Amplitude estimate(const Refit& refit, std::size_t variable, const std::string& name, double sd) {
-  const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
+  const double quantile = numerics::normal_quantile(0.975);
   const std::size_t index = refit.extension->variables()[variable].front();
   const double value = refit.fit.free[index], half = quantile * sd;
   return {name,         refit.extension->assembly().layout().parameters[index].unit,
@@ -50,10 +51,10 @@ Amplitude estimate(const Refit& refit, std::size_t variable, const std::string& 
 /// Whether it is plausible, and the interval no further than the parameter may go; a mechanism of one side not beyond
 /// its null.
 Amplitude bounded(Amplitude amplitude, const MechanismFactory& mechanism, const assembly::FreeParameter& parameter,
-                  const std::pair<double, double>& plausible) {
+                  const AmplitudeRange& range) {
   // An amplitude at its null is no bound to worry about; beyond what is plausible by more than its uncertainty is.
   amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
-  amplitude.plausible = amplitude.high >= plausible.first && amplitude.low <= plausible.second;
+  amplitude.plausible = amplitude.high >= range.plausible_min && amplitude.low <= range.plausible_max;
   amplitude.low = std::max(amplitude.low, parameter.min);
   amplitude.high = std::min(amplitude.high, parameter.max);
   const bool upwards = mechanism.plausible_max > mechanism.null;
@@ -98,10 +99,11 @@ Cause cause_of(const Inquiry& inquiry, const Analysis& analysis, const Refit& re
   Cause cause;
   cause.id = addition.id;
   cause.place = addition.place;
+  cause.group = group_of(mechanism);
   cause.retained = direction.retained;
   cause.gain = evidence.fit.chi2 - refit.fit.chi2;
   cause.amplitude = bounded(estimate(refit, at, mechanism.parameters.front().name, sd[at]), mechanism, parameter,
-                            plausible_range(*evidence.base, mechanism, addition.place));
+                            range_of(mechanism, addition));
   for (std::size_t k = 1; k <= extension.parts()[which].nuisance.size(); ++k)
     cause.nuisance.push_back(estimate(refit, at + k, mechanism.parameters[k].name, sd[at + k]));
   for (std::size_t j = 0; j < extension.base().size(); ++j) {

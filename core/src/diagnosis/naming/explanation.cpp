@@ -51,6 +51,12 @@ Explanation inadmissible(const Inquiry& inquiry, const Analysis& analysis, const
 
 }  // namespace
 
+Standing standing_of(const Cause& cause, const Explanation& explanation) {
+  if (!cause.amplitude.plausible) return Standing::implausible;
+  if (cause.amplitude.at_bound) return Standing::at_bound;
+  return is_clean(explanation.p_after) ? Standing::probable : Standing::rest_is_left;
+}
+
 Explanation explain(const Inquiry& inquiry, const Analysis& analysis, const std::vector<GrossRow>& gross) {
   const Hypotheses& hypotheses = analysis.hypotheses;
   Admissibility admissibility = admissibility_of(analysis.evidence);

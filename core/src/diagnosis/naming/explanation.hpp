@@ -25,6 +25,9 @@ struct Explanation {
   Admissibility admissibility;
 };
 
+/// What the probability of one of its causes is worth.
+Standing standing_of(const Cause& cause, const Explanation& explanation);
+
 /// What the alarm is about, and what explains it. `gross`: rows that are the only thing wrong.
 Explanation explain(const Inquiry& inquiry, const Analysis& analysis, const std::vector<GrossRow>& gross);
 

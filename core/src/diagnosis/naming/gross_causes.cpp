@@ -8,11 +8,12 @@
 #include <set>
 #include <utility>
 
-#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include "diagnosis/evidence/gross_rows.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/causes.hpp"
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -53,11 +54,12 @@ std::vector<GrossRow> taken_out(const std::vector<GrossRow>& gross, const Refit&
 }
 
 Cause cause_of_row(const GrossRow& row, const RowDeviation& far, const MechanismFactory& mechanism) {
-  const double quantile = boost::math::quantile(boost::math::normal(), 0.975);
+  const double quantile = numerics::normal_quantile(0.975);
   const double value = far.value, half = quantile * far.sd;
   Cause cause;
   cause.id = outliers;
-  cause.place = {{row.test}, row.channel, row.row};
+  cause.place = {{row.test}, row.channel, row.row, {}, row.file_row};
+  cause.group = group_of(mechanism);
   cause.amplitude = {mechanism.parameters.front().name, far.unit, value, value - half, value + half, false, true};
   cause.probability = 1;
   cause.p_value = std::erfc(std::abs(value) / far.sd / std::sqrt(2.0));

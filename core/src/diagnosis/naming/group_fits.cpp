@@ -12,6 +12,8 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr std::size_t groups_searched_again = 6;  ///< of the likeliest, without each of their members
+constexpr std::size_t enough_groups = 3;          ///< that triples are begun from
+constexpr double out_of_the_question = 15;        ///< of ln w below the likeliest
 
 }  // namespace
 
@@ -31,27 +33,47 @@ void sort_by_weight(std::vector<Group>& groups) {
                    [](const Group& a, const Group& b) { return a.log_weight > b.log_weight; });
 }
 
-std::vector<Group> GroupFits::refitted(std::vector<Group> groups) const {
+std::vector<Group> GroupFits::refitted(std::vector<Group> groups, double from, double to) const {
   const std::vector<Direction>& directions = analysis_.hypotheses.directions;
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    Group& group = groups[g];
+  const auto done = inquiry_.steps("fitting mechanisms together", from, to, 2 * groups.size());
+  const auto fit = [&](Group& group) {
     group.refit = fit_with(inquiry_, analysis_, group.additions, group.amplitudes, group.begun_from.get());
     if (!group.refit) return;
     group.refit = searched_again(inquiry_, analysis_, std::move(*group.refit));
     group.log_weight = (analysis_.evidence.fit.chi2 - group.refit->fit.chi2) / 2;
     for (const std::size_t k : group.directions) group.log_weight += log_prior(directions[k]);
+  };
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    fit(groups[g]);
+    done();
   });
   std::erase_if(groups, [](const Group& group) { return !group.refit; });
   sort_by_weight(groups);
-  tbb::parallel_for(std::size_t{0}, groups.size(),
-                    [&](std::size_t g) { groups[g].losses = losses_of(groups[g], g < groups_searched_again); });
-  std::erase_if(groups, [](const Group& group) { return group.losses.empty(); });
+  weigh_members(groups, done);
   return groups;
 }
 
-/// |r|² of a refit with the additions, which for a single one may have been made already.
-double GroupFits::squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes,
-                               bool again) const {
+/// Takes out the groups of which a member is not needed. The likeliest first: once some have stood the test, groups so
+/// much less likely than they are that nothing asks for them go too.
+void GroupFits::weigh_members(std::vector<Group>& groups, const std::function<void()>& done) const {
+  std::vector<Group> kept;
+  for (std::size_t first = 0; first < groups.size(); first += groups_searched_again) {
+    const std::size_t last = std::min(first + groups_searched_again, groups.size());
+    tbb::parallel_for(first, last, [&](std::size_t g) {
+      if (kept.size() < enough_groups || groups[g].log_weight > kept.front().log_weight - out_of_the_question)
+        groups[g].losses = losses_of(groups[g], first == 0);
+      done();
+    });
+    for (std::size_t g = first; g < last; ++g)
+      if (!groups[g].losses.empty()) kept.push_back(std::move(groups[g]));
+  }
+  groups = std::move(kept);
+}
+
+/// |r|² of a refit with the additions, which for a single one may have been made already. Below `enough` it is not
+/// looked for again.
+double GroupFits::squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes, bool again,
+                               double enough) const {
   const Fit& base = analysis_.evidence.fit;
   again = again && at_a_bound(base);
   for (const Single& single : singles_)
@@ -59,7 +81,7 @@ double GroupFits::squares_with(const std::vector<Addition>& additions, std::span
         single.best->additions.front().place == additions.front().place)
       return single.best->fit.chi2;
   auto refit = fit_with(inquiry_, analysis_, additions, amplitudes);
-  if (refit && again) refit = searched_again(inquiry_, analysis_, std::move(*refit));
+  if (refit && again) refit = searched_again(inquiry_, analysis_, std::move(*refit), enough);
   return refit ? std::min(refit->fit.chi2, base.chi2) : base.chi2;
 }
 
@@ -69,8 +91,10 @@ std::vector<double> GroupFits::losses_of(const Group& group, bool again) const {
   for (std::size_t out = 0; out < group.additions.size(); ++out) {
     const Group rest = without_member(group, out);
     const std::size_t candidate = analysis_.hypotheses.directions[group.directions[out]].candidate;
-    losses.push_back(squares_with(rest.additions, rest.amplitudes, again) - group.refit->fit.chi2);
-    if (losses.back() < analysis_.alarm.detector->threshold(candidate, second_alpha)) return {};
+    const double squares = group.refit->fit.chi2;
+    const double needed = analysis_.alarm.detector->threshold(candidate, second_alpha);
+    losses.push_back(squares_with(rest.additions, rest.amplitudes, again, squares + needed) - squares);
+    if (losses.back() < needed) return {};
   }
   return losses;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "diagnosis/naming/groups.hpp"
@@ -14,12 +15,14 @@ class GroupFits {
   GroupFits(const Inquiry& inquiry, const Analysis& analysis, std::span<const Single> singles)
       : inquiry_(inquiry), analysis_(analysis), singles_(singles) {}
 
-  /// Fitted side by side; those of which every member is needed, likeliest first.
-  [[nodiscard]] std::vector<Group> refitted(std::vector<Group> groups) const;
+  /// Fitted side by side; those of which every member is needed, likeliest first. The
+  /// progress goes from one share of the whole to the other.
+  [[nodiscard]] std::vector<Group> refitted(std::vector<Group> groups, double from, double to) const;
 
  private:
   [[nodiscard]] double squares_with(const std::vector<Addition>& additions, std::span<const double> amplitudes,
-                                    bool again) const;
+                                    bool again, double enough) const;
+  void weigh_members(std::vector<Group>& groups, const std::function<void()>& done) const;
   [[nodiscard]] std::vector<double> losses_of(const Group& group, bool again) const;
 
   const Inquiry& inquiry_;

@@ -8,6 +8,8 @@
 #include <span>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "diagnosis/naming/group_fits.hpp"
 
 namespace tunica::diagnosis {
@@ -21,6 +23,14 @@ constexpr std::size_t beside = 3;                        ///< of the best, and o
 constexpr std::size_t triples_tried = 6;
 constexpr double short_of = 3;             ///< of ln w: what a score may underrate a refit by
 constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
+
+/// The addition with a name of its own where there is one of the same kind already.
+Addition named_beside(const std::vector<Addition>& others, Addition addition) {
+  std::size_t number = 1;
+  for (const Addition& other : others) number += other.id == addition.id;
+  if (number > 1) addition.as = fmt::format("{}_{}", addition.id, number);
+  return addition;
+}
 
 class GroupSearch {
  public:
@@ -42,21 +52,21 @@ class GroupSearch {
     std::stable_sort(groups.begin(), groups.end(),
                      [](const Group& a, const Group& b) { return a.linear_gain > b.linear_gain; });
     // Of two mechanisms the two best places.
-    std::map<std::set<std::size_t>, int> seen;
+    std::map<std::multiset<std::size_t>, int> seen;
     std::erase_if(groups, [&](const Group& group) { return ++seen[candidates_of(group)] > 2; });
     groups.resize(std::min(groups.size(), inquiry_.request.quick ? quick_pairs : full_pairs));
     add_beside_singles(groups);
     std::erase_if(groups, [&](const Group& group) { return group.linear_gain / 2 < floor - short_of; });
-    return fits_.refitted(std::move(groups));
+    return fits_.refitted(std::move(groups), 0.55, 0.63);
   }
 
   /// Begun from several pairs; then each member of the best triple has to stand against what would take its place.
   std::vector<Group> triples(std::span<const Group> pairs) {
     std::vector<Group> groups;
-    std::set<std::set<std::size_t>> seen;
+    std::set<std::multiset<std::size_t>> seen;
     for (std::size_t g = 0; g < std::min(pairs.size(), beside); ++g)
       extend(pairs[g], *pairs[g].refit, g == 0 ? triples_tried : beside, groups, seen);
-    groups = fits_.refitted(std::move(groups));
+    groups = fits_.refitted(std::move(groups), 0.63, 0.67);
     if (groups.empty()) return groups;
     std::vector<Group> others;
     for (std::size_t out = 0; out < groups.front().additions.size(); ++out) {
@@ -64,7 +74,7 @@ class GroupSearch {
       if (const auto refit = fit_with(inquiry_, analysis_, rest.additions, rest.amplitudes))
         extend(rest, *refit, beside, others, seen);
     }
-    for (Group& group : fits_.refitted(std::move(others))) groups.push_back(std::move(group));
+    for (Group& group : fits_.refitted(std::move(others), 0.67, 0.7)) groups.push_back(std::move(group));
     sort_by_weight(groups);
     return groups;
   }
@@ -107,7 +117,7 @@ class GroupSearch {
   /// Pairs of a good single mechanism, as it is at finite amplitude, with what explains most of what it leaves: the
   /// linearisation at the base fit does not see them where the effects are large.
   void add_beside_singles(std::vector<Group>& groups) const {
-    std::set<std::set<std::size_t>> seen;
+    std::set<std::multiset<std::size_t>> seen;
     for (const Group& group : groups) seen.insert(candidates_of(group));
     std::size_t used = 0;
     for (const Single& single : singles_) {
@@ -122,8 +132,10 @@ class GroupSearch {
 
   /// The group with each of the `count` candidates that explain most of what its refit leaves, unless seen already.
   void extend(const Group& group, const Refit& refit, std::size_t count, std::vector<Group>& onto,
-              std::set<std::set<std::size_t>>& seen) const {
-    std::set<std::size_t> tried = candidates_of(group);
+              std::set<std::multiset<std::size_t>>& seen) const {
+    std::set<std::size_t> tried;
+    for (const std::size_t member : group.directions)
+      if (!stands_beside_itself(group, member)) tried.insert(directions_[member].candidate);
     const std::size_t own = tried.size();
     const auto from = std::make_shared<const Refit>(refit);
     for (const auto& [T, k, amplitude] : what_is_left(refit)) {
@@ -135,14 +147,22 @@ class GroupSearch {
       more.begun_from = from;
       more.linear_gain += T + 2 * log_prior(directions_[k]);
       more.directions.push_back(k);
-      more.additions.push_back(hypotheses_.hypothesis(k).addition);
+      more.additions.push_back(named_beside(group.additions, hypotheses_.hypothesis(k).addition));
       more.amplitudes.push_back(amplitude);
       if (seen.insert(candidates_of(more)).second) onto.push_back(std::move(more));
     }
   }
 
-  [[nodiscard]] std::set<std::size_t> candidates_of(const Group& group) const {
-    std::set<std::size_t> candidates;
+  /// Whether another of the same mechanism may stand beside this member, which is the only one so far.
+  [[nodiscard]] bool stands_beside_itself(const Group& group, std::size_t member) const {
+    const std::size_t candidate = directions_[member].candidate;
+    const auto same = std::count_if(group.directions.begin(), group.directions.end(),
+                                    [&](std::size_t k) { return directions_[k].candidate == candidate; });
+    return same == 1 && hypotheses_.candidates[candidate].mechanism->several;
+  }
+
+  [[nodiscard]] std::multiset<std::size_t> candidates_of(const Group& group) const {
+    std::multiset<std::size_t> candidates;
     for (const std::size_t k : group.directions) candidates.insert(directions_[k].candidate);
     return candidates;
   }

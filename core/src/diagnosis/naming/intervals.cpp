@@ -18,8 +18,8 @@ constexpr std::size_t interval_draws = 199, interval_least = 100;
 /// All parameters of refits to data simulated from a refit; those that could not be made left out.
 std::vector<std::vector<double>> simulated_refits(const Inquiry& inquiry, const Evidence& evidence,
                                                   const Refit& refit) {
-  const Eigen::MatrixXf noise = noise_draws(evidence.curves, evidence.fit.residuals.size(), interval_draws,
-                                            derive_seed(inquiry.request.seed, "refits of the extension"));
+  const Eigen::MatrixXf noise =
+      noise_draws(evidence, interval_draws, derive_seed(inquiry.request.seed, "refits of the extension"));
   const std::vector<Variable> variables = refit.extension->variables();
   std::vector<std::vector<double>> found(interval_draws);
   tbb::parallel_for(std::size_t{0}, interval_draws, [&](std::size_t b) {

@@ -38,23 +38,28 @@ std::pair<std::size_t, std::size_t> region(const std::vector<double>& means) {
 /// The region of a curve where `shape`, in σ, is largest, and what the residuals do there.
 Misfit described(const Evidence& evidence, const Curve& curve, const Eigen::VectorXd& shape, double p) {
   const auto [first, last] = region(window_means(shape));
-  const auto begin = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(first);
-  const auto end = curve.abscissa.begin() + static_cast<std::ptrdiff_t>(last) + 1;
-  const auto [from, to] = std::minmax_element(begin, end);
-  std::string name = "row", unit;
-  for (const auto& view : evidence.base->layout().channels)
-    if (view.test == curve.test && view.observable == curve.channel) {
-      name = view.abscissa_name;
-      unit = view.abscissa_unit;
-    }
+  const auto& channels = evidence.base->layout().channels;
+  const assembly::DrawnOver& over =
+      std::find_if(channels.begin(), channels.end(), [&](const assembly::MeasuredChannel& view) {
+        return view.test == curve.test && view.observable == curve.channel;
+      })->drawn_over;
+  double from = INFINITY, to = -INFINITY;
+  for (std::size_t k = first; k <= last; ++k) {
+    from = std::min(from, over.values[curve.rows[k]]);
+    to = std::max(to, over.values[curve.rows[k]]);
+  }
+  const bool within_one =
+      !over.curves.empty() && over.curves[curve.rows[first]] == over.curves[curve.rows[last]];  // curves are contiguous
   const double mean =
       -evidence.fit.residuals
            .segment(curve.first + static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first + 1))
            .mean();
-  Misfit misfit{curve.test, curve.channel, {}, p, *from, *to};
-  misfit.where = fmt::format(
-      "{} {:.4g} … {:.4g}{}: measured lies {} the prediction by {:.1f} σ on average over {} rows", name, *from, *to,
-      unit == "1" || unit.empty() ? "" : " " + unit, mean > 0 ? "above" : "below", std::abs(mean), last - first + 1);
+  Misfit misfit{curve.test, curve.channel, {}, p, from, to};
+  misfit.where =
+      fmt::format("{} {:.4g} … {:.4g}{}{}: measured lies {} the prediction by {:.1f} σ on average over {} rows",
+                  over.name, from, to, over.unit == "1" || over.unit.empty() ? "" : " " + over.unit,
+                  within_one ? " at " + over.curves[curve.rows[first]] : "", mean > 0 ? "above" : "below",
+                  std::abs(mean), last - first + 1);
   return misfit;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/causes.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
@@ -37,6 +38,7 @@ std::vector<RankedMechanism> ranking_of(const Analysis& analysis, const std::vec
     RankedMechanism ranked{hypotheses.candidates[direction.candidate].id,
                            hypotheses.hypothesis(direction).addition.place, std::exp(single.log_weight - all),
                            score(direction, -fit.residuals).T, std::nullopt};
+    ranked.group = group_of(*hypotheses.candidates[direction.candidate].mechanism);
     if (single.best) ranked.gain = fit.chi2 - single.best->fit.chi2;
     ranking.push_back(std::move(ranked));
   }

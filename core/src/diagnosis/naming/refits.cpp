@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
+#include "numerics/orthogonal.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -70,11 +70,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     scaled.col(k) /= lengths.back();
   }
   Eigen::VectorXd shift;
-  if (scaled.cols() > 0) {  // a model without free parameters leaves nothing to factorise
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-    qr.setThreshold(1e-6);
-    shift = qr.solve(-moved);
-  }
+  if (scaled.cols() > 0)  // a model without free parameters leaves nothing to factorise
+    shift = numerics::least_squares_solution(scaled, -moved, 1e-6);
 
   bool found = false;
   const auto set_amplitude = [&](std::vector<double>& start, std::size_t a, double share) {
@@ -128,7 +125,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
   return refit;
 }
 
-Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit) {
+Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit, double enough) {
   const Evidence& evidence = analysis.evidence;
   if (!at_a_bound(evidence.fit)) return refit;
   const Extension& extended = *refit.extension;
@@ -137,6 +134,7 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
   boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
   for (std::size_t k = 0; k < (inquiry.request.quick ? quick_starts : full_starts); ++k) {
+    if (refit.fit.chi2 < enough) break;
     std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
     for (double& x : unit) x = uniform(generator);
     evidence.base->box().from_unit(unit, base);
@@ -147,7 +145,8 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
         start[member] = std::clamp(part.null + share * (refit.fit.free[member] - part.null), parameters[member].min,
                                    parameters[member].max);
     }
-    Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60);
+    Fit fit =
+        least_squares(extended.assembly(), extended.variables(), start, *workspace, 60, {.wanted = refit.fit.chi2});
     if (fit.status.ok() && fit.chi2 < refit.fit.chi2) refit.fit = std::move(fit);
   }
   return refit;

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
+
+#include "diagnosis/hypotheses/amplitude_range.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -51,12 +52,11 @@ class SingleSearch {
     }
     for (std::size_t place = 0; place < singles.size(); ++place)
       for (const std::size_t k : far_ones(of_[singles[place].candidate])) jobs.push_back({place, k, far_amplitude(k)});
-    std::atomic<std::size_t> finished = 0;
+    const auto done = inquiry_.steps("fitting the mechanisms", 0.4, 0.55, jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
       jobs[j].refit = fit_with(inquiry_, analysis_, {hypotheses_.hypothesis(jobs[j].direction).addition},
                                std::array{jobs[j].amplitude.value_or(start_amplitude(jobs[j].direction))});
-      const double share = static_cast<double>(++finished) / static_cast<double>(jobs.size());
-      inquiry_.report("fitting the mechanisms", 0.4 + 0.3 * share);
+      done();
     });
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
       const auto left = [](const Job& job) { return job.refit ? job.refit->fit.chi2 : INFINITY; };
@@ -139,8 +139,8 @@ class SingleSearch {
   }
   [[nodiscard]] double far_amplitude(std::size_t direction) const {
     const Hypothesis& one = hypotheses_.hypothesis(direction);
-    const MechanismFactory& mechanism = *one.mechanism;
-    return 0.5 * (one.sign > 0 ? mechanism.plausible_max - mechanism.null : mechanism.plausible_min - mechanism.null);
+    const AmplitudeRange range = range_of(*one.mechanism, one.addition);
+    return 0.5 * ((one.sign > 0 ? range.plausible_max : range.plausible_min) - one.mechanism->null);
   }
 
   /// Where the linearisation sees nothing on the admissible side, a tenth of a standard error of it.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/result_json.hpp"
+#include "diagnosis/hypotheses/places.hpp"
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -27,7 +28,7 @@ json place_json(const Place& place) {
   json result = {{"test", place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
                  {"channel", place.channel.empty() ? json(nullptr) : json(place.channel)}};
   if (place.tests.size() > 1) result["tests"] = place.tests;
-  if (place.row) result["row"] = *place.row;
+  if (place.row) result["row"] = place.file_row;
   if (!place.model.empty()) result["model"] = place.model;
   return result;
 }
@@ -41,16 +42,18 @@ json amplitude_json(const Amplitude& amplitude) {
           {"plausible", amplitude.plausible}};
 }
 
-json cause_json(const Cause& cause) {
+json cause_json(const Cause& cause, const Explanation& explanation) {
   json nuisance = json::array(), shifts = json::array();
   for (const Amplitude& one : cause.nuisance) nuisance.push_back(amplitude_json(one));
   for (const Cause::Shift& shift : cause.shifts)
     shifts.push_back(
         {{"parameter", shift.name}, {"unit", shift.unit}, {"without", shift.before}, {"with", shift.after}});
   return {{"id", cause.id},
+          {"group", code_of(cause.group)},
           {"target", place_json(cause.place)},
           {"p_value", cause.p_value},
           {"probability", cause.probability},
+          {"standing", code_of(standing_of(cause, explanation))},
           {"amplitude", amplitude_json(cause.amplitude)},
           {"nuisance", std::move(nuisance)},
           {"retained_fraction", std::min(1.0, cause.retained)},
@@ -81,9 +84,10 @@ json gain_json(const Gain& gain) {
 }
 
 const char* code_of(NoiseSource::Kind kind) {
-  return kind == NoiseSource::Kind::stated       ? "stated"
-         : kind == NoiseSource::Kind::replicates ? "replicates"
-                                                 : "differences";
+  return kind == NoiseSource::Kind::stated         ? "stated"
+         : kind == NoiseSource::Kind::replicates   ? "replicates"
+         : kind == NoiseSource::Kind::encompassing ? "encompassing"
+                                                   : "differences";
 }
 
 /// Those that make up the best explanation, the gross rows beside them, then rivals.
@@ -119,7 +123,8 @@ json detectable_json(const std::vector<Detectable>& detectable) {
                    {"retained_fraction", std::min(1.0, one.retained)},
                    {"closest", one.closest.empty() ? json(nullptr) : json(one.closest)},
                    {"correlation", one.correlation},
-                   {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)}});
+                   {"absent", one.absent.empty() ? json(nullptr) : json(one.absent)},
+                   {"absence", code_of(one.absence)}});
   return all;
 }
 
@@ -127,6 +132,7 @@ json ranking_json(const std::vector<RankedMechanism>& ranking) {
   json all = json::array();
   for (const RankedMechanism& one : ranking)
     all.push_back({{"id", one.id},
+                   {"group", code_of(one.group)},
                    {"target", place_json(one.place)},
                    {"probability", one.probability},
                    {"score", one.score},
@@ -143,6 +149,7 @@ json scores_json(const Analysis& analysis) {
     if (detection.direction[c] >= hypotheses.directions.size()) continue;
     const Direction& direction = hypotheses.directions[detection.direction[c]];
     all.push_back({{"id", hypotheses.candidates[c].id},
+                   {"group", code_of(group_of(*hypotheses.candidates[c].mechanism))},
                    {"p_value", detection.by_candidate[c]},
                    {"target", place_json(hypotheses.hypothesis(direction).addition.place)},
                    {"score", score(direction, -analysis.evidence.fit.residuals).T}});
@@ -170,7 +177,9 @@ json noise_json(const std::vector<NoiseSource>& sources) {
                    {"source", code_of(source.kind)},
                    {"absolute", source.noise.absolute},
                    {"relative", source.noise.relative},
-                   {"correlation", source.noise.correlation}});
+                   {"correlation", source.noise.correlation},
+                   {"freedom", source.freedom > 0 ? json(source.freedom) : json(nullptr)},
+                   {"neighbours", source.neighbours > 0 ? json(source.neighbours) : json(nullptr)}});
   return all;
 }
 
@@ -189,7 +198,7 @@ json base_json(const Evidence& evidence) {
 json extension_json(const Explanation& explanation) {
   json mechanisms = json::array();
   for (const Addition& addition : explanation.claim.best->additions)
-    mechanisms.push_back({{"type", addition.id}, {"target", place_json(addition.place)}});
+    mechanisms.push_back({{"type", addition.id}, {"as", addition.name()}, {"target", place_json(addition.place)}});
   for (const Cause& row : explanation.left_out)
     mechanisms.push_back({{"type", row.id}, {"target", place_json(row.place)}});
   return {{"mechanisms", std::move(mechanisms)}, {"experiment", "extended.json"}};
@@ -204,7 +213,7 @@ json admissibility_json(const Admissibility& admissibility) {
 json gross_json(const std::vector<GrossRow>& gross) {
   json rows = json::array();
   for (const GrossRow& row : gross)
-    rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.row}, {"residual", row.residual}});
+    rows.push_back({{"test", row.test}, {"channel", row.channel}, {"row", row.file_row}, {"residual", row.residual}});
   return rows;
 }
 
@@ -240,7 +249,7 @@ json diagnosis_json(const Diagnosis& d) {
   const Explanation& explanation = d.explanation;
   const Claim& claim = explanation.claim;
   json causes = json::array(), alternatives = json::array();
-  for (const Cause& cause : all_causes(explanation)) causes.push_back(cause_json(cause));
+  for (const Cause& cause : all_causes(explanation)) causes.push_back(cause_json(cause, explanation));
   for (const auto& ids : claim.alternatives)
     if (ids.size() == 2) alternatives.push_back(ids);
   json result = {{"verdict", code_of(explanation.verdict)},

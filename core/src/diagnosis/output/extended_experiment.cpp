@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ experiment::ParameterSetting* setting_of(Experiment& experiment, const std::vect
     const auto dot = rest.find('.');
     if (dot == std::string::npos) return nullptr;
     for (MechanismEntry& entry : mechanisms)
-      if (entry.type == rest.substr(0, dot)) return &entry.parameters[rest.substr(dot + 1)];
+      if (entry.name() == rest.substr(0, dot)) return &entry.parameters[rest.substr(dot + 1)];
     return nullptr;
   };
   for (auto& test : experiment.tests) {
@@ -79,6 +80,16 @@ std::string optimizer_of(Experiment& experiment, const std::string& asked, const
   return "lm";
 }
 
+/// A run takes rows as the file has them, a diagnosis those of unknown order by their values.
+void count_rows_as_the_file(Experiment& experiment, const Addition& addition) {
+  if (!addition.place.row) return;
+  for (auto& test : experiment.tests)
+    if (test.name == addition.place.tests.front())
+      for (MechanismEntry& entry : test.mechanisms)
+        if (entry.name() == addition.name())
+          entry.options.set("rows", fmt::format("{}:{}:1", addition.place.file_row, addition.place.file_row + 1));
+}
+
 /// A gross row that was left out gets a shift of its own, which leaves it out of a run as well.
 void add_gross_rows(Experiment& experiment, const std::vector<Cause>& rows, const plugins::Catalogue& catalogue) {
   for (const Cause& row : rows)
@@ -88,8 +99,13 @@ void add_gross_rows(Experiment& experiment, const std::vector<Cause>& rows, cons
       for (const Option& option : catalogue.mechanisms().at(row.id).factory.options)
         if (option.fallback) entry.options.set(option.name, *option.fallback);
       entry.options.set("channel", row.place.channel);
-      entry.options.set("rows", fmt::format("{}:{}:1", *row.place.row, *row.place.row + 1));
-      entry.parameters[row.amplitude.name].initial = row.amplitude.value;
+      entry.options.set("rows", fmt::format("{}:{}:1", row.place.file_row, row.place.file_row + 1));
+      experiment::ParameterSetting& shift = entry.parameters[row.amplitude.name];
+      shift.initial = row.amplitude.value;
+      if (const double wide = 5 * std::abs(row.amplitude.value); wide > 0) {
+        shift.min = -wide;
+        shift.max = wide;
+      }
       test.mechanisms.push_back(std::move(entry));
     }
 }
@@ -109,9 +125,11 @@ std::string extended_experiment(const Diagnosis& d, const plugins::Catalogue& ca
     if (addition.place.tests.size() < 2) continue;
     for (const Parameter& parameter : catalogue.mechanisms().at(addition.id).factory.parameters)
       for (const std::string& test : addition.place.tests)
-        if (auto* setting = setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.id, parameter.name)))
-          setting->share = addition.id + "_" + parameter.name;
+        if (auto* setting =
+                setting_of(experiment, models, fmt::format("{}.{}.{}", test, addition.name(), parameter.name)))
+          setting->share = addition.name() + "_" + parameter.name;
   }
+  for (const Addition& addition : best.additions) count_rows_as_the_file(experiment, addition);
   add_gross_rows(experiment, d.explanation.left_out, catalogue);
   for (std::size_t j = 0; j < assembly.layout().parameters.size(); ++j) {
     const std::string& name = assembly.layout().parameters[j].name;

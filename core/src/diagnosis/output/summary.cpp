@@ -81,17 +81,64 @@ std::string misfit_line(const std::vector<Misfit>& misfits) {
   return fmt::format("{}", fmt::join(where, "; "));
 }
 
-/// What speaks against an amplitude, to stand behind it.
-std::string doubt(const Amplitude& amplitude) {
-  return !amplitude.plausible ? ", beyond what is plausible" : amplitude.at_bound ? ", at its bound" : "";
+/// "probability 0.93" where it can be read so; else what is the case.
+std::string standing_words(const Cause& cause, const Explanation& explanation) {
+  switch (standing_of(cause, explanation)) {
+    case Standing::probable:
+      return fmt::format("probability {:.2f}", cause.probability);
+    case Standing::at_bound:
+      return "likeliest of the catalogue, but at its bound";
+    case Standing::implausible:
+      return "likeliest of the catalogue, but beyond what is plausible";
+    case Standing::rest_is_left:
+      break;
+  }
+  return "likeliest of the catalogue, but what is left is not noise";
 }
 
-std::string cause_line(const Cause& cause) {
+/// Of a cause that does not act on the model, whose it is.
+const char* owner_words(const Cause& cause) {
+  if (cause.place.tests.empty()) return "";
+  return cause.group == CauseGroup::material ? " (of the specimen)" : " (of the rig)";
+}
+
+std::string cause_line(const Cause& cause, const Explanation& explanation) {
   const Amplitude& amplitude = cause.amplitude;
   const std::string interval =
       std::isfinite(amplitude.low) ? fmt::format(" ({:.3g} … {:.3g})", amplitude.low, amplitude.high) : std::string();
-  return fmt::format("{} {}, {} = {}{}{}; probability {:.2f}", cause.id, cause.place.words(), amplitude.name,
-                     amount(amplitude.value, amplitude.unit), interval, doubt(amplitude), cause.probability);
+  return fmt::format("{} {}{}, {} = {}{}; {}", cause.id, cause.place.words(), owner_words(cause), amplitude.name,
+                     amount(amplitude.value, amplitude.unit), interval, standing_words(cause, explanation));
+}
+
+/// "a (0.12)", "b (at its bound)", "c".
+std::string rival_words(const Cause& cause, const Explanation& explanation) {
+  switch (standing_of(cause, explanation)) {
+    case Standing::probable:
+      return fmt::format("{} ({:.2f})", cause.id, cause.probability);
+    case Standing::at_bound:
+      return cause.id + " (at its bound)";
+    case Standing::implausible:
+      return cause.id + " (beyond what is plausible)";
+    case Standing::rest_is_left:
+      break;
+  }
+  return cause.id;
+}
+
+/// Single mechanisms that rival the one that is named, those in the material before those in the rig.
+std::string single_rivals(const Explanation& explanation) {
+  const Claim& claim = explanation.claim;
+  std::string text;
+  const std::size_t last = std::min(claim.causes.size(), claim.named + most_rivals);
+  for (const CauseGroup group : {CauseGroup::material, CauseGroup::rig}) {
+    std::vector<std::string> rivals;
+    for (std::size_t k = claim.named; k < last; ++k)
+      if (claim.causes[k].group == group) rivals.push_back(rival_words(claim.causes[k], explanation));
+    if (rivals.empty()) continue;
+    text += fmt::format("{}in the {}: {}", text.empty() ? "" : "; ", code_of(group), fmt::join(rivals, ", "));
+  }
+  if (last < claim.causes.size()) text += fmt::format("; and {} more", claim.causes.size() - last);
+  return text;
 }
 
 std::string rivals_line(const Explanation& explanation) {
@@ -100,14 +147,12 @@ std::string rivals_line(const Explanation& explanation) {
   if (claim.named > 1) {
     const std::vector<std::string> all = explanations(claim);
     rivals.assign(all.begin() + 1, all.end());
-  } else {
-    for (std::size_t k = claim.named; k < claim.causes.size(); ++k)
-      rivals.push_back(fmt::format("{} ({:.2f}{})", claim.causes[k].id, claim.causes[k].probability,
-                                   doubt(claim.causes[k].amplitude)));
-  }
-  if (const std::size_t count = rivals.size(); count > most_rivals) {
-    rivals.resize(most_rivals);
-    rivals.push_back(fmt::format("and {} more", count - most_rivals));
+    if (const std::size_t count = rivals.size(); count > most_rivals) {
+      rivals.resize(most_rivals);
+      rivals.push_back(fmt::format("and {} more", count - most_rivals));
+    }
+  } else if (claim.causes.size() > claim.named) {
+    rivals.push_back(single_rivals(explanation));
   }
   if (explanation.unlisted)
     rivals.push_back("an effect that the catalogue does not list: " + explanation.reasons.back().text);
@@ -168,10 +213,12 @@ std::string undetected(const Detectable& one) {
   return fmt::format("{} within {:.3g} ± {}", one.id, one.null, amount(one.detectable, one.unit));
 }
 
-/// The mechanisms that could still hide: least detectable amplitudes that are large, or no trace at all.
+/// The mechanisms that could still hide: least detectable amplitudes that are large, or no trace at all. What cannot
+/// apply to this base and these tests is not among them.
 std::string could_hide(const std::vector<Detectable>& detectable) {
   std::vector<std::string> large, invisible;
   for (const Detectable& one : detectable) {
+    if (!can_hide(one.absence)) continue;
     if (!one.absent.empty())
       invisible.push_back(one.id);
     else if (one.detectable > 0.3 * one.reach)
@@ -216,8 +263,8 @@ text::StyledText summary(const Diagnosis& d) {
   line("Alarm:    ", alarm_line(d.analysis));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
-    line("Cause:    ", cause_line(claim.causes[k]));
-  for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row));
+    line("Cause:    ", cause_line(claim.causes[k], explanation));
+  for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
   if (wrong && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
   if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -45,9 +46,14 @@ std::string residual_table(const Diagnosis& d) {
   std::vector<Eigen::VectorXd> signatures;
   for (std::size_t k = 0; k < claim.causes.size(); ++k) signatures.push_back(signature_of(d, k));
   std::string text =
-      "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,residual_"
+      "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,residual,"
+      "residual_"
       "extended";
-  for (const Cause& cause : claim.causes) text += ",signature_" + cause.id;
+  std::map<std::string, int> of_a_kind;
+  for (const Cause& cause : claim.causes) {
+    const int number = ++of_a_kind[cause.id];
+    text += ",signature_" + cause.id + (number > 1 ? fmt::format("_{}", number) : "");
+  }
   text += '\n';
   std::size_t c = 0;
   for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
@@ -56,6 +62,7 @@ std::string residual_table(const Diagnosis& d) {
       continue;
     const Curve& curve = evidence.curves[c++];
     const std::vector<double> sd = row_deviations(view);
+    const assembly::DrawnOver& over = view.drawn_over;
     for (std::size_t k = 0; k < curve.rows.size(); ++k) {
       const std::size_t row = curve.rows[k];
       const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
@@ -65,11 +72,13 @@ std::string residual_table(const Diagnosis& d) {
       const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
         return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
       };
-      text += fmt::format(
-          "{},{},{},{:.8g},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable, row,
-          view.abscissa[row], view.abscissa_unit, view.abscissa_name, view.unit, view.measured[row],
-          base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
-          residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
+      text += fmt::format("{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
+                          view.file_row(row), over.values[row], over.unit, over.name,
+                          over.curves.empty() ? "" : over.curves[row], view.unit, view.measured[row],
+                          base[view.offset + row],
+                          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+                          residual(base, evidence.fit),
+                          claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
       for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
       text += '\n';
     }
@@ -77,15 +86,20 @@ std::string residual_table(const Diagnosis& d) {
   return text;
 }
 
+/// Of the mechanisms that leave a trace in these data.
 std::string confusability_table(const Diagnosis& d) {
-  const Eigen::MatrixXd alike = likeness(d.analysis.hypotheses, d.explanation.best_direction);
+  const auto& best = d.explanation.best_direction;
+  const Eigen::MatrixXd alike = likeness(d.analysis.hypotheses, best);
   const std::vector<Candidate>& candidates = d.analysis.hypotheses.candidates;
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (best[k]) shown.push_back(k);
   std::string text = "mechanism";
-  for (const Candidate& candidate : candidates) text += "," + candidate.id;
+  for (const std::size_t a : shown) text += "," + candidates[a].id;
   text += '\n';
-  for (std::size_t a = 0; a < candidates.size(); ++a) {
+  for (const std::size_t a : shown) {
     text += candidates[a].id;
-    for (std::size_t b = 0; b < candidates.size(); ++b)
+    for (const std::size_t b : shown)
       text += fmt::format(",{:.4f}", alike(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
     text += '\n';
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/hypotheses/places.hpp"
+#include "diagnosis/hypotheses/amplitude_range.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -15,9 +15,9 @@ constexpr double identified_at = 5.41;  ///< 2 · 1.645²: one of two is preferr
 constexpr double equal_above = 0.999;
 
 /// How far a plausible amplitude may lie from its null, in the unit of what it acts on.
-double reach_of(const assembly::Assembly& base, const MechanismFactory& mechanism, const Place& place) {
-  const auto [low, high] = plausible_range(base, mechanism, place);
-  return std::max(high - mechanism.null, mechanism.null - low);
+double reach_of(const MechanismFactory& mechanism, const Addition& addition) {
+  const AmplitudeRange range = range_of(mechanism, addition);
+  return std::max(range.plausible_max - mechanism.null, mechanism.null - range.plausible_min);
 }
 
 /// Amplitudes of what acts on a channel have the channel's unit.
@@ -30,7 +30,7 @@ std::string amplitude_unit(const assembly::Assembly& base, const MechanismFactor
 
 /// Where the mechanism shows best at the null, by what its largest plausible amplitude would do; of its nuisance
 /// settings, whose scales may differ by orders of magnitude, the one in the middle. Null where it shows nowhere.
-const Direction* typical(const assembly::Assembly& base, const Hypotheses& hypotheses, std::size_t candidate) {
+const Direction* typical(const Hypotheses& hypotheses, std::size_t candidate) {
   struct Best {
     const Direction* direction;
     double effect;
@@ -40,7 +40,7 @@ const Direction* typical(const assembly::Assembly& base, const Hypotheses& hypot
     if (direction.candidate != candidate) continue;
     const Hypothesis& own = hypotheses.hypothesis(direction);
     if (own.addition.place.row || own.at_large) continue;
-    const double reach = reach_of(base, *own.mechanism, own.addition.place);
+    const double reach = reach_of(*own.mechanism, own.addition);
     const double effect = direction.length * (std::isfinite(reach) ? reach : 1);
     const auto same = std::find_if(best.begin(), best.end(), [&](const Best& other) {
       return hypotheses.hypothesis(*other.direction).addition.setting == own.addition.setting;
@@ -68,9 +68,10 @@ std::vector<Detectable> detectable(const Inquiry& inquiry, const Analysis& analy
     entry.unit = candidate.mechanism->parameters.front().unit;
     entry.null = candidate.mechanism->null;
     entry.one_sided = candidate.mechanism->side == MechanismFactory::Side::positive;
-    entry.reach = reach_of(base, *candidate.mechanism, {});
-    const Direction* const best = typical(base, hypotheses, c);
+    entry.reach = reach_of(*candidate.mechanism, {});
+    const Direction* const best = typical(hypotheses, c);
     if (!best) {
+      entry.absence = candidate.absent.empty() ? Absence::absorbed : candidate.absence;
       entry.absent = candidate.absent.empty() ? "a refit of the parameters absorbs it" : candidate.absent;
       entry.detectable = std::numeric_limits<double>::infinity();
       entry.identifiable = std::numeric_limits<double>::infinity();
@@ -80,7 +81,7 @@ std::vector<Detectable> detectable(const Inquiry& inquiry, const Analysis& analy
     entry.place = candidate.hypotheses[best->hypothesis].addition.place;
     entry.retained = best->retained;
     entry.unit = amplitude_unit(base, *candidate.mechanism, entry.place);
-    entry.reach = reach_of(base, *candidate.mechanism, entry.place);
+    entry.reach = reach_of(*candidate.mechanism, candidate.hypotheses[best->hypothesis].addition);
     for (const Direction& other : hypotheses.directions) {
       if (other.candidate == c) continue;
       const double c_abs = std::min(1.0, std::abs(best->unit.dot(other.unit)));

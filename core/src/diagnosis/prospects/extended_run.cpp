@@ -39,7 +39,7 @@ std::optional<Warning> kept_gross_rows(const Evidence& evidence, const Explanati
   for (const GrossRow& row : explanation.gross.empty() ? evidence.gross : explanation.gross) {
     const auto is_it = [&](const auto& one) { return one.place == Place{{row.test}, row.channel, row.row}; };
     if (std::none_of(added.begin(), added.end(), is_it) && std::none_of(left_out.begin(), left_out.end(), is_it))
-      kept.push_back(fmt::format("row {} of {}, {}", row.row, row.test, row.channel));
+      kept.push_back(fmt::format("row {} of {}, {}", row.file_row, row.test, row.channel));
   }
   if (kept.empty()) return std::nullopt;
   return Warning{WarningKind::run_keeps_gross_rows,

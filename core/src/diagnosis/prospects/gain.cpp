@@ -7,9 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -96,8 +97,7 @@ double root_mean_square(const Eigen::VectorXd& r, const std::vector<Eigen::Index
 /// which in a linear model is rᵀ(I + J C Jᵀ)⁻¹ r of the predicted block with C = (JᵀJ)⁻¹ of the others, and stands
 /// where a prediction by exponentials has no linear error.
 double predictive_p(double all, double others, std::size_t n) {
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(static_cast<double>(n)), std::max(all - others, 0.0)));
+  return numerics::chi_squared_above(std::max(all - others, 0.0), static_cast<double>(n));
 }
 
 /// Whether the rows that are fitted show the amplitudes of the extension.
@@ -121,7 +121,7 @@ BlockVerdict verdict_of(double before, double after, double p_value) {
   return off && p_value < contradicts ? BlockVerdict::not_predicted : BlockVerdict::inconclusive;
 }
 
-Gain gain_of(const Analysis& analysis, const Claim& claim) {
+Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& claim) {
   const Evidence& evidence = analysis.evidence;
   const Refit& best = *claim.best;
   Gain gain;
@@ -131,7 +131,8 @@ Gain gain_of(const Analysis& analysis, const Claim& claim) {
   gain.best_rejected = claim.best_rejected;
   const std::vector<Block> blocks = blocks_of(evidence);
   std::vector<std::optional<HeldOut>> found(blocks.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+  const auto done = inquiry.steps("gain on rows that were not fitted", 0.7, 0.85, blocks.size());
+  const auto hold_out = [&](std::size_t b) {
     std::vector<Eigen::Index> in, out;
     for (std::size_t i = 0; i < blocks[b].counted.size(); ++i)
       (blocks[b].counted[i] ? in : out).push_back(static_cast<Eigen::Index>(i));
@@ -144,6 +145,10 @@ Gain gain_of(const Analysis& analysis, const Claim& claim) {
                   predictive_p(best.fit.chi2, after.chi2, out.size()), out.size()};
     block.verdict = verdict_of(block.before, block.after, block.p_value);
     found[b] = std::move(block);
+  };
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    hold_out(b);
+    done();
   });
   for (auto& block : found)
     if (block) gain.held_out.push_back(std::move(*block));

@@ -12,7 +12,7 @@ namespace tunica::diagnosis {
 ///
 /// The p-value of a block is Chow's: |r|² of all rows at the fit of all, less |r|² of the others at theirs, is χ² of as
 /// many degrees of freedom as the block has rows.
-Gain gain_of(const Analysis& analysis, const Claim& claim);
+Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& claim);
 
 /// Predicted: the error is below 2 σ and smaller than without the extension. Not predicted: it is larger than 2 σ, or
 /// clearly larger than without the extension, and the p-value says that this is no chance. Far off is no contradiction

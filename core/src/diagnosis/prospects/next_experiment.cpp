@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/prospects/designs.hpp"
 #include "diagnosis/prospects/undetermined.hpp"
+#include "numerics/orthogonal.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -55,7 +55,7 @@ double distance(const Design& design, const Refit& a, const Refit& b) {
   J << J_new, J_old;
   Eigen::VectorXd target = Eigen::VectorXd::Zero(J.rows());
   target.head(n) = difference;
-  const Eigen::VectorXd x = J.completeOrthogonalDecomposition().solve(target);
+  const Eigen::VectorXd x = numerics::shortest_least_squares_solution(J, target);
   return (target - J * x).squaredNorm();
 }
 
@@ -82,14 +82,17 @@ NextExperiment confirming(const Inquiry& inquiry, const Evidence& evidence, cons
 }
 
 /// The smallest distance between any two of the rivals in each design.
-std::vector<double> smallest_distances(const std::vector<Design>& library, const std::vector<Refit>& rivals) {
+std::vector<double> smallest_distances(const Inquiry& inquiry, const std::vector<Design>& library,
+                                       const std::vector<Refit>& rivals) {
   std::vector<double> smallest(library.size(), 0);
+  const auto done = inquiry.steps("the next experiment", 0.9, 1, library.size() + 1);
   tbb::parallel_for(std::size_t{0}, library.size(), [&](std::size_t k) {
     double least = INFINITY;
     for (std::size_t a = 0; a < rivals.size(); ++a)
       for (std::size_t b = 0; b < rivals.size(); ++b)
         if (a != b) least = std::min(least, distance(library[k], rivals[a], rivals[b]));
     smallest[k] = std::isfinite(least) ? least : 0;
+    done();
   });
   return smallest;
 }
@@ -100,7 +103,7 @@ NextExperiment separating(const Inquiry& inquiry, const Evidence& evidence, cons
   next.separates = claim.ambiguity_set;
   const std::string switches = isolating(inquiry, claim.ambiguity_set);
   const std::vector<Design> library = designs(inquiry, evidence, claim.rivals.front());
-  const std::vector<double> smallest = smallest_distances(library, claim.rivals);
+  const std::vector<double> smallest = smallest_distances(inquiry, library, claim.rivals);
   const auto best = std::max_element(smallest.begin(), smallest.end());
   if (best == smallest.end() || *best * most_repeats < separated) {
     next.description = fmt::format(

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/prospects/prospects.hpp"
 
+#include <set>
+
+#include <fmt/format.h>
+
+#include "assembly/memory.hpp"
 #include "diagnosis/evidence/large_noise.hpp"
 #include "diagnosis/evidence/vanishing_noise.hpp"
 #include "diagnosis/prospects/detectable.hpp"
 #include "diagnosis/prospects/extended_run.hpp"
 #include "diagnosis/prospects/gain.hpp"
 #include "diagnosis/prospects/next_experiment.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -20,17 +26,39 @@ std::vector<Warning> noise_warnings(const Evidence& evidence, const Explanation&
   return warnings;
 }
 
+/// One sentence for whatever has memory and all tests whose past is unknown: what to record.
+std::optional<Warning> memory_warning(const Inquiry& inquiry, const Analysis& analysis) {
+  std::vector<std::string> nowhere, elsewhere;
+  std::set<std::string> tests;
+  for (const Candidate& candidate : analysis.hypotheses.candidates) {
+    if (candidate.without_past.empty()) continue;
+    (candidate.hypotheses.empty() ? nowhere : elsewhere).push_back(candidate.id);
+    tests.insert(candidate.without_past.begin(), candidate.without_past.end());
+  }
+  if (tests.empty()) return std::nullopt;
+  const Evidence& evidence = analysis.evidence;
+  std::vector<assembly::TestPast> pasts = assembly::unknown_pasts(evidence.experiment, evidence.run, inquiry.catalogue);
+  std::erase_if(pasts, [&](const assembly::TestPast& one) { return !tests.contains(one.test); });
+  const auto were = [](const std::vector<std::string>& ids) { return text::agreeing(ids.size(), "was", "were"); };
+  std::string ids = nowhere.empty()
+                        ? fmt::format("{} {} not looked for in these tests", text::joined(elsewhere), were(elsewhere))
+                        : fmt::format("{} {} not looked for", text::joined(nowhere), were(nowhere));
+  if (!nowhere.empty() && !elsewhere.empty()) ids += fmt::format(", nor {} in these tests", text::joined(elsewhere));
+  return Warning{WarningKind::memory_not_looked_for, fmt::format("{}: {}", ids, assembly::words_of(pasts))};
+}
+
 }  // namespace
 
 Prospects prospects_of(const Inquiry& inquiry, const Analysis& analysis, const Explanation& explanation) {
   Prospects prospects;
   if (explanation.claim.best) {
-    inquiry.report("gain on rows that were not fitted", 0.7);
-    prospects.gain = gain_of(analysis, explanation.claim);
+    prospects.gain = gain_of(inquiry, analysis, explanation.claim);
     prospects.warnings = extended_run_warnings(inquiry, analysis.evidence, explanation);
   }
   for (Warning& warning : noise_warnings(analysis.evidence, explanation))
     prospects.warnings.push_back(std::move(warning));
+  if (auto warning = memory_warning(inquiry, analysis)) prospects.warnings.push_back(std::move(*warning));
+  inquiry.report("what could still hide", 0.85);
   prospects.detectable = detectable(inquiry, analysis);
   inquiry.report("the next experiment", 0.9);
   prospects.next = next_experiment(inquiry, analysis.evidence, explanation);

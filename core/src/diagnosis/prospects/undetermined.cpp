@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/prospects/designs.hpp"
+#include "numerics/cholesky.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -60,7 +60,7 @@ std::optional<Eigen::MatrixXd> information(const Design& design, const Refit& mo
 
 double deviation(const Eigen::MatrixXd& precision, Eigen::Index which) {
   const Eigen::VectorXd unit = Eigen::VectorXd::Unit(precision.rows(), which);
-  return std::sqrt(std::max(precision.ldlt().solve(unit)[which], 0.0));
+  return std::sqrt(std::max(numerics::solve_symmetric(precision, unit)[which], 0.0));
 }
 
 /// "a factor of 2.31", "2 %", "± 12 deg": the 95 % interval.

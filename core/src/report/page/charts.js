@@ -66,10 +66,12 @@ tunicaReport.Figure = class {
 
   size(width) {
     const most = Math.max(240, width), {chart} = this;
-    if (chart.kind === "rows") return {width: most, height: 64 + 26 * chart.labels.length};
+    if (chart.kind === "rows") return {width: most, height: 64 + tunicaReport.specs.rowHeight(chart.labels, most, 26) * chart.labels.length};
     if (chart.kind === "heat") {
       const wide = chart.numeric ? Math.min(most, 620) : Math.max(most, 190 + 20 * chart.columns.length);
-      return {width: Math.min(wide, 980), height: chart.numeric ? 420 : Math.min(760, 190 + 20 * chart.labels.length)};
+      if (chart.numeric) return {width: Math.min(wide, 980), height: 420};
+      const {columns, labels} = tunicaReport.specs.headings(chart), under = Math.min(tunicaReport.specs.longest(columns), 34) * 6;
+      return {width: Math.min(wide, 980), height: 60 + under + tunicaReport.specs.rowHeight(labels, Math.min(wide, 980), 20) * labels.length};
     }
     if (chart.kind === "mesh") return tunicaReport.mesh.size(chart, most);
     if (chart.field) { const side = Math.min(most < 520 ? most - 80 : most - 190, 420); return {width: Math.max(side, 180), height: Math.max(side, 180), fixed: true}; }

@@ -25,6 +25,33 @@ tunicaReport.specs = (() => {
     return [low - margin, high + margin];
   };
 
+  /// Text in lines of at most `most` characters, broken after spaces, underscores and commas; nothing is cut off.
+  const wrapped = (label, most) => {
+    const lines = [""];
+    for (let piece of String(label).split(/(?<=[ _,./-])/)) {
+      if (lines[lines.length - 1] && (lines[lines.length - 1] + piece).trimEnd().length > most) lines.push("");
+      for (; piece.length > most; piece = piece.slice(most)) lines.splice(-1, 1, lines[lines.length - 1] + piece.slice(0, most), "");
+      lines[lines.length - 1] += piece;
+    }
+    return lines.map((line) => line.trimEnd()).filter((line) => line);
+  };
+  const letter = 6.6;  // pixels of a character of a label at most, on average
+  const title = (label, room) => { const lines = wrapped(label || "", Math.max(16, Math.floor(room / 7.4))); return lines.length > 1 ? lines : lines[0] || ""; };
+  /// Labels of rows take at most 38 % of the width, in as many lines as they need.
+  const labelLines = (labels, width) => labels.map((label) => wrapped(label, Math.floor(Math.min(300, Math.max(110, width * 0.38)) / letter)));
+  const longest = (labels) => labels.reduce((most, label) => Math.max(most, label.length), 0);
+  const most = (counts) => counts.reduce((a, b) => Math.max(a, b), 1);
+  /// The axis takes its labels from the signal "lines", by the full label.
+  const inLines = {labelLimit: 0, labelOverlap: false, encode: {labels: {update: {lineHeight: {value: 13},
+    text: {signal: "lines[datum.value] || datum.value"}, dy: {signal: "lines[datum.value] ? -6.5 * (length(lines[datum.value]) - 1) : 0"}}}}};
+  const linesSignal = (labels, lines) => ({name: "lines", value: Object.fromEntries(labels.map((label, i) => [label, lines[i]]))});
+  /// Height of a row of labels, and of a chart that has one row for each.
+  const rowHeight = (labels, width, least) => Math.max(least, 13 * most(labelLines(labels, width).map((lines) => lines.length)) + 7);
+  /// Slanted labels under a chart stand in full up to this length; longer ones are replaced by numbers, which stand before the rows too.
+  const slanted = 34;
+  const headings = (chart) => longest(chart.columns) <= slanted ? {columns: chart.columns, labels: chart.labels}
+      : {columns: chart.columns.map((name, i) => String(i + 1)), labels: chart.labels.map((name) => (chart.columns.includes(name) ? chart.columns.indexOf(name) + 1 + "  " : "") + name)};
+
   const config = (look) => ({
     background: look.background,
     axis: {domainColor: look.muted, tickColor: look.muted, gridColor: look.grid, labelColor: look.text,
@@ -42,9 +69,9 @@ tunicaReport.specs = (() => {
   });
 
   const axes = (chart, size, more = {}) => [
-    {orient: "bottom", scale: "x", title: chart.x.title, titleLimit: Math.max(120, size.width - 60), grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
+    {orient: "bottom", scale: "x", title: title(chart.x.title, size.width - 60), grid: true, tickCount: Math.max(3, Math.round(size.width / 110)),
      ...(chart.x.log ? {format: "~g"} : {}), ...more.x},
-    {orient: "left", scale: "y", title: chart.y.title, titleLimit: Math.max(120, size.height - 20), grid: true, tickCount: 6,
+    {orient: "left", scale: "y", title: title(chart.y.title, size.height - 60), grid: true, tickCount: 6,
      ...(chart.y.log ? {format: "~g"} : {}), ...more.y},
   ];
 
@@ -71,6 +98,14 @@ tunicaReport.specs = (() => {
         x: scaled.x, y: scaled.y, size: {value: series.x.length > 150 ? 18 : 34}, shape: {value: shape(series.style)},
         stroke: ink, strokeWidth: {value: 1.2}, fill: {value: series.style < 0 ? "transparent" : colour(look, series.style)},
         fillOpacity: {value: series.style < 0 ? 0 : 0.75}}}});
+    if (series.tag) {
+      const last = series.x.reduce((best, x, i) => (usable(series.y[i]) && x >= series.x[best] ? i : best), 0);
+      const at = {x: series.x[last], y: series.y[last]};
+      made.push({type: "text", interactive: false, encode: {update: {
+        x: {scale: "x", value: at.x, offset: 6}, y: {scale: "y", value: at.y}, baseline: {value: "middle"}, text: {value: series.tag},
+        fill: {value: look.muted}, fontSize: {value: 11},
+        opacity: {signal: `inrange(${at.x}, xdom) && inrange(${at.y}, ydom) ? 1 : 0`}}}});
+    }
     return made;
   };
 
@@ -158,11 +193,11 @@ tunicaReport.specs = (() => {
         ({test}, k) => ({test, value: channel === "shape" ? shape(shown[k].style) : colour(look, shown[k].style)}));
     const middle = {scale: "y", field: "label", band: 0.5};
     return {
-      ...frame(chart, size), config: config(look), signals: [{name: "xdom", value: reach}],
+      ...frame(chart, size), config: config(look), signals: [{name: "xdom", value: reach}, linesSignal(chart.labels, labelLines(chart.labels, size.width))],
       data: [{name: "points", values: points}, {name: "bars", values: bars}],
       scales: [{name: "x", type: chart.x.log ? "log" : "linear", domain: {signal: "xdom"}, range: "width", zero: false},
                {name: "y", type: "band", domain: chart.labels, range: "height", padding: 0.2}],
-      axes: axes(chart, size, {y: {labelLimit: Math.min(240, size.width * 0.38), grid: false}}),
+      axes: axes(chart, size, {y: {...inLines, grid: false}}),
       marks: [
         ...reference(chart, look),
         {type: "rule", clip: true, from: {data: "bars"}, encode: {update: {
@@ -175,27 +210,29 @@ tunicaReport.specs = (() => {
   };
 
   const heat = (chart, look, size) => {
-    const cells = [];
+    const cells = [], {columns, labels} = chart.numeric ? chart : headings(chart), lines = labelLines(labels, size.width);
     chart.values.forEach((row, i) => row.forEach((value, j) => {
-      if (finite(value)) cells.push({x: chart.columns[j], y: chart.labels[i], value});
+      if (finite(value)) cells.push({x: columns[j], y: labels[i], value});
     }));
-    const room = size.width / chart.columns.length > 58 && chart.labels.length <= 12;
+    const room = size.width / columns.length > 58 && labels.length <= 12;
+    const upright = columns !== chart.columns;
     return {
       ...frame(chart, size), config: config(look), data: [{name: "cells", values: cells}],
-      scales: [{name: "x", type: "band", domain: chart.columns, range: "width"},
-               {name: "y", type: "band", domain: chart.labels, range: "height"},
+      ...(chart.numeric ? {} : {signals: [linesSignal(labels, lines)]}),
+      scales: [{name: "x", type: "band", domain: columns, range: "width"},
+               {name: "y", type: "band", domain: labels, range: "height"},
                {name: "heat", type: "linear", domain: chart.domain, range: {scheme: "cividis"}, clamp: true}],
-      axes: [{orient: "bottom", scale: "x", title: chart.x.title, labelAngle: -60, labelAlign: "right", labelLimit: 150,
-              labelBaseline: "middle", labelOverlap: chart.numeric ? "greedy" : false},
-             {orient: "left", scale: "y", title: chart.y.title, labelLimit: Math.min(200, size.width * 0.36),
-              labelOverlap: chart.numeric ? "greedy" : false}],
+      axes: [{orient: "bottom", scale: "x", title: chart.x.title, labelLimit: 300, labelOverlap: chart.numeric ? "greedy" : false,
+              ...(upright ? {} : {labelAngle: -60, labelAlign: "right", labelBaseline: "middle"})},
+             {orient: "left", scale: "y", title: chart.y.title, ...(chart.numeric ? {labelOverlap: "greedy"} : inLines)}],
       marks: [{type: "rect", from: {data: "cells"}, encode: {update: {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"},
                 width: {scale: "x", band: 1}, height: {scale: "y", band: 1}, fill: {scale: "heat", field: "value"}}}},
               ...(room ? [{type: "text", from: {data: "cells"}, encode: {update: {
                 x: {scale: "x", field: "x", band: 0.5}, y: {scale: "y", field: "y", band: 0.5}, align: {value: "center"},
                 baseline: {value: "middle"}, text: {signal: "format(datum.value, '.2f')"}, fontSize: {value: 11},
                 fill: {signal: "datum.value > " + (chart.domain[0] + 0.55 * (chart.domain[1] - chart.domain[0])) + " ? '#000' : '#fff'"}}}}] : [])],
-      legends: [{fill: "heat", title: chart.legend, gradientLength: Math.min(200, size.height * 0.7)}],
+      legends: [{fill: "heat", title: chart.legend, gradientLength: Math.min(200, size.height * 0.7),
+                 ...(size.width < 520 ? {orient: "top", direction: "horizontal"} : {})}],
     };
   };
 
@@ -204,5 +241,5 @@ tunicaReport.specs = (() => {
     if (chart.kind === "mesh") return tunicaReport.mesh.spec(chart, look, size, hidden);
     return (chart.kind === "rows" ? rowsSpec : xy)(chart, look, size, hidden);
   };
-  return {make, usable, text, finite, frame, config, axes, lines, rows};
+  return {make, usable, text, finite, frame, config, axes, lines, rows, rowHeight, headings, longest};
 })();

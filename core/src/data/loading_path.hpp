@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/dataset.hpp"
+
+/// What the rows of a test say about what the specimen bore before each of them.
+namespace tunica::data {
+
+/// Whether the past of every row is known, which whatever has memory needs.
+enum class Past {
+  known,            ///< rows stand as they were measured, and begin near rest or go on loading
+  order_unknown,    ///< nobody says in which order they were measured
+  starts_unloading  ///< the first row lies far from rest, and the load falls from there: what came before is unknown
+};
+
+/// Far from rest is more than half of the largest distance; the rest of a stretch is 1, of a pressure 0. Unloading is
+/// a return by more than a tenth of that distance before any rise by as much.
+Past past_of(const Dataset& dataset, const std::vector<Observable>& observables);
+
+/// Rows in an order that is theirs whatever the order in the file: by their abscissae, those with few different values
+/// first, then by what was measured. `file_rows` says which row of the file each is. Not without an abscissa.
+void sort_rows(Dataset& dataset);
+
+/// First, turning and last values of a path; a turn is one by more than a twentieth of the range.
+std::vector<double> turning_points(std::span<const double> path);
+
+/// "stretch 1 → 1.5 → 1.02, 1 cycle, 204 rows; starts at rest"; of the first abscissa. Empty without an abscissa.
+std::string path_words(const Dataset& dataset, const std::vector<Observable>& observables);
+
+/// The path as one line of block characters, the lowest value as the lowest block.
+std::string path_drawing(std::span<const double> path, std::size_t columns);
+
+}  // namespace tunica::data

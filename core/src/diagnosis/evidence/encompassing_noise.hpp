@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/evidence/evidence.hpp"
+
+namespace tunica::diagnosis {
+
+/// Whether some channel's noise is for the residuals to say.
+bool has_open_noise(const Evidence& evidence);
+
+/// Noise of the open channels (`NoiseSource::open`) by restricted likelihood (assembly/restricted_variance.hpp): from
+/// the residuals of a fit outside the span of
+///
+///   the fit's Jacobian, smooth shapes of every curve (smooth_columns.hpp), and `signatures`, in whitened rows of the
+///   evidence: those of which the span so far leaves most come first, until it leaves less than a quarter of each,
+///   sixty of them are in it, or it has half of the rows.
+///
+/// Each channel has a variance of its own; the channels of an observable share one where one of them is left with
+/// fewer than four degrees of freedom, and channels of few degrees of freedom are moderated by the others, by what
+/// share of its range the noise of a channel is (moderation.hpp). A part that grows with the value is seen by
+/// observable. Single rows that stand apart from all that take no part. σ is never below the resolution of the values.
+///
+/// What is as rough as noise from row to row is in it.
+struct NoiseEstimate {
+  std::vector<NoiseSource> sources;  ///< of all channels of the tests, in the order of the evidence
+  EstimatedNoise from;               ///< in whitened rows of the evidence it came from; the span not orthonormal
+};
+NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
+                                 const std::vector<const Eigen::VectorXd*>& signatures);
+
+/// The evidence under these sources of noise: the base fitted again from where it was, and what its noise was taken
+/// from.
+Evidence restated(const Inquiry& inquiry, const Evidence& evidence, const NoiseEstimate& estimate);
+
+/// σ of every whitened row, 1 of rows that are no channel's; gross rows as their neighbours.
+Eigen::VectorXd whitened_deviations(const Evidence& evidence);
+
+}  // namespace tunica::diagnosis

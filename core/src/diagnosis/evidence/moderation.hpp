@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+namespace tunica::diagnosis {
+
+/// What the variances of some channels, each from few degrees of freedom, say of one another.
+struct Moderation {
+  double freedom = 0;  ///< degrees of freedom that the others are worth; 0: nothing
+  double ratio = 1;    ///< variance over the square of the reference that they speak for
+};
+
+/// Empirical Bayes (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3:3, 2004): with ratios s²/reference² of ν degrees of
+/// freedom each, and their true values scattered as d/χ²_d about one ratio,
+///
+///   x = ln(s²/reference²) − ψ(ν/2) + ln(ν/2),   Var x = ψ′(ν/2) + ψ′(d/2);
+///
+/// each variance is then (ν s² + d s₀²)/(ν + d), of ν + d degrees of freedom. The scatter between channels is taken one
+/// standard error above its estimate, so that d is rather too small. Fewer than four channels say nothing.
+Moderation moderation_of(const std::vector<double>& ratios, const std::vector<double>& freedom);
+
+}  // namespace tunica::diagnosis

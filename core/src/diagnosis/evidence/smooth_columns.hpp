@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "diagnosis/evidence/curves.hpp"
+
+namespace tunica::diagnosis {
+
+/// Smooth shapes that whatever is no noise may have, curve by curve: Legendre polynomials along the abscissa; where the
+/// curve runs to and fro, the same again times the direction of loading, so that each branch has its own; where the
+/// abscissa is held for long, polynomials in the row. As many as a third of the curve's rows, at most: degree 5, of the
+/// direction 3, of a hold 2.
+///
+/// A turning point is one that goes back by more than a twentieth of the range: an abscissa that was measured trembles.
+Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows);
+
+/// Direction of loading at each row of an abscissa: 1 up, −1 down, 0 held over four rows or more.
+std::vector<int> loading_directions(const std::vector<double>& abscissa);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "numerics/distributions.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+namespace tunica::numerics {
+
+namespace math = boost::math;
+
+double normal_quantile(double probability) { return math::quantile(math::normal(), probability); }
+
+double student_quantile(double probability, double freedom) {
+  return math::quantile(math::students_t(freedom), probability);
+}
+
+double student_above(double x, double freedom) { return math::cdf(math::complement(math::students_t(freedom), x)); }
+
+double chi_squared_quantile(double probability, double freedom) {
+  return math::quantile(math::chi_squared(freedom), probability);
+}
+
+double chi_squared_below(double x, double freedom) { return math::cdf(math::chi_squared(freedom), x); }
+
+double chi_squared_above(double x, double freedom) {
+  return math::cdf(math::complement(math::chi_squared(freedom), x));
+}
+
+double f_below(double x, double freedom, double freedom_below) {
+  return math::cdf(math::fisher_f(freedom, freedom_below), x);
+}
+
+double f_above(double x, double freedom, double freedom_below) {
+  return math::cdf(math::complement(math::fisher_f(freedom, freedom_below), x));
+}
+
+}  // namespace tunica::numerics

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Quantiles and tails. `freedom`: degrees of freedom, not necessarily whole, above 0.
+namespace tunica::numerics {
+
+double normal_quantile(double probability);
+double student_quantile(double probability, double freedom);
+double student_above(double x, double freedom);  ///< P(t > x)
+
+double chi_squared_quantile(double probability, double freedom);
+double chi_squared_below(double x, double freedom);  ///< P(χ² ≤ x)
+double chi_squared_above(double x, double freedom);  ///< P(χ² > x)
+
+/// P(F ≤ x) and P(F > x) of a ratio of two mean squares.
+double f_below(double x, double freedom, double freedom_below);
+double f_above(double x, double freedom, double freedom_below);
+
+}  // namespace tunica::numerics
