@@ -219,7 +219,7 @@ TEST(Generator, HidesOnlyWhatMakesSense) {
   };
   EXPECT_EQ(offered(blind::Base::yeoh, "rubber"),
             (std::set<std::string>{"second_invariant", "stress_softening", "viscoelasticity", "reference_length_error",
-                                   "force_scale_error", "force_offset", "signal_drift", "outliers"}));
+                                   "force_scale_error", "force_offset", "permanent_set", "signal_drift", "outliers"}));
   EXPECT_EQ(offered(blind::Base::gho, "sheets"),
             (std::set<std::string>{"axial_fibres", "circumferential_fibres", "matrix_stiffening", "chain_extensibility",
                                    "second_invariant", "fibre_recruitment", "active_tone", "stress_softening",

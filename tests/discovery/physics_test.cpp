@@ -50,6 +50,7 @@ const std::map<std::string, MechanismNames>& words() {
       {"force_scale_error", {"gain"}},
       {"force_offset", {"value"}},
       {"specimen_misalignment", {"angle"}},
+      {"permanent_set", {"s"}},
       {"signal_drift", {"value"}},
       {"outliers", {"value"}}};
   return all;
