@@ -80,7 +80,10 @@ tunicaReport.specs = (() => {
     const ink = {value: colour(look, series.style)}, faint = series.faint ? 0.35 : 1;
     const made = [];
     // A band, alone or about a line; of a range only the edges, so that both can be seen at once.
-    if (series.low && series.mark !== "range")
+    if (series.mark === "bars")
+      made.push({type: "rule", clip: true, from: {data: "s" + k}, encode: {update: {
+        x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, stroke: ink, strokeWidth: {value: 3}, strokeOpacity: {value: 0.4}}}});
+    else if (series.low && series.mark !== "range")
       made.push({type: "area", clip: true, from: {data: "s" + k}, encode: {update: {
         x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, fill: ink,
         defined: {signal: "isValid(datum.low)"}, fillOpacity: {value: 0.2}}}});
@@ -107,11 +110,11 @@ tunicaReport.specs = (() => {
     if (series.low && usable(series.low[i], chart.y) && usable(series.high[i], chart.y))
       Object.assign(row, {low: series.low[i], high: series.high[i]});
     return row;
-  }).filter((row) => usable(row.x, chart.x) && (series.mark !== "band" || finite(row.low)));
+  }).filter((row) => usable(row.x, chart.x) && (!["band", "bars"].includes(series.mark) || finite(row.low)));
 
   /// Of bands about curves no more than half as much again as the curves take: a wide one is cut, not the curves squeezed.
   const seenAlong = (shown, axis) => {
-    const points = shown.filter(({series}) => !["band", "range"].includes(series.mark)).flatMap(({series}) => series.y)
+    const points = shown.filter(({series}) => !["band", "bars", "range"].includes(series.mark)).flatMap(({series}) => series.y)
         .filter((value) => usable(value, axis));
     const edges = shown.flatMap(({series}) => [...(series.low || []), ...(series.high || [])]).filter((value) => usable(value, axis));
     if (!points.length || axis.log) return [...points, ...edges];
