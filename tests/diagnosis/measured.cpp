@@ -33,10 +33,13 @@ Measured::Measured(std::vector<Strip> wanted) : strips(std::move(wanted)) {
   for (const Strip& strip : strips) {
     json columns = {{"stretch", "stretch"}, {"stress", "stress"}};
     if (!strip.time.empty()) columns["time"] = "time";
-    experiment["tests"][strip.name] = {
-        {"type", "uniaxial"},
-        {"direction", strip.name.substr(0, strip.name.find('_'))},
-        {"data", {{"file", strip.name + ".csv"}, {"columns", columns}, {"noise", {{"absolute", strip.sd}}}}}};
+    experiment["tests"][strip.name] = {{"type", "uniaxial"},
+                                       {"direction", strip.name.substr(0, strip.name.find('_'))},
+                                       {"data",
+                                        {{"file", strip.name + ".csv"},
+                                         {"columns", columns},
+                                         {"order", "loading"},
+                                         {"noise", {{"absolute", strip.sd}}}}}};
     write(strip, std::vector<double>(strip.stretch.size(), 0.0));
   }
 }

@@ -247,13 +247,15 @@ void add_reach(Page& page, const Folder& folder) {
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> unseen;
   for (const Json& one : list(diagnosis, "detectable")) {
-    const std::string absent = word(one, "absent");
+    if (const std::string absent = word(one, "absent"); !absent.empty()) {
+      unseen.push_back(word(one, "id") + ": " + absent);
+      continue;
+    }
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
                     {least_amplitude(one, "detectable"), true},
                     {least_amplitude(one, "identifiable"), true},
                     {word(one, "closest")},
                     {figure(number(one, "correlation")), true}});
-    if (!absent.empty()) unseen.push_back(word(one, "id") + ": " + absent);
   }
   if (!rows.empty()) {
     page.heading("What these data would show");

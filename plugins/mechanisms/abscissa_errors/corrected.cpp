@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "corrected.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,7 +23,7 @@ class CorrectedTest final : public DecoratedTest {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const double amplitude = DecoratedTest::amplitude(input);
-    if (!output.jacobian.empty() && input.model.describe().history_size > 0) return predict_along_path(input, output);
+    if (!output.jacobian.empty() && remembers(input)) return predict_along_path(input, output);
     Corrected memory;
     const TestInput truth = corrected_input(input, memory);
     const std::size_t size = prediction_count();
@@ -80,28 +78,15 @@ class CorrectedTest final : public DecoratedTest {
   }
 
   /// A row of a model with memory depends on the abscissae of all rows before it, not on its own alone: the column of
-  /// the amplitude is the central difference of whole predictions, all others are those of the base.
+  /// the amplitude is a difference of whole predictions, all others are those of the base.
   Status predict_along_path(const TestInput& input, const TestOutput& output) const {
     const double amplitude = DecoratedTest::amplitude(input);
-    const std::size_t size = prediction_count();
     Corrected memory;
     TestOutput inner = output;
     inner.jacobian = base_jacobian(output);
     if (Status status = base().predict(corrected_input(input, memory), inner); !status.ok()) return status;
     if (amplitude != 0) recompute(amplitude, output);
-    const Parameter& parameter = describe().parameters.back();
-    const double scale = std::max(std::abs(amplitude), 0.01 * (parameter.max - parameter.min));
-    const double h = std::cbrt(std::numeric_limits<double>::epsilon()) * scale;
-    std::vector<double> own(input.test_parameters.begin(), input.test_parameters.end()), ahead(size), behind(size);
-    TestInput shifted = input;
-    shifted.test_parameters = own;
-    own.back() = amplitude + h;
-    if (Status status = predict(shifted, {ahead, {}, {}, {}}); !status.ok()) return status;
-    own.back() = amplitude - h;
-    if (Status status = predict(shifted, {behind, {}, {}, {}}); !status.ok()) return status;
-    const std::span<double> column = own_jacobian(output);
-    for (std::size_t i = 0; i < size; ++i) column[i] = (ahead[i] - behind[i]) / (2 * h);
-    return {};
+    return difference_by_amplitude(input, own_jacobian(output));
   }
 
   /// d(s^q v)/da = s^q ∂v/∂true ∂true/∂a + q s^{q−1} s' v, with the derivative of the base still by the true abscissa.

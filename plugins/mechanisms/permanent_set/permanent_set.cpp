@@ -68,12 +68,14 @@ class PermanentSetTest final : public DecoratedTest {
     std::vector<std::span<const double>> columns = abscissae(input, rows());
     const std::vector<Row> states = rows_of(columns[abscissa_], s);
     std::vector<double> values, slopes;
-    if (!output.jacobian.empty()) {
+    const bool followed = !output.jacobian.empty() && remembers(input);
+    if (!output.jacobian.empty() && !followed) {
       values.resize(size);
       slopes.resize(columns.size() * size);
     }
     if (s == 0) {
       if (Status status = base().predict(bare, of_base); !status.ok() || output.jacobian.empty()) return status;
+      if (followed) return difference_by_amplitude(input, own_jacobian(output));
       if (Status status = base().predict(bare, {values, {}, slopes, {}}); !status.ok()) return status;
       set_by_amplitude(states, columns[abscissa_], values, slopes, own_jacobian(output));
       return {};
@@ -88,13 +90,15 @@ class PermanentSetTest final : public DecoratedTest {
       values.resize(size);
       wanted.values = values;
     }
-    if (output.abscissa_derivative.empty() && !output.jacobian.empty()) wanted.abscissa_derivative = slopes;
+    if (output.abscissa_derivative.empty() && !output.jacobian.empty() && !followed)
+      wanted.abscissa_derivative = slopes;
     if (Status status = base().predict(bare, wanted); !status.ok()) return status;
-    if (!output.jacobian.empty())
+    if (!output.jacobian.empty() && !followed)
       set_by_amplitude(states, measured, wanted.values, wanted.abscissa_derivative, own_jacobian(output));
     if (!output.abscissa_derivative.empty()) set_by_stretch(states, measured, s, wanted);
     scale(states, base_jacobian(output));
     scale(states, output.values);
+    if (followed) return difference_by_amplitude(input, own_jacobian(output));
     return {};
   }
 

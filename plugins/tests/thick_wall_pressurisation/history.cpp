@@ -11,7 +11,7 @@
 namespace tunica::thick_wall {
 namespace {
 
-constexpr int newton_iterations = 8;
+constexpr int row_iterations = 8;
 constexpr double settled = 1e-9;  ///< of y = ln ri; such a step is applied to first order
 constexpr double largest_guess = 0.1;
 
@@ -36,7 +36,7 @@ bool solve(Row& row, const Memory& memory, Sections& sections, const Wall& wall)
   };
   const double begun = row.y;
   double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < newton_iterations; ++iteration) {
+  for (int iteration = 0; iteration < row_iterations; ++iteration) {
     if (!evaluate(row.y, memory)) break;
     double p = row.forces.p, p_y = row.forces.p_y;
     if (row.support_free > 0) {

@@ -9,16 +9,17 @@
 namespace tunica::uniaxial {
 namespace {
 
-constexpr int iterations = 20;
+constexpr int iterations = 40;
 constexpr double settled = 1e-9;  ///< of y = ln u, before derivatives by parameters are taken
 
 /// Scratch of one thread.
 struct Memory {
   free_strip::Scratch elastic;
   detail::AxisPath path;
-  std::vector<double> u,         ///< λ2², one a row
-      step, stress, by_unknown,  ///< of Newton in y; σ11 with the step in it; what directions do to y
-      stress_dp, y_dp;           ///< derivatives by model parameters, row-major
+  std::vector<double> u,   ///< λ2², one a row
+      step, before,        ///< of Newton in y, and the one before
+      stress, by_unknown,  ///< σ11 with the step in it; what directions do to y
+      stress_dp, y_dp;     ///< derivatives by model parameters, row-major
 };
 Memory& thread_memory() {
   thread_local Memory instance;
@@ -80,7 +81,9 @@ class Pass {
     sound_ = slope > 0 && std::abs(step) < 1e10;
     largest_ = std::max(largest_, std::abs(step));
     step = std::clamp(step, -0.6, 1.5);
-    m_.step[i] = step;
+    // Where fibres switch, steps may go to and fro across the kink.
+    if (step * m_.before[i] < 0 && std::abs(step) > 0.5 * std::abs(m_.before[i])) step *= 0.5;
+    m_.step[i] = m_.before[i] = step;
     m_.stress[i] = stress + 2 * (c1 * g1[2] - c3 * g3[2]) + stress_by_y * step;
     double* const by = m_.by_unknown.data();
     by[2] = step;
@@ -113,6 +116,7 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   Memory& m = thread_memory();
   m.u.resize(n);
   m.step.resize(n);
+  m.before.assign(n, 0);
   m.stress.resize(n);
   if (parameters) {
     m.y_dp.resize(n * count);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,7 +43,8 @@ inline std::vector<std::span<const double>> abscissae(const TestInput& input, co
 /// bare(input), and adds what the mechanism changes. At the null it returns the numbers of the base, bit for bit; do
 /// not even add 0, because −0 would change its sign.
 ///
-/// Jacobian: base_jacobian() goes to the base, own_jacobian() is the column of the amplitude.
+/// Jacobian: base_jacobian() goes to the base, own_jacobian() is the column of the amplitude. A mechanism that changes
+/// abscissae, of which a model with memory sees more than the row's own, asks remembers() and differences that column.
 class DecoratedTest : public Test {
  public:
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
@@ -72,6 +75,36 @@ class DecoratedTest : public Test {
   [[nodiscard]] static TestInput bare(TestInput input) {
     input.test_parameters = input.test_parameters.first(input.test_parameters.size() - 1);
     return input;
+  }
+  /// Whether the model carries something from row to row. Then a row depends on the abscissae of all rows before it,
+  /// and abscissa_derivative of a base, which is by the abscissa of the same row, says too little.
+  [[nodiscard]] static bool remembers(const TestInput& input) {
+    if (input.layers.empty()) return input.model.describe().history_size > 0;
+    return std::ranges::any_of(input.layers, [](const Model* layer) { return layer->describe().history_size > 0; });
+  }
+  /// The column of the amplitude as a difference of whole predictions: central, or where that would leave the bounds
+  /// (4f(h) − 3f(0) − f(2h))/2h on the side of the range. Good to about 1e-9 of the column.
+  Status difference_by_amplitude(const TestInput& input, std::span<double> column) const {
+    const Parameter& parameter = description_.parameters.back();
+    const double at = amplitude(input), scale = std::max(std::abs(at), 0.01 * (parameter.max - parameter.min));
+    const double h = std::cbrt(std::numeric_limits<double>::epsilon()) * scale;
+    const bool below = at - h >= parameter.min, above = at + h <= parameter.max, central = below && above;
+    const double first = above ? h : -h, second = central ? -h : 2 * first;
+    std::vector<double> own(input.test_parameters.begin(), input.test_parameters.end()), here(column.size()),
+        near(column.size()), far(column.size());
+    TestInput shifted = input;
+    shifted.test_parameters = own;
+    const auto predict_at = [&](double offset, std::span<double> values) {
+      own.back() = at + offset;
+      return predict(shifted, {values, {}, {}, {}});
+    };
+    if (Status status = predict_at(first, near); !status.ok()) return status;
+    if (Status status = predict_at(second, far); !status.ok()) return status;
+    if (!central)
+      if (Status status = predict_at(0, here); !status.ok()) return status;
+    for (std::size_t i = 0; i < column.size(); ++i)
+      column[i] = central ? (near[i] - far[i]) / (2 * h) : (4 * near[i] - 3 * here[i] - far[i]) / (2 * first);
+    return {};
   }
   /// The columns of the base; empty if no Jacobian is wanted.
   [[nodiscard]] std::span<double> base_jacobian(const TestOutput& output) const {

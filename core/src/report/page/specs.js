@@ -223,7 +223,7 @@ tunicaReport.specs = (() => {
                {name: "y", type: "band", domain: labels, range: "height"},
                {name: "heat", type: "linear", domain: chart.domain, range: {scheme: "cividis"}, clamp: true}],
       axes: [{orient: "bottom", scale: "x", title: chart.x.title, labelLimit: 300, labelOverlap: chart.numeric ? "greedy" : false,
-              ...(upright ? {} : {labelAngle: -60, labelAlign: "right", labelBaseline: "middle"})},
+              ...(upright ? {labelFontSize: 9} : {labelAngle: -60, labelAlign: "right", labelBaseline: "middle"})},
              {orient: "left", scale: "y", title: chart.y.title, ...(chart.numeric ? {labelOverlap: "greedy"} : inLines)}],
       marks: [{type: "rect", from: {data: "cells"}, encode: {update: {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"},
                 width: {scale: "x", band: 1}, height: {scale: "y", band: 1}, fill: {scale: "heat", field: "value"}}}},
@@ -232,7 +232,7 @@ tunicaReport.specs = (() => {
                 baseline: {value: "middle"}, text: {signal: "format(datum.value, '.2f')"}, fontSize: {value: 11},
                 fill: {signal: "datum.value > " + (chart.domain[0] + 0.55 * (chart.domain[1] - chart.domain[0])) + " ? '#000' : '#fff'"}}}}] : [])],
       legends: [{fill: "heat", title: chart.legend, gradientLength: Math.min(200, size.height * 0.7),
-                 ...(size.width < 520 ? {orient: "top", direction: "horizontal"} : {})}],
+                 ...(size.width < 800 && !chart.numeric ? {orient: "top", direction: "horizontal"} : {})}],
     };
   };
 
