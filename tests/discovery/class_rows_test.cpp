@@ -63,8 +63,8 @@ TEST(Scorer, ComparesCasesWithTheSameDataWhoseNoiseIsStated) {
   const Figure paired = class_figure(cases, "noise not stated: right name less that of the same data with it, Λ 25");
   EXPECT_EQ(paired.cases, 10U);
   EXPECT_NEAR(paired.value, -0.1, 1e-12);
-  EXPECT_NEAR(paired.low, -0.44556, 1e-4);
-  EXPECT_NEAR(paired.high, 0.27889, 1e-4);
+  EXPECT_NEAR(paired.low, -0.44550, 2e-5);
+  EXPECT_NEAR(paired.high, 0.27883, 2e-5);
   EXPECT_TRUE(paired.missed());
   EXPECT_FALSE(paired.surely_missed());
   const Figure detected =
