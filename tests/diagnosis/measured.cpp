@@ -87,6 +87,12 @@ diagnosis::Diagnosis Measured::diagnose(bool quick) const {
   return diagnosis::diagnose(own, request, testing::catalogue());
 }
 
+const diagnosis::Candidate& candidate(const diagnosis::Diagnosis& found, const std::string& id) {
+  for (const diagnosis::Candidate& one : found.analysis.hypotheses.candidates)
+    if (one.id == id) return one;
+  throw std::runtime_error("no candidate " + id);
+}
+
 std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found) {
   std::vector<std::string> texts;
   for (const diagnosis::Warning& warning : found.warnings()) texts.push_back(warning.text);

@@ -67,12 +67,6 @@ struct Cyclic : Measured {
   }
 };
 
-const Candidate& candidate(const Diagnosis& found, const std::string& id) {
-  for (const Candidate& one : found.analysis.hypotheses.candidates)
-    if (one.id == id) return one;
-  throw std::runtime_error("no " + id);
-}
-
 std::vector<std::string> sentences(const Diagnosis& found, WarningKind kind) {
   std::vector<std::string> texts;
   for (const diagnosis::Warning& warning : found.warnings())

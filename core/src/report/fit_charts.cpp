@@ -52,8 +52,7 @@ struct Channel {
     ci95 = table.find(observable + ".ci95");
     lowest = table.find(observable + ".lowest");
     highest = table.find(observable + ".highest");
-    const auto runs = table.groups("run");
-    const auto& rows = runs.front().second;
+    const std::vector<std::size_t> rows = table.groups("run").front().second;
     std::vector<data::Prescribed> quantities;
     for (const std::size_t k : prescribed) {
       auto& quantity =
