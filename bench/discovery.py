@@ -49,14 +49,14 @@ CLASSES = {"plain": (), "unstated": ("--noise-not-stated",), "unordered": ("--or
 
 def plain(reduced):
     if reduced:
-        return [Stage("nulls", range(0, 60), STATED, [], False), Stage("singles", range(0, 3), STATED, [60], True),
+        return [Stage("nulls", range(0, 36), STATED, [], False), Stage("singles", range(0, 3), STATED, [60], True),
                 Stage("pairs", range(0, 4), STATED, [60], False), Stage("outside", range(0, 1), STATED, [60], False)]
-    return [Stage("nulls", range(0, 1000), STATED, [], False), Stage("nulls", range(0, 300), ["ar1"], [], False),
-            Stage("nulls", range(0, 200), ["outliers"], [], False),
-            Stage("singles", range(0, 30), STATED, [10, 25, 60, 150], True),
-            Stage("singles", range(30, 35), ["ar1"], [10, 25, 60, 150], True),
-            Stage("singles", range(35, 40), ["outliers"], [10, 25, 60, 150], True),
-            Stage("pairs", range(0, 160), STATED, [60], True), Stage("outside", range(0, 8), STATED, [25, 60, 150], False)]
+    return [Stage("nulls", range(0, 600), STATED, [], False), Stage("nulls", range(0, 100), ["ar1"], [], False),
+            Stage("nulls", range(0, 60), ["outliers"], [], False),
+            Stage("singles", range(0, 12), STATED, [10, 25, 60, 150], True),
+            Stage("singles", range(12, 14), ["ar1"], [10, 25, 60, 150], True),
+            Stage("singles", range(14, 16), ["outliers"], [10, 25, 60, 150], True),
+            Stage("pairs", range(0, 120), STATED, [60], True), Stage("outside", range(0, 4), STATED, [25, 60, 150], False)]
 
 
 def stages(name, reduced, classes):
@@ -65,21 +65,21 @@ def stages(name, reduced, classes):
     if name == "plain":
         return plain(reduced)
     if name == "unstated":
-        nulls = [Stage("nulls", range(0, 10 if reduced else 600), STATED, [], False, words)]
+        nulls = [Stage("nulls", range(0, 10 if reduced else 500), STATED, [], False, words)]
         if not reduced:
-            nulls.append(Stage("nulls", range(0, 100), ["correlated"], [], False, words))
-        singles = Stage("singles", range(0, 1 if reduced else 10), STATED, [60] if reduced else [25, 60, 150], False, words)
+            nulls.append(Stage("nulls", range(0, 60), ["correlated"], [], False, words))
+        singles = Stage("singles", range(0, 1 if reduced else 6), STATED, [60] if reduced else [25, 60, 150], False, words)
         return [*nulls, singles] + ([] if "plain" in classes else [singles._replace(oracle=True, words=())])
     if reduced:
         return [Stage("nulls", range(0, 4), STATED, [], False, words)] + (
             [Stage("singles", range(0, 1), STATED, [60], False, words)] if name in ["sheets", "yeoh"] else [])
     cheap = "--protocol" in words
-    return [Stage("nulls", range(0, 400 if cheap else 200), STATED, [], False, words),
-            Stage("singles", range(0, 8 if cheap else 3), STATED, [25, 60, 150] if cheap else [25, 60], True, words)]
+    return [Stage("nulls", range(0, 300 if cheap else 200), STATED, [], False, words),
+            Stage("singles", range(0, 4 if cheap else 2), STATED, [25, 60, 150] if cheap else [25, 60], True, words)]
 
 
 def plan(reduced, classes, share):
-    """Stages of all classes, of whose cases a share is made, the first ones: at least one."""
+    """Stages of all classes, with so many times as many cases: at least one."""
     for name in classes:
         for stage in stages(name, reduced, classes):
             count = max(1, round(share * len(stage.cases)))
@@ -209,13 +209,13 @@ def main():
     ask.add_argument("--scored", action="store_true", help="the scored seed instead of the one for development")
     ask.add_argument("--reduced", action="store_true", help="few cases, for the test suite")
     ask.add_argument("--classes", nargs="+", choices=CLASSES, default=list(CLASSES), help="classes of cases; default: all")
-    ask.add_argument("--share", type=float, default=1, help="share of the cases of every class, above 0, up to 1")
+    ask.add_argument("--share", type=float, default=1, help="times as many cases of every class: above 0, up to 10")
     ask.add_argument("--docs", type=pathlib.Path, help="put the table into this document, between its marks")
     told = ask.parse_args()
     if told.reduced and told.scored:
         ask.error("--reduced and --scored exclude each other")
-    if not 0 < told.share <= 1:
-        ask.error(f"--share: found {told.share:g}, expected a number above 0, up to 1")
+    if not 0 < told.share <= 10:
+        ask.error(f"--share: found {told.share:g}, expected a number above 0, up to 10")
     seed = told.seed if told.seed is not None else (
         SCORED_SEED if told.scored else REDUCED_SEED if told.reduced else DEVELOPMENT_SEED)
     cases = told.out / "cases"

@@ -19,6 +19,9 @@ def check_drawn(browser, file):
     assert fastest < LONGEST, f"{file}: drawn in {fastest} ms"
     empty = browser.run("return tunicaFigures.filter(f => !f.canvas.querySelector('svg path, svg rect')).map(f => f.chart.title)")
     assert not empty, f"{file}: charts without marks: {empty}"
+    cut = browser.run("return [...document.querySelectorAll('.canvas .role-axis-label text, .canvas .role-axis-title text')]"
+                      ".map(t => t.textContent).filter(t => t.endsWith('…'))")
+    assert not cut, f"{file}: labels are cut: {cut}"
     unnamed = browser.run("return document.querySelectorAll('.plot:not([aria-label]), svg[role=img]:not([aria-label])').length")
     assert unnamed == 0, f"{file}: {unnamed} charts without a label for screen readers"
     return figures, fastest

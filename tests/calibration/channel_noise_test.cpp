@@ -51,6 +51,19 @@ TEST(ChannelNoise, IsFoundAboutSmoothShapesOfLoopsWhateverTheirSteepness) {
   EXPECT_NEAR(std::sqrt(mean), 1, 0.06);
 }
 
+// A second abscissa that is held, but for its own scatter, turns at every other row and ends no branch.
+TEST(ChannelNoise, IsFoundBesideAnAbscissaThatTrembles) {
+  std::vector<double> x, y, held;
+  loop(10, 1, 3, x, y);
+  for (std::size_t i = 0; i < x.size(); ++i) held.push_back(17 + 0.3 * static_cast<double>(i * 7 % 5));
+  const std::vector<bool> all(x.size(), true);
+  const auto alone = assembly::smooth_scatter(y, {{"x", x}}, all);
+  const auto beside = assembly::smooth_scatter(y, {{"held", held}, {"x", x}}, all);
+  ASSERT_TRUE(alone && beside);
+  EXPECT_EQ(alone->variance, beside->variance);
+  EXPECT_EQ(alone->freedom, beside->freedom);
+}
+
 TEST(ChannelNoise, OfAFewRowsOrConstantOnesIsAssumed) {
   for (const auto& [values, sd] :
        {std::pair{std::vector<double>{1, 2, 4}, 0.04}, {{5, 5, 5, 5, 5, 5}, 0.05}, {{0, 0, 0, 0, 0, 0}, 1.0}}) {

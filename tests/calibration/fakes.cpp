@@ -248,8 +248,14 @@ class WrappedTest : public Test {
 };
 
 MechanismFactory mechanism(const std::string& id, Stage stage, Parameter parameter) {
-  MechanismFactory factory{id, "a fake", stage, {}, {std::move(parameter)}, 0, MechanismFactory::Side::both, -1, 1,
-                           {}, "",       "",    {}};
+  MechanismFactory factory;
+  factory.id = id;
+  factory.cause = "a fake";
+  factory.stage = stage;
+  factory.parameters = {std::move(parameter)};
+  factory.side = MechanismFactory::Side::both;
+  factory.plausible_min = -1;
+  factory.plausible_max = 1;
   return factory;
 }
 

@@ -9,6 +9,7 @@
 
 using namespace tunica::comparison;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using tunica::execution::WarningKind;
 using tunica::text::columns;
 
@@ -166,6 +167,28 @@ TEST(RankingTable, ShowsProfilesAndBootstrapBelowTheValue) {
   EXPECT_THAT(text, HasSubstr("\n  - the profile of mu is open towards the upper bound\n"));
 }
 
+TEST(RankingTable, ShowsTheMisfitOverStatedNoiseAndInWhatItDiffersFromNone) {
+  Summary summary;
+  RunSummary run;
+  run.label = "gho/lm";
+  run.group = "least_squares on circ";
+  run.has_result = true;
+  run.realisations = 1;
+  run.misfit = tunica::assembly::Misfit{4538, 514, 506, 0, 0};
+  run.notes = {"a note"};
+  summary.runs = {run};
+  summary.ranking = {{0, 1, {}}};
+  const auto text = ranking_table(summary).plain();
+  EXPECT_THAT(text, HasSubstr("failed    sec   χ²/ν\n"));
+  EXPECT_THAT(text, HasSubstr("   8.97\n"));
+  EXPECT_THAT(text, HasSubstr("\n  misfit: χ²/ν 8.97 (χ² 4538, ν 506), 3 times the stated noise: the model misses"));
+  EXPECT_THAT(text, HasSubstr("\n  - a note\n"));
+  summary.runs[0].misfit->chance = 0.5;
+  EXPECT_THAT(ranking_table(summary).plain(), Not(HasSubstr("the model misses")));
+  summary.runs[0].misfit.reset();
+  EXPECT_THAT(ranking_table(summary).plain(), Not(HasSubstr("χ²")));
+}
+
 TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   const std::string name(60, 'x');
   Summary summary;
@@ -181,6 +204,8 @@ TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
   run.reason = "the largest of 20 starts was evaluated, and the others came to the same point within rounding";
   run.parameters = {estimate(-1.234567e-5, Interval{-2.3456e-5, 9.8765e-5}, Estimate::Bound::upper)};
   run.parameters[0].name = name + "." + name;
+  run.misfit = run.misfit_estimated = tunica::assembly::Misfit{1.23456e9, 1234567, 1234567, 0, 12345};
+  run.notes = {name + " is not stated " + name};
   run.quality.resize(1);
   run.quality[0].test = name;
   run.quality[0].channel = "transverse_stretch";

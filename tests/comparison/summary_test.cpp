@@ -145,7 +145,8 @@ TEST(Summary, WarnsOfEqualCoursesBesideAnOptimiserThatCrashed) {
   made.results[0].realisations = {first, second, crashed};
   const auto warnings = sentences(made.summarise());
   EXPECT_THAT(warnings, Contains(HasSubstr("an error of the optimiser ended 1 of 3 realisations: thrown")));
-  EXPECT_THAT(warnings, Contains(HasSubstr("m/walk: all 2 realisations without such an error improved by the same steps")));
+  EXPECT_THAT(warnings,
+              Contains(HasSubstr("m/walk: all 2 realisations without such an error improved by the same steps")));
 }
 
 TEST(Summary, TellsTheMostFrequentReasonsOfFailures) {

@@ -33,10 +33,13 @@ Measured::Measured(std::vector<Strip> wanted) : strips(std::move(wanted)) {
   for (const Strip& strip : strips) {
     json columns = {{"stretch", "stretch"}, {"stress", "stress"}};
     if (!strip.time.empty()) columns["time"] = "time";
-    experiment["tests"][strip.name] = {
-        {"type", "uniaxial"},
-        {"direction", strip.name.substr(0, strip.name.find('_'))},
-        {"data", {{"file", strip.name + ".csv"}, {"columns", columns}, {"noise", {{"absolute", strip.sd}}}}}};
+    experiment["tests"][strip.name] = {{"type", "uniaxial"},
+                                       {"direction", strip.name.substr(0, strip.name.find('_'))},
+                                       {"data",
+                                        {{"file", strip.name + ".csv"},
+                                         {"columns", columns},
+                                         {"order", "loading"},
+                                         {"noise", {{"absolute", strip.sd}}}}}};
     write(strip, std::vector<double>(strip.stretch.size(), 0.0));
   }
 }
@@ -82,6 +85,12 @@ diagnosis::Diagnosis Measured::diagnose(bool quick) const {
   diagnosis::Request request = diagnosis::request_of(own);
   request.quick = quick;
   return diagnosis::diagnose(own, request, testing::catalogue());
+}
+
+const diagnosis::Candidate& candidate(const diagnosis::Diagnosis& found, const std::string& id) {
+  for (const diagnosis::Candidate& one : found.analysis.hypotheses.candidates)
+    if (one.id == id) return one;
+  throw std::runtime_error("no candidate " + id);
 }
 
 std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found) {

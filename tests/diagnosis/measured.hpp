@@ -49,6 +49,9 @@ class Measured {
   void write(const Strip& strip, const std::vector<double>& stress) const;
 };
 
+/// The candidate of this id; throws where there is none.
+const diagnosis::Candidate& candidate(const diagnosis::Diagnosis& found, const std::string& id);
+
 /// The sentences of its warnings.
 std::vector<std::string> warning_texts(const diagnosis::Diagnosis& found);
 

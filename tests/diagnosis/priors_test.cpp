@@ -64,12 +64,6 @@ struct Rubber : Measured {
   }
 };
 
-const Candidate& candidate(const Diagnosis& found, const std::string& id) {
-  for (const Candidate& one : found.analysis.hypotheses.candidates)
-    if (one.id == id) return one;
-  throw std::runtime_error("no " + id);
-}
-
 // Seed 5.
 TEST(Priors, NoFibresAreProposedForRubberUnlessTheyAreAskedFor) {
   Rubber measured;

@@ -41,6 +41,13 @@ Candidate candidate(Side side, const std::vector<Eigen::VectorXd>& signatures, d
   return made;
 }
 
+Evidence evidence_of(std::vector<Curve> curves) {
+  Evidence evidence;
+  evidence.curves = std::move(curves);
+  evidence.fit.residuals = Eigen::VectorXd::Zero(rows);
+  return evidence;
+}
+
 /// A linear base of four parameters and five candidates on one curve; σ known, or estimated with so many degrees of
 /// freedom.
 struct Linear {
@@ -51,9 +58,9 @@ struct Linear {
     curve.count = rows;
     curve.noise.freedom = freedom;
     for (Eigen::Index i = 0; i < rows; ++i) curve.abscissa.push_back(static_cast<double>(i) / (rows - 1));
-    curves = {curve};
-    detector.emplace(projection, directions, candidates.size(), smooth_shapes(curves, rows),
-                     noise_draws(curves, rows, 10000, 1));
+    const Evidence evidence = evidence_of({curve});
+    detector.emplace(projection, directions, candidates.size(), smooth_shapes(evidence.curves, rows),
+                     noise_draws(evidence, 10000, 1));
   }
   Linear(const Linear&) = delete;
   Linear& operator=(const Linear&) = delete;
@@ -75,7 +82,6 @@ struct Linear {
                                     candidate(Side::both, {along([](double u) { return u * u * u; }),
                                                            along([](double u) { return std::sin(70 * u); })})};
   std::vector<Direction> directions = diagnosis::directions(candidates, projection);
-  std::vector<Curve> curves;
   std::optional<Detector> detector;
 };
 
@@ -218,8 +224,7 @@ TEST(Detector, AllowsForNoiseThatIsOnlyEstimated) {
 TEST(Detector, HasNothingToSayWithoutMechanismsAndShapes) {
   const Projection projection(base_jacobian());
   const std::vector<Direction> none;
-  const std::vector<Curve> curves;
-  const Detector detector(projection, none, 2, smooth_shapes(curves, rows), noise_draws(curves, rows, 100, 1));
+  const Detector detector(projection, none, 2, smooth_shapes({}, rows), noise_draws(evidence_of({}), 100, 1));
   const auto detection = detector.test(along([](double u) { return 9 * u; }));
   EXPECT_EQ(detection.p, 1);
   EXPECT_EQ(detection.by_candidate, std::vector<double>(2, 1.0));

@@ -211,6 +211,10 @@ TEST_F(Messages, CheckNoise) {
   expect_within(noise(R"({"absolute": "1 mm"})"), "the unit 'mm' cannot be converted to 'kPa'");
 }
 
+TEST_F(Messages, CheckTheOrderOfRows) {
+  expect_within(refusal(R"("rows": "0:240:6")", R"("order": "unloading")"), "unknown order of rows 'unloading'");
+}
+
 TEST_F(Messages, CheckTimeFromARate) {
   const auto rate = [&](std::string_view text) {
     return refusal(R"("rows": "0:240:6")", R"("time_from": )" + std::string(text));

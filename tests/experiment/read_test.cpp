@@ -108,12 +108,14 @@ TEST_F(ReadExperiment, ReadsRichTestsThatWriteBackTheSame) {
       R"("weight": [0.5], "parameters": {"misalignment": {"max": "5 deg"}}, "mechanisms": [{"type": "outliers", "rows": "3"}],)",
       with(
           R"("file": "circ.csv",)",
-          R"("files": ["circ.csv", "circ2.csv"], "where": {"specimen": 7, "side": "left"}, "time_from": {"rate": "1 %/min"},)",
+          R"("files": ["circ.csv", "circ2.csv"], "where": {"specimen": 7, "side": "left"}, "order": "loading", "time_from": {"rate": "1 %/min"},)",
           with(R"("hold_out": false)", R"("hold_out": "10:20:2")",
                with(R"("axial_stretch": 1.2,)", R"("remarks": [{"at": "80 mmHg", "seen": "a leak"}],)")))));
   const TestEntry& strip = e.test("circumferential_strip");
   EXPECT_EQ(strip.data.files.size(), 2u);
   EXPECT_EQ(strip.data.where[0], (std::pair<std::string, std::string>{"specimen", "7"}));
+  EXPECT_EQ(strip.data.order, data::Order::loading);
+  EXPECT_EQ(e.test("inflation").data.order, data::Order::unknown);
   EXPECT_NEAR(*strip.data.time_rate, 0.01 / 60, 1e-18);
   EXPECT_EQ(strip.hold_out.rows->first, 10u);
   EXPECT_EQ(strip.hold_out.rows->step, 2u);

@@ -43,6 +43,7 @@ TEST_F(Schema, AcceptsWhatTheReaderAccepts) {
       {R"(["es", "lm"])", R"(["es", {"optimizer": "lm", "stop": {"max_evaluations": 100}}])"},
       {R"({"relative": 0.02})", R"({"stress": {"absolute": "1 Pa", "correlation": 0.3}})"},
       {R"("rows": "0:240:6")", R"("where": {"stretch": 1}, "time_from": {"rate": "1 %/s"})"},
+      {R"("rows": "0:240:6")", R"("order": "unknown")"},
       {R"("kappa": {"min": 0, "max": 0.3333})",
        R"("kappa": {"fixed": 0.1}, "theta": {"prior": {"mean": "45 deg", "sd": 5}})"},
       {R"({"type": "standardised_quadratic"})", R"("sum_of_norms")"},

@@ -74,6 +74,101 @@ TEST(FitChart, LiesOverWhatTheTestSweepsAndNotOverWhatItHolds) {
   EXPECT_EQ(charts(scratch)["fit_t_force"]["x"]["title"], "axial_stretch");
 }
 
+TEST(FitChart, DrawsTheCurvesOfAFamilyApart) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", one_run);
+  std::string table =
+      "run,stretch_circumferential [1],stretch_axial [1],stress [kPa],stress.predicted [kPa],held_out\n";
+  for (const char* held : {"1.3", "1.5"})
+    for (const char* x : {"1", "1.1", "1.2", "1.3"}) table += std::string("m/o,") + x + ',' + held + ",2,1,0\n";
+  scratch.write("fit_t.csv", table);
+  const auto found = charts(scratch);
+  const auto& fit = found.at("fit_t_stress");
+  ASSERT_EQ(fit["series"].size(), 4u) << "measured and predicted, twice";
+  EXPECT_EQ(fit["series"][0]["label"], "stretch_axial = 1.3");
+  EXPECT_EQ(fit["series"][0]["tag"], "1.3");
+  EXPECT_EQ(fit["series"][3]["label"], "stretch_axial = 1.5");
+  EXPECT_EQ(fit["series"][3]["x"], nlohmann::json({1, 1.1, 1.2, 1.3}));
+  EXPECT_EQ(fit["x"]["title"], "stretch_circumferential");
+  EXPECT_EQ(found.at("fit_t_stress_residuals")["series"].size(), 2u);
+}
+
+TEST(FitChart, LaysAChannelOverWhatTheResultSays) {
+  const trial::Scratch scratch;
+  scratch.write("result.json",
+                R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1, "per_test": {"t":
+                    {"channels": [{"channel": "force", "over": "b"}]}}}}]})");
+  scratch.write("fit_t.csv",
+                "run,a [1],b [1],force [mN],force.predicted [mN],held_out\n"
+                "m/o,1,2,0,0,0\nm/o,1.1,2.1,1,1,0\nm/o,1.2,2.4,2,2,0\nm/o,1.3,2.5,3,3,0\n");
+  EXPECT_EQ(charts(scratch)["fit_t_force"]["x"]["title"], "b");
+}
+
+TEST(SimulationChart, DrawsEveryCurveOfAFamilyOverItsOwnAbscissa) {
+  const trial::Scratch scratch;
+  scratch.write("t.csv", "l1 [1],l2 [1],p [kPa]\n1,1.3,1\n1.1,1.3,2\n1.2,1.3,3\n1,1.5,2\n1.1,1.5,3\n1.2,1.5,4\n");
+  scratch.write("simulation.json", R"({"name": "n", "model": "m", "tests": ["t"],
+      "curves": [{"test": "t", "column": "p", "over": "l1", "prescribed": ["l1", "l2"]}]})");
+  const auto found = charts(scratch);
+  EXPECT_FALSE(found.contains("t_l2")) << "what is prescribed is no prediction";
+  const auto& series = found.at("t_p")["series"];
+  ASSERT_EQ(series.size(), 2u);
+  EXPECT_EQ(series[1]["name"], "l2 = 1.5");
+  EXPECT_EQ(series[1]["y"], nlohmann::json({2, 3, 4}));
+}
+
+TEST(ResidualChart, EndsALittleBeyondTheResidualsAndSaysHowFarASignatureGoes) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"diagnosis": {"verdict": "named"}})");
+  scratch.write("residuals.csv",
+                "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,"
+                "residual,residual_extended,signature_drift,signature_other\n"
+                "t,s,0,1,1,stretch,,kPa,1,1,1,1,-11,1,-3630,1\nt,s,1,2,1,stretch,,kPa,2,2,2,1,11,1,2,-1\n");
+  const auto chart = charts(scratch)["residuals_t_s"];
+  EXPECT_GT(chart["y"]["domain"][0], -20);
+  EXPECT_LT(chart["y"]["domain"][0], -11);
+  EXPECT_GT(chart["y"]["domain"][1], 11);
+  const std::string page = report::report({scratch.path()}, scratch.path());
+  EXPECT_THAT(page, HasSubstr("Cut off: what drift runs from -3630 to 2 σ."));
+}
+
+TEST(ResidualChart, IsNotCutWhereTheSignaturesKeepToTheResiduals) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"diagnosis": {"verdict": "named"}})");
+  scratch.write("residuals.csv",
+                "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,"
+                "residual_extended,signature_drift\nt,s,0,1,1,stretch,kPa,1,1,1,1,-1,1,-2\n");
+  EXPECT_FALSE(charts(scratch)["residuals_t_s"]["y"].contains("domain"));
+  EXPECT_THAT(report::report({scratch.path()}, scratch.path()), Not(HasSubstr("Cut off")));
+}
+
+TEST(ScoreCharts, OfTheMaterialAndOfTheRigHaveTheSameAxis) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"diagnosis": {"verdict": "unknown", "scores": [
+      {"id": "crimp", "group": "material", "score": 5, "p_value": 0.1},
+      {"id": "drift", "group": "rig", "score": 70, "p_value": 0.01}],
+      "ranking": [{"id": "drift", "group": "rig", "probability": 0.9, "score": 70, "gain": 71},
+                  {"id": "crimp", "group": "material", "probability": 0.1, "score": 5, "gain": null}]}})");
+  const auto found = charts(scratch);
+  EXPECT_EQ(found.at("scores_material")["labels"], nlohmann::json({"crimp"}));
+  EXPECT_EQ(found.at("scores_rig")["labels"], nlohmann::json({"drift"}));
+  EXPECT_EQ(found.at("scores_material")["x"]["include"], found.at("scores_rig")["x"]["include"]);
+  const std::string page = report::report({scratch.path()}, scratch.path());
+  EXPECT_LT(page.find(">In the material<"), page.find(">In the rig<"));
+}
+
+TEST(Confusability, ShowsOnlyWhatLeavesATrace) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"diagnosis": {"verdict": "unknown", "detectable": [
+      {"id": "tethering", "absent": "no test that it applies to"}, {"id": "drift", "absent": ""}]}})");
+  scratch.write("confusability.csv",
+                "mechanism,crimp,tethering,drift\ncrimp,1,0,0.4\ntethering,0,1,0\ndrift,0.4,0,1\n");
+  const auto chart = charts(scratch)["confusability"];
+  EXPECT_EQ(chart["columns"], nlohmann::json({"crimp", "drift"}));
+  EXPECT_EQ(chart["labels"], nlohmann::json({"crimp", "drift"}));
+  EXPECT_EQ(chart["values"], nlohmann::json({{1, 0.4}, {0.4, 1}}));
+}
+
 TEST(WallCharts, DrawTheDeformedWallAndTheStressThroughIt) {
   const trial::Scratch scratch;
   scratch.write("result.json", one_run);

@@ -27,6 +27,11 @@ TEST(Lists, CountInWords) {
 TEST(Lists, BeginASentence) {
   EXPECT_EQ(capitalised("mu and k1"), "Mu and k1");
   EXPECT_EQ(capitalised(""), "");
+  EXPECT_EQ(capitalised("fibre_recruitment: imaging"), "fibre_recruitment: imaging");
+  EXPECT_EQ(capitalised("k1 is uncertain"), "k1 is uncertain");
+  const std::vector<std::string> names{"mu"};
+  EXPECT_EQ(capitalised("mu: the profile", names), "mu: the profile");
+  EXPECT_EQ(capitalised("music", names), "Music");
 }
 
 TEST(Units, StandBesideWhatHasADimension) {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/channels.hpp"
+#include "text/units.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::assembly {
@@ -66,19 +67,18 @@ void add_stretches(const Test& test, const std::vector<Observable>& observables,
 std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
                                       const std::vector<FixedParameter>& fixed) {
   std::vector<std::string> warnings;
-  const auto unit = [](const std::string& name) { return name == "1" ? "" : ' ' + name; };
   for (const FreeParameter& p : free) {
     const bool sign = p.min < 0 && p.declared.min >= 0;
     if (!sign && (p.scale == Scale::log || (p.declared.contains(p.min) && p.declared.contains(p.max)))) continue;
     warnings.push_back(
         fmt::format("parameter '{}': its bounds {:g} … {:g}{} go beyond {:g} … {:g}, the declared range; values "
                     "outside may be meaningless",
-                    p.name, p.min, p.max, unit(p.unit), p.declared.min, p.declared.max));
+                    p.name, p.min, p.max, text::unit_suffix(p.unit), p.declared.min, p.declared.max));
   }
   for (const FixedParameter& p : fixed)
     if (p.value != 0 && !p.declared.contains(p.value))  // 0 switches a part of a model off
       warnings.push_back(fmt::format("parameter '{}': held at {:g}{}, outside {:g} … {:g}, the declared range", p.name,
-                                     p.value, unit(p.unit), p.declared.min, p.declared.max));
+                                     p.value, text::unit_suffix(p.unit), p.declared.min, p.declared.max));
   return warnings;
 }
 

@@ -15,19 +15,20 @@ using Abscissae = std::vector<std::pair<std::string, std::vector<double>>>;
 using Rows = std::vector<std::size_t>;
 
 constexpr double turned = 0.05;  ///< of the range of an abscissa
+constexpr double held = 0.01;    ///< of its largest value: an abscissa that is held moves by less
 constexpr std::size_t most_terms = 9, least_branch = 4;
 constexpr double least_freedom = 4;
 
-double range_of(const std::vector<double>& x, const Rows& rows) {
-  const auto [low, high] =
-      std::minmax_element(rows.begin(), rows.end(), [&x](std::size_t a, std::size_t b) { return x[a] < x[b]; });
-  return x[*high] - x[*low];
-}
-
-/// Marks the places among `rows` at which a branch begins because `x` has turned at the place before.
-void mark_turns(const std::vector<double>& x, const Rows& rows, std::vector<bool>& begins) {
-  const double enough = turned * range_of(x, rows);
-  if (!(enough > 0)) return;
+/// Places among `rows` at which a branch begins because `x` has turned at the place before.
+std::vector<std::size_t> turns_of(const std::vector<double>& x, const Rows& rows) {
+  double low = x[rows[0]], high = low, largest = 0;
+  for (const std::size_t row : rows) {
+    low = std::min(low, x[row]);
+    high = std::max(high, x[row]);
+    largest = std::max(largest, std::abs(x[row]));
+  }
+  const double enough = std::max(turned * (high - low), held * largest);
+  std::vector<std::size_t> turns;
   std::size_t extreme = 0;  // the last one, or how far the path has come since
   int heading = 0;
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -36,16 +37,28 @@ void mark_turns(const std::vector<double>& x, const Rows& rows, std::vector<bool
       heading = way > 0 ? 1 : -1;
       extreme = k;
     } else if (heading != 0 && -heading * way > enough) {
-      begins[extreme + 1] = true;
+      turns.push_back(extreme + 1);
       heading = -heading;
       extreme = k;
     }
   }
+  return turns;
+}
+
+/// 1 where x goes one way along the branch, near 0 where it only trembles.
+double straightness(const std::vector<double>& x, const Rows& branch) {
+  double travelled = 0;
+  for (std::size_t k = 1; k < branch.size(); ++k) travelled += std::abs(x[branch[k]] - x[branch[k - 1]]);
+  return travelled > 0 ? std::abs(x[branch.back()] - x[branch.front()]) / travelled : 0;
 }
 
 std::vector<Rows> branches_of(const Rows& rows, const Abscissae& abscissae) {
   std::vector<bool> begins(rows.size(), false);
-  for (const auto& [name, x] : abscissae) mark_turns(x, rows, begins);
+  for (const auto& [name, x] : abscissae) {
+    const std::vector<std::size_t> turns = turns_of(x, rows);
+    if ((turns.size() + 1) * least_branch > rows.size()) continue;  // trembles rather than turns
+    for (const std::size_t place : turns) begins[place] = true;
+  }
   std::vector<Rows> branches(1);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (begins[k]) branches.emplace_back();
@@ -62,14 +75,16 @@ std::array<double, most_terms + 1> squares_left(std::span<const double> values, 
   Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1, 1), y(n);
   double most = 0;
   for (const auto& [name, column] : abscissae) {
-    std::vector<std::size_t> all(column.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const double whole = range_of(column, all), own = range_of(column, branch);
-    if (!(whole > 0) || own / whole <= most) continue;
-    most = own / whole;
-    const double low =
-        column[*std::min_element(branch.begin(), branch.end(), [&c = column](auto a, auto b) { return c[a] < c[b]; })];
-    for (Eigen::Index i = 0; i < n; ++i) x[i] = 2 * (column[branch[static_cast<std::size_t>(i)]] - low) / own - 1;
+    const double own = straightness(column, branch);
+    if (own <= most) continue;
+    most = own;
+    double low = column[branch[0]], high = low;
+    for (const std::size_t row : branch) {
+      low = std::min(low, column[row]);
+      high = std::max(high, column[row]);
+    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      x[i] = 2 * (column[branch[static_cast<std::size_t>(i)]] - low) / (high - low) - 1;
   }
   for (Eigen::Index i = 0; i < n; ++i) y[i] = values[branch[static_cast<std::size_t>(i)]];
   Eigen::MatrixXd shapes(n, terms);

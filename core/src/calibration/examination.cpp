@@ -86,7 +86,8 @@ bool Examination::good() const {
 }
 
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  Examination found{experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
+  Examination found{
+      experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;

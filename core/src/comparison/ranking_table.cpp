@@ -55,15 +55,14 @@ std::string flaw(const RunSummary& run) {
   return run.status.ok() ? "" : run.status.reason();
 }
 
-/// Columns that some run has something to say in.
+/// Columns that some run has something to say in; both take the place of the seconds.
 struct Columns {
   bool delta_aicc = false, chi_square = false;
+  [[nodiscard]] bool seconds() const { return !(delta_aicc && chi_square); }
 };
 
 /// Longer ones stand on a line of their own; all lines fit into 80 columns.
-std::size_t label_width(const Columns& columns) {
-  return 20 - (columns.delta_aicc ? 7u : 0u) - (columns.chi_square ? 7u : 0u);
-}
+std::size_t label_width(const Columns& columns) { return columns.delta_aicc || columns.chi_square ? 13 : 20; }
 
 /// With the constraint, where runs differ in it: "hgo/lm#2 (h = 0.7)".
 std::string shown_label(const RunSummary& run, bool names_constraints) {
@@ -85,12 +84,12 @@ std::string row(const Ranked& entry, const RunSummary& run, const Columns& colum
   const std::size_t width = label_width(columns);
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
   if (text::columns(label) > width) text += text::shortened(label, 77) + '\n' + std::string(3, ' ');
-  text += fmt::format("{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}",
-                      text::pad(text::columns(label) > width ? "" : label, width), objective,
-                      fmt::format("{}/{}", run.successes, run.realisations),
-                      count_text(to_target ? std::optional(to_target->median) : std::nullopt),
-                      count_text(run.expected_running_time), count_text(static_cast<double>(run.evaluations)),
-                      count_text(static_cast<double>(run.failures)), seconds_text(run.seconds));
+  text += fmt::format(
+      "{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6}", text::pad(text::columns(label) > width ? "" : label, width), objective,
+      fmt::format("{}/{}", run.successes, run.realisations),
+      count_text(to_target ? std::optional(to_target->median) : std::nullopt), count_text(run.expected_running_time),
+      count_text(static_cast<double>(run.evaluations)), count_text(static_cast<double>(run.failures)));
+  if (columns.seconds()) text += fmt::format(" {:>6}", seconds_text(run.seconds));
   if (columns.chi_square)
     text += fmt::format(" {:>6}", run.misfit ? fmt::format("{:.3g}", run.misfit->per_freedom()) : "-");
   if (columns.delta_aicc)
@@ -116,9 +115,9 @@ std::string ranking_lines(const Summary& summary) {
                                   fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
                   : text::hanging("Ranking by ", group);
       text += '\n';
-      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6}{}{}\n",
-                          text::pad("run", label_width(columns)), "objective", "success", "evals", "ERT", "total",
-                          "failed", "sec", columns.chi_square ? "   χ²/ν" : "", columns.delta_aicc ? "  ΔAICc" : "");
+      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6}{}{}{}\n", text::pad("run", label_width(columns)),
+                          "objective", "success", "evals", "ERT", "total", "failed", columns.seconds() ? "    sec" : "",
+                          columns.chi_square ? "   χ²/ν" : "", columns.delta_aicc ? "  ΔAICc" : "");
     }
     text += row(entry, run, columns, differ_in_constraints(summary));
   }
@@ -128,7 +127,8 @@ std::string ranking_lines(const Summary& summary) {
              "success: realisations at or below the target, or within 0.1 % of the best known objective; evals: "
              "median number of evaluations until success; ERT: evaluations spent for one success, failed "
              "realisations included; total: all evaluations (their Jacobians are in ranking.csv); failed: "
-             "evaluations that failed; sec: seconds of all realisations together" +
+             "evaluations that failed" +
+                 std::string(columns.seconds() ? "; sec: seconds of all realisations together" : "") +
                  std::string(columns.chi_square
                                  ? "; χ²/ν: misfit over stated noise, by degree of freedom, near 1 where both are right"
                                  : "")) +

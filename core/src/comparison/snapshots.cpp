@@ -9,6 +9,7 @@
 #include <fmt/os.h>
 
 #include "stability/ellipticity.hpp"
+#include "text/units.hpp"
 #include "tunica/error.hpp"
 #include "tunica/test.hpp"
 
@@ -26,9 +27,8 @@ std::size_t row_number(const std::string& word, const std::string& text) {
 
 void write_array(fmt::ostream& out, const std::string& name, const std::string& unit, std::size_t components,
                  const std::vector<double>& values) {
-  const std::string title = unit == "1" || unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-  out.print("        <DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", title,
-            components);
+  out.print("        <DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
+            text::titled(name, unit), components);
   for (std::size_t i = 0; i < values.size(); ++i) out.print("{}{}", values[i], (i + 1) % components == 0 ? '\n' : ' ');
   out.print("        </DataArray>\n");
 }

@@ -60,15 +60,15 @@ std::vector<std::size_t> family(std::span<const double> held, std::span<const do
 
 std::vector<std::string> names(const Prescribed& held, const std::vector<std::size_t>& first) {
   std::vector<std::string> curves;
+  const bool no_unit = held.unit.empty() || held.unit == "1" || held.unit == "-";
   for (std::size_t k = 0; k < first.size(); ++k) {
     const std::size_t end = k + 1 < first.size() ? first[k + 1] : held.values.size();
     auto values = std::vector<double>(held.values.begin() + static_cast<std::ptrdiff_t>(first[k]),
                                       held.values.begin() + static_cast<std::ptrdiff_t>(end));
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
-    curves.insert(
-        curves.end(), values.size(),
-        fmt::format("{} = {:.4g}{}", held.name, *middle, held.unit.empty() || held.unit == "1" ? "" : " " + held.unit));
+    curves.insert(curves.end(), values.size(),
+                  fmt::format("{} = {:.4g}{}", held.name, *middle, no_unit ? "" : " " + held.unit));
   }
   return curves;
 }

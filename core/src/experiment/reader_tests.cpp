@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/enum_names.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 

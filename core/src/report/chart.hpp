@@ -24,7 +24,7 @@ struct Axis {
 
 struct Series {
   std::string name;
-  std::string mark;  ///< line, step, points, both (line and points), band (low to high)
+  std::string mark;  ///< line, step, points, both (line and points), band (low to high), bars (a bar a point)
   int style = 0;     ///< colour, dash and symbol; -1 = as measured data
   std::vector<double> x = {}, y = {}, low = {}, high = {};
   bool hidden = false;     ///< switched off until someone asks for it

@@ -45,12 +45,12 @@ Range range_of(const std::vector<double>& values) {
   return range;
 }
 
-/// A signature may run far beyond the residuals that it is held against. The axis ends a little beyond those, and the
-/// words say how far the signature goes.
+/// A signature may run far beyond the residuals that it is held against. Where it goes further beyond them than they
+/// range, the axis ends a little beyond the residuals, and the words say how far the signature goes.
 std::string cut_to_residuals(Chart& chart, Range residuals, const std::vector<std::pair<std::string, Range>>& lines) {
   constexpr double room = 0.25, margin = 0.04;  // of the range of the residuals
   const double span = residuals.second - residuals.first;
-  const Range limits{residuals.first - room * span, residuals.second + room * span};
+  const Range limits{residuals.first - span, residuals.second + span};
   std::string text;
   for (const auto& [cause, range] : lines)
     if (range.first < limits.first || range.second > limits.second)
@@ -112,7 +112,7 @@ Chart before_and_after(const Table& table, const Json& diagnosis, const Residual
   chart.files = {table.file_name()};
   mark_misfit(chart, diagnosis, curve);
   std::size_t left_out = 0;
-  Series band = along(table, curve, "measured", {"measured ± 2 σ", "band", 6});
+  Series band = along(table, curve, "measured", {"measured ± 2 σ", "bars", 6});
   const Series sigma = along(table, curve, "sigma", {"", "line", 0});
   if (sigma.x.size() == band.x.size() && range_of(sigma.y).second > 0) {
     for (std::size_t k = 0; k < band.y.size(); ++k) {
@@ -247,13 +247,15 @@ void add_reach(Page& page, const Folder& folder) {
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> unseen;
   for (const Json& one : list(diagnosis, "detectable")) {
-    const std::string absent = word(one, "absent");
+    if (const std::string absent = word(one, "absent"); !absent.empty()) {
+      unseen.push_back(word(one, "id") + ": " + absent);
+      continue;
+    }
     rows.push_back({{word(one, "id") + place_words(member(one, "target"))},
                     {least_amplitude(one, "detectable"), true},
                     {least_amplitude(one, "identifiable"), true},
                     {word(one, "closest")},
                     {figure(number(one, "correlation")), true}});
-    if (!absent.empty()) unseen.push_back(word(one, "id") + ": " + absent);
   }
   if (!rows.empty()) {
     page.heading("What these data would show");

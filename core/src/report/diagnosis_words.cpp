@@ -17,7 +17,14 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
   for (const Json& mechanism : list(member(diagnosis, "extension"), "mechanisms"))
     ids.push_back(word(mechanism, "type"));
   if (ids.empty() && !list(diagnosis, "causes").empty()) ids.push_back(word(list(diagnosis, "causes").front(), "id"));
-  return ids;
+  // Instances side by side, as several relaxation times are, stand once.
+  std::vector<std::string> named;
+  for (auto at = ids.begin(); at != ids.end(); ++at) {
+    if (std::find(ids.begin(), at, *at) != at) continue;
+    const auto times = std::count(ids.begin(), ids.end(), *at);
+    named.push_back(times == 1 ? *at : times == 2 ? *at + " twice" : fmt::format("{} {} times", *at, times));
+  }
+  return named;
 }
 
 std::string verdict_words(const Json& diagnosis) {

@@ -52,10 +52,11 @@ struct Channel {
     ci95 = table.find(observable + ".ci95");
     lowest = table.find(observable + ".lowest");
     highest = table.find(observable + ".highest");
-    const auto& rows = table.groups("run").front().second;
+    const std::vector<std::size_t> rows = table.groups("run").front().second;
     std::vector<data::Prescribed> quantities;
     for (const std::size_t k : prescribed) {
-      auto& quantity = quantities.emplace_back(data::Prescribed{table.columns()[k].name, table.columns()[k].unit.value_or(""), {}});
+      auto& quantity =
+          quantities.emplace_back(data::Prescribed{table.columns()[k].name, table.columns()[k].unit.value_or(""), {}});
       for (const std::size_t row : rows) quantity.values.push_back(table.number(row, k));
     }
     data::Abscissa chosen = data::abscissa_of(quantities, own);

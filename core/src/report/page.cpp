@@ -105,6 +105,20 @@ std::string Page::document() const {
       escaped(policy), escaped(title_), style, escaped(title_), contents, body_, script_json(charts_), library, script);
 }
 
+namespace {
+
+/// A long name in a table may be broken after an underscore.
+std::string cell_html(const Cell& cell) {
+  constexpr std::size_t long_text = 24;
+  const std::string text = escaped(cell.text);
+  if (cell.number || text.size() <= long_text) return text;
+  std::string broken;
+  for (const char c : text) broken.append(1, c).append(c == '_' ? "<wbr>" : "");
+  return broken;
+}
+
+}  // namespace
+
 std::string table_html(const std::vector<std::string>& head, const std::vector<std::vector<Cell>>& rows,
                        const std::vector<bool>& first) {
   std::string text = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table\"><table><thead><tr>";
@@ -116,8 +130,7 @@ std::string table_html(const std::vector<std::string>& head, const std::vector<s
   for (std::size_t r = 0; r < rows.size(); ++r) {
     text += r < first.size() && first[r] ? "<tr class=\"first\">" : "<tr>";
     for (const Cell& cell : rows[r])
-      text +=
-          fmt::format("<td class=\"{}{}\">{}</td>", cell.number ? "n" : "", cell.bad ? " no" : "", escaped(cell.text));
+      text += fmt::format("<td class=\"{}{}\">{}</td>", cell.number ? "n" : "", cell.bad ? " no" : "", cell_html(cell));
     text += "</tr>";
   }
   return text + "</tbody></table></div>\n";

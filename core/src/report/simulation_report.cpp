@@ -46,7 +46,7 @@ struct Over {
 
 Over over_of(const Json& record, const Table& table, const std::string& test, const std::string& column) {
   std::vector<double> x;
-  Over over;
+  Over drawn;
   std::vector<std::string> curves;
   for (const Json& one : list(record, "curves")) {
     if (word(one, "test") != test || word(one, "column") != column) continue;
@@ -60,31 +60,31 @@ Over over_of(const Json& record, const Table& table, const std::string& test, co
       }
     if (quantities.empty()) continue;
     data::Abscissa chosen = data::abscissa_of(quantities, word(one, "over"));
-    over.column = columns[chosen.column];
+    drawn.column = columns[chosen.column];
     curves = std::move(chosen.curves);
   }
-  for (std::size_t row = 0; row < table.rows(); ++row) x.push_back(table.number(row, over.column));
-  over.lines = data::lines_of(x, curves);
-  return over;
+  for (std::size_t row = 0; row < table.rows(); ++row) x.push_back(table.number(row, drawn.column));
+  drawn.lines = data::lines_of(x, curves);
+  return drawn;
 }
 
 /// The curves that lie over a prescribed quantity; each member of a family is a series of its own.
-Chart predicted_chart(const Table& table, const std::string& test, std::size_t column, const Over& over) {
+Chart predicted_chart(const Table& table, const std::string& test, std::size_t column, const Over& drawn) {
   Chart chart;
   chart.id = test + '_' + table.columns()[column].name;
   chart.title = test + ": " + table.columns()[column].name;
-  chart.x.title = table.title(over.column);
+  chart.x.title = table.title(drawn.column);
   chart.y.title = table.title(column);
   chart.about = fmt::format("{} over {}", chart.y.title, chart.x.title);
   chart.files = {table.file_name()};
   Series whole{table.columns()[column].name, "line", 0};
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    whole.x.push_back(table.number(row, over.column));
+    whole.x.push_back(table.number(row, drawn.column));
     whole.y.push_back(table.number(row, column));
   }
   std::size_t left_out = 0;
   std::vector<std::string> members;
-  for (Series& part : by_line(whole, over.lines, 600, left_out)) {
+  for (Series& part : by_line(whole, drawn.lines, 600, left_out)) {
     if (!part.label.empty()) {
       auto at = std::find(members.begin(), members.end(), part.label);
       if (at == members.end()) at = members.insert(members.end(), part.label);

@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "text/units.hpp"
+
 namespace tunica::uncertainty {
 namespace {
-
-std::string unit_text(const std::string& unit) { return unit.empty() || unit == "1" ? "" : " " + unit; }
 
 std::string unit_of(const std::string& name, const std::vector<ParameterInterval>& parameters) {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](const ParameterInterval& candidate) { return candidate.name == name; });
-  return found == parameters.end() ? "" : unit_text(found->unit);
+  return found == parameters.end() ? "" : text::unit_suffix(found->unit);
 }
 
 /// "a", "a and b", "a, b and c"
@@ -46,15 +46,15 @@ std::string direction_text(const std::vector<std::pair<std::string, double>>& di
 }  // namespace
 
 std::string with_uncertainty(double value, double half_width, const std::string& unit) {
-  if (!(half_width > 0) || !std::isfinite(half_width)) return fmt::format("{:.6g}{}", value, unit_text(unit));
+  if (!(half_width > 0) || !std::isfinite(half_width)) return fmt::format("{:.6g}{}", value, text::unit_suffix(unit));
   // Two digits of the uncertainty, and the value to the same place, but never more digits than a double has.
   const int place = std::clamp(1 - static_cast<int>(std::floor(std::log10(half_width))), 0, 15);
   const int digits = static_cast<int>(std::floor(std::log10(std::max(std::abs(value), 1e-300))));
-  if (place + digits > 9) return fmt::format("{:.9g} ± {:.1g}{}", value, half_width, unit_text(unit));
-  if (half_width >= 100) return fmt::format("{:.4g} ± {:.2g}{}", value, half_width, unit_text(unit));
+  if (place + digits > 9) return fmt::format("{:.9g} ± {:.1g}{}", value, half_width, text::unit_suffix(unit));
+  if (half_width >= 100) return fmt::format("{:.4g} ± {:.2g}{}", value, half_width, text::unit_suffix(unit));
   // A wide interval must not round a value away that others publish: at least four digits of it.
   const int value_place = std::clamp(3 - digits, place, std::max(place, 6));
-  return fmt::format("{:.{}f} ± {:.{}f}{}", value, value_place, half_width, place, unit_text(unit));
+  return fmt::format("{:.{}f} ± {:.{}f}{}", value, value_place, half_width, place, text::unit_suffix(unit));
 }
 
 std::string in_words(const Valley& valley, const std::vector<ParameterInterval>& parameters,
@@ -97,7 +97,7 @@ std::string bounds_in_words(const std::vector<ParameterInterval>& parameters) {
   std::vector<std::string> names;
   for (const ParameterInterval& parameter : parameters) {
     if (!parameter.at_bound) continue;
-    names.push_back(fmt::format("{} = {:.6g}{}", parameter.name, parameter.value, unit_text(parameter.unit)));
+    names.push_back(fmt::format("{} = {:.6g}{}", parameter.name, parameter.value, text::unit_suffix(parameter.unit)));
   }
   if (names.empty()) return "";
   const bool single = names.size() == 1;

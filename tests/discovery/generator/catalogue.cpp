@@ -120,6 +120,8 @@ std::vector<Effect> of_the_records() {
                              of_strip("force_offset", "kPa", 10, set_strip<&StripFaults::offset>),
                              of_strip("specimen_misalignment", "deg", 10, set_strip<&StripFaults::misalignment>)};
   all.back().even = true;
+  all.push_back(of_strip("permanent_set", "1", 0.6, set_strip<&StripFaults::set>));
+  all.back().low = 0;
   all.push_back({.id = "signal_drift",
                  .unit = "",
                  .where = Where::channel,

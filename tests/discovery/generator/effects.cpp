@@ -31,7 +31,8 @@ double shear_modulus(const Tissue& rubber) {
 }  // namespace
 
 bool remembers(const Effect& effect) {
-  return effect.id == "stress_softening" || effect.id == "viscoelasticity" || effect.id == "signal_drift";
+  return effect.id == "stress_softening" || effect.id == "permanent_set" || effect.id == "viscoelasticity" ||
+         effect.id == "signal_drift";
 }
 
 bool makes_sense(const Effect& effect, const Specimen& specimen) {

@@ -27,7 +27,10 @@ constexpr double least_remainder = 25;
 bool compatible(const std::string& a, const std::string& b) {
   const auto is = [&](const char* x, const char* y) { return (a == x && b == y) || (a == y && b == x); };
   return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment") &&
-         !is("stress_softening", "viscoelasticity");
+         !is("stress_softening", "viscoelasticity") && !is("permanent_set", "stress_softening") &&
+         !is("permanent_set", "viscoelasticity") && !is("permanent_set", "reference_length_error") &&
+         !is("permanent_set", "force_offset") && !is("permanent_set", "signal_drift") &&
+         !is("permanent_set", "outliers");
 }
 
 ScaledEffect hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {

@@ -52,14 +52,18 @@ std::vector<double> recorded_stress(const Strip& strip, const Tissue& tissue, co
     return recorded * (1 + faults.reference_length) - faults.slip * share * share;
   };
   std::vector<double> stress;
-  double before = 1, clock = 0;
+  double before = 1, clock = 0, farthest = 1;
   for (std::size_t i = 0; i < strip.stretch.size(); ++i) {
-    const double now = truth(strip.stretch[i]), dt = strip.time[i] - clock;
+    farthest = std::max(farthest, strip.stretch[i]);
+    const double rest = 1 + faults.set * (farthest - 1), whole = truth(strip.stretch[i]), dt = strip.time[i] - clock;
+    const bool slack = rest > 1 && whole <= rest;
+    const double now = slack ? 1 : whole / rest;
     const int steps = material.remembers() && dt > 0 ? substeps : 1;
     double sigma = 0;
     for (int k = 1; k <= steps; ++k) sigma = path.follow(before + (now - before) * k / steps, dt / steps);
     // Force over the reference area is what the cell gives; the recorded stretch makes it a Cauchy stress.
-    stress.push_back(sigma * strip.stretch[i] / now);
+    // After a set the section that it left counts.
+    stress.push_back(slack ? 0 : sigma * strip.stretch[i] / whole);
     before = now;
     clock = strip.time[i];
   }

@@ -20,6 +20,7 @@ struct StripFaults {
   double reference_length = 0;  ///< true stretch = recorded (1 + this)
   double gain = 0, offset = 0;  ///< recorded stress = true (1 + gain) + offset
   double misalignment = 0;      ///< degrees
+  double set = 0;               ///< rest length = 1 + this (largest recorded stretch so far − 1); slack below it
   double bend = 0;              ///< outside the catalogue: recorded = true (1 + bend · true/largest)
   double slip = 0;              ///< outside: true stretch = recorded less this times the share of the largest stretch²
   double friction = 0;          ///< outside: kPa, with the sign of the stretch rate

@@ -41,8 +41,10 @@ double contract(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * 
 }  // namespace
 
 Scatter scatter(double kappa) {
+  constexpr double as_good_as = 1e-8;  // at either end: the trace tells what no quadrature resolves
   if (kappa <= 0) return {};
-  if (kappa >= 1. / 3) return {1. / 3, 1. / 3, 1. / 3};
+  if (kappa < as_good_as) return {1 - 2 * kappa, kappa, kappa};
+  if (kappa >= 1. / 3 - as_good_as) return {1. / 3, 1. / 3, 1. / 3};
   const auto miss = [kappa](double log_b) { return std::log(moments(std::exp(log_b)).across / kappa); };
   std::uintmax_t budget = 100;
   const auto [low, high] = boost::math::tools::toms748_solve(miss, std::log(1e-9), std::log(1e9),

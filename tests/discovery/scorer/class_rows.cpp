@@ -2,6 +2,7 @@
 // Classes of cases beside the plain one: other bases and protocols, noise that no file states, order nobody recorded.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 
 namespace blind::score {
 namespace {
-
-bool ordinary(const std::string& noise) { return noise != "ar1" && noise != "outliers" && noise != "correlated"; }
 
 /// Fewer cases than this say little of their own class: they are judged together.
 constexpr std::size_t enough_to_judge = 50;

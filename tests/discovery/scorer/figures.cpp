@@ -11,8 +11,6 @@
 namespace blind::score {
 namespace {
 
-bool ordinary(const std::string& noise) { return noise != "ar1" && noise != "outliers"; }
-
 void false_alarms(const Cases& cases, std::vector<Figure>& table) {
   std::map<std::string, Share> by_noise;
   Share plain;

@@ -29,6 +29,11 @@ inline Figure number(std::string name, std::size_t cases, double value, std::opt
   return {std::move(name), cases, value, value, value, pass, stretch, std::move(remark)};
 }
 
+/// Noise that files state as it is, without gross errors.
+inline bool ordinary(const std::string& noise) {
+  return noise != "ar1" && noise != "outliers" && noise != "correlated";
+}
+
 /// Cases with one effect of the catalogue that its amplitude could be dialled for.
 inline bool single(const Case& one) { return one.truth.set == "singles" && one.truth.effects.front().reached; }
 inline const std::string& hidden(const Case& one) { return one.truth.effects.front().id; }

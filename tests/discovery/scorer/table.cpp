@@ -71,7 +71,7 @@ nlohmann::ordered_json as_json(const Figure& figure) {
 
 std::string markdown(const std::string& heading, const Score& score) {
   std::string text = heading.empty() ? "" : heading + "\n\n";
-  text += figure_table("figure", score.figures);
+  if (!score.figures.empty()) text += figure_table("figure", score.figures);
   if (!score.classes.empty()) text += "\n" + figure_table("class", score.classes);
   if (!score.times.empty()) text += "\n" + figure_table("time", score.times);
   if (!score.mistakes.empty()) text += mistake_table(score.mistakes);

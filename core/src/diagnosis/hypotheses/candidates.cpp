@@ -147,7 +147,7 @@ class CandidateSearch {
     if (places.empty() && !candidate.without_past.empty()) return nowhere(Absence::no_past, no_past);
     if (places.empty()) return nowhere(Absence::no_place, "no test that it applies to");
     // On a first loading a memory is part of what the base model says.
-    if (mechanism.memory)
+    if (mechanism.memory && group_of(mechanism) == CauseGroup::material)
       std::erase_if(places, [&](const Place& place) { return !unloads(base_, place.tests.front()); });
     return places.empty() ? nowhere(Absence::no_trace, "no test takes the load off again") : places;
   }

@@ -89,6 +89,10 @@ class Contest {
   [[nodiscard]] bool one_is_worth_more(const Group& group) const {
     const Fit& fit = analysis_.evidence.fit;
     const Single& single = singles_.front();
+    // What takes an amplitude that nobody would believe is worth less.
+    const Cause cause =
+        cause_of(inquiry_, analysis_, *single.best, 0, analysis_.hypotheses.directions[single.direction]);
+    if (cause.amplitude.at_bound || !cause.amplitude.plausible) return false;
     const double rows = static_cast<double>(fit.residuals.size());
     const double odds = static_cast<double>(group.additions.size() - 1) * log_odds_of_pair(singles_.size());
     return fit.chi2 - single.best->fit.chi2 > most_of_it * (fit.chi2 - rows) ||

@@ -72,13 +72,12 @@ std::string residual_table(const Diagnosis& d) {
       const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
         return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
       };
-      text += fmt::format("{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
-                          view.file_row(row), over.values[row], over.unit, over.name,
-                          over.curves.empty() ? "" : over.curves[row], view.unit, view.measured[row],
-                          base[view.offset + row],
-                          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
-                          residual(base, evidence.fit),
-                          claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
+      text += fmt::format(
+          "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
+          view.file_row(row), over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
+          view.unit, view.measured[row], base[view.offset + row],
+          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+          residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
       for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
       text += '\n';
     }

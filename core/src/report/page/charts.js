@@ -68,10 +68,11 @@ tunicaReport.Figure = class {
     const most = Math.max(240, width), {chart} = this;
     if (chart.kind === "rows") return {width: most, height: 64 + tunicaReport.specs.rowHeight(chart.labels, most, 26) * chart.labels.length};
     if (chart.kind === "heat") {
-      const wide = chart.numeric ? Math.min(most, 620) : Math.max(most, 190 + 20 * chart.columns.length);
+      const room = 190 + (tunicaReport.specs.longest(chart.columns) > 34 ? 14 : 17) * chart.columns.length;
+      const wide = chart.numeric ? Math.min(most, 620) : Math.max(most, room);
       if (chart.numeric) return {width: Math.min(wide, 980), height: 420};
       const {columns, labels} = tunicaReport.specs.headings(chart), under = Math.min(tunicaReport.specs.longest(columns), 34) * 6;
-      return {width: Math.min(wide, 980), height: 60 + under + tunicaReport.specs.rowHeight(labels, Math.min(wide, 980), 20) * labels.length};
+      return {width: Math.min(wide, 980), height: (wide < 800 ? 110 : 60) + under + tunicaReport.specs.rowHeight(labels, Math.min(wide, 980), 20) * labels.length};
     }
     if (chart.kind === "mesh") return tunicaReport.mesh.size(chart, most);
     if (chart.field) { const side = Math.min(most < 520 ? most - 80 : most - 190, 420); return {width: Math.max(side, 180), height: Math.max(side, 180), fixed: true}; }

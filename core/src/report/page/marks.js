@@ -42,6 +42,7 @@ tunicaReport.marks = (() => {
     const picture = svg("svg", {width: 30, height: 12, viewBox: "-15 -6 30 12", "aria-hidden": "true"});
     const ink = colour(look, series.style);
     if (series.mark === "band") picture.append(svg("rect", {x: -13, y: -5, width: 26, height: 10, fill: ink, opacity: 0.25}));
+    if (series.mark === "bars") picture.append(svg("path", {d: "M-7-6V6M0-6V6M7-6V6", stroke: ink, "stroke-width": 3, opacity: 0.5}));
     if (["line", "step", "both"].includes(series.mark))
       picture.append(svg("path", {d: "M-14 0H14", stroke: ink, "stroke-width": 2, fill: "none",
                                   "stroke-dasharray": dash(series.style).join(" ")}));

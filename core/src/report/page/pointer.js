@@ -11,7 +11,7 @@ tunicaReport.pointer = (() => {
         (series.low && usable(series.low[row]) ? "\n" + text(series.low[row]) + " … " + text(series.high[row]) : "");
   };
 
-  const visible = (figure) => figure.chart.series.filter((series) => !figure.hidden.has(series.name) && !["band", "range"].includes(series.mark));
+  const visible = (figure) => figure.chart.series.filter((series) => !figure.hidden.has(series.name) && !["band", "bars", "range"].includes(series.mark));
 
   const point = (figure, series, row) => {
     const view = figure.shown, [left, top] = figure.corner();

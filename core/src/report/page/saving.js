@@ -10,7 +10,7 @@ tunicaReport.withLegend = (spec, chart, hidden) => {
   return {
     ...spec, title: {text: chart.title, anchor: "start"},
     scales: [...spec.scales, scale("legend_colour", (s) => colour(look, s.style)), scale("legend_dash", (s) => dash(s.style)),
-             scale("legend_shape", (s) => ["line", "step", "band"].includes(s.mark) ? "stroke" : shape(s.style))],
+             scale("legend_shape", (s) => ["line", "step", "band", "bars"].includes(s.mark) ? "stroke" : shape(s.style))],
     legends: [...(spec.legends || []), {stroke: "legend_colour", strokeDash: "legend_dash", shape: "legend_shape", orient: "bottom",
                                         direction: "vertical", columns: 2, symbolStrokeWidth: 2, symbolFillColor: "transparent"}],
   };

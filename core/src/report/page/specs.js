@@ -80,7 +80,10 @@ tunicaReport.specs = (() => {
     const ink = {value: colour(look, series.style)}, faint = series.faint ? 0.35 : 1;
     const made = [];
     // A band, alone or about a line; of a range only the edges, so that both can be seen at once.
-    if (series.low && series.mark !== "range")
+    if (series.mark === "bars")
+      made.push({type: "rule", clip: true, from: {data: "s" + k}, encode: {update: {
+        x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, stroke: ink, strokeWidth: {value: 3}, strokeOpacity: {value: 0.4}}}});
+    else if (series.low && series.mark !== "range")
       made.push({type: "area", clip: true, from: {data: "s" + k}, encode: {update: {
         x: scaled.x, y: {scale: "y", field: "low"}, y2: {scale: "y", field: "high"}, fill: ink,
         defined: {signal: "isValid(datum.low)"}, fillOpacity: {value: 0.2}}}});
@@ -98,14 +101,6 @@ tunicaReport.specs = (() => {
         x: scaled.x, y: scaled.y, size: {value: series.x.length > 150 ? 18 : 34}, shape: {value: shape(series.style)},
         stroke: ink, strokeWidth: {value: 1.2}, fill: {value: series.style < 0 ? "transparent" : colour(look, series.style)},
         fillOpacity: {value: series.style < 0 ? 0 : 0.75}}}});
-    if (series.tag) {
-      const last = series.x.reduce((best, x, i) => (usable(series.y[i]) && x >= series.x[best] ? i : best), 0);
-      const at = {x: series.x[last], y: series.y[last]};
-      made.push({type: "text", interactive: false, encode: {update: {
-        x: {scale: "x", value: at.x, offset: 6}, y: {scale: "y", value: at.y}, baseline: {value: "middle"}, text: {value: series.tag},
-        fill: {value: look.muted}, fontSize: {value: 11},
-        opacity: {signal: `inrange(${at.x}, xdom) && inrange(${at.y}, ydom) ? 1 : 0`}}}});
-    }
     return made;
   };
 
@@ -115,11 +110,11 @@ tunicaReport.specs = (() => {
     if (series.low && usable(series.low[i], chart.y) && usable(series.high[i], chart.y))
       Object.assign(row, {low: series.low[i], high: series.high[i]});
     return row;
-  }).filter((row) => usable(row.x, chart.x) && (series.mark !== "band" || finite(row.low)));
+  }).filter((row) => usable(row.x, chart.x) && (!["band", "bars"].includes(series.mark) || finite(row.low)));
 
   /// Of bands about curves no more than half as much again as the curves take: a wide one is cut, not the curves squeezed.
   const seenAlong = (shown, axis) => {
-    const points = shown.filter(({series}) => !["band", "range"].includes(series.mark)).flatMap(({series}) => series.y)
+    const points = shown.filter(({series}) => !["band", "bars", "range"].includes(series.mark)).flatMap(({series}) => series.y)
         .filter((value) => usable(value, axis));
     const edges = shown.flatMap(({series}) => [...(series.low || []), ...(series.high || [])]).filter((value) => usable(value, axis));
     if (!points.length || axis.log) return [...points, ...edges];
@@ -146,6 +141,26 @@ tunicaReport.specs = (() => {
     return made;
   };
 
+  /// The tags of curves where they end on the right, moved apart where they would lie on each other.
+  const tags = (shown, look, size, xdom, ydom) => {
+    const far = 34, apart = 11, placed = [];
+    const ends = shown.filter(({series}) => series.tag).map(({series}) => {
+      const last = series.x.reduce((best, x, i) => (usable(series.y[i]) && x >= series.x[best] ? i : best), 0);
+      const x = series.x[last], y = series.y[last];
+      return {x, y, text: series.tag, px: (x - xdom[0]) / (xdom[1] - xdom[0]) * size.width, py: -(y - ydom[0]) / (ydom[1] - ydom[0]) * size.height};
+    }).sort((a, b) => a.py - b.py);
+    for (const end of ends) {
+      const above = placed.filter((other) => Math.abs(other.px - end.px) < far).map((other) => other.py + apart);
+      placed.push({...end, py: Math.max(end.py, ...above), from: end.py});
+    }
+    // Half of what they were moved goes back up, so that the bundle stays beside its curves.
+    const back = placed.reduce((most, tag) => Math.max(most, tag.py - tag.from), 0) / 2;
+    return placed.map((tag) => ({type: "text", interactive: false, encode: {update: {
+      x: {scale: "x", value: tag.x, offset: 6}, y: {scale: "y", value: tag.y, offset: tag.py - tag.from - back},
+      baseline: {value: "middle"}, text: {value: tag.text}, fill: {value: look.text}, fontSize: {value: 11}, fontWeight: {value: 600},
+      opacity: {signal: `inrange(${tag.x}, xdom) && inrange(${tag.y}, ydom) ? 1 : 0`}}}}));
+  };
+
   const xy = (chart, look, size, hidden) => {
     const shown = chart.series.map((series, k) => ({series, k})).filter(({series}) => !hidden.has(series.name));
     const signals = [{name: "xdom", value: span(shown.flatMap(({series}) => series.x), chart.x)},
@@ -155,6 +170,7 @@ tunicaReport.specs = (() => {
     const sources = shown.map(({series, k}) => ({name: "s" + k, values: rows(series, chart)}));
     const scales = [scale("x", chart.x), scale("y", chart.y)];
     const marks = [...reference(chart, look), ...shown.flatMap(({series, k}) => lines(series, k, look)),
+                   ...tags(shown, look, size, signals[0].value, signals[1].value),
                    {type: "symbol", clip: true, from: {data: "cursor"}, encode: {update: {
                      x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"}, size: {value: 130}, fill: {value: "transparent"},
                      stroke: {value: look.text}, strokeWidth: {value: 2}}}}];
@@ -223,7 +239,7 @@ tunicaReport.specs = (() => {
                {name: "y", type: "band", domain: labels, range: "height"},
                {name: "heat", type: "linear", domain: chart.domain, range: {scheme: "cividis"}, clamp: true}],
       axes: [{orient: "bottom", scale: "x", title: chart.x.title, labelLimit: 300, labelOverlap: chart.numeric ? "greedy" : false,
-              ...(upright ? {} : {labelAngle: -60, labelAlign: "right", labelBaseline: "middle"})},
+              ...(upright ? {labelFontSize: 9} : {labelAngle: -60, labelAlign: "right", labelBaseline: "middle"})},
              {orient: "left", scale: "y", title: chart.y.title, ...(chart.numeric ? {labelOverlap: "greedy"} : inLines)}],
       marks: [{type: "rect", from: {data: "cells"}, encode: {update: {x: {scale: "x", field: "x"}, y: {scale: "y", field: "y"},
                 width: {scale: "x", band: 1}, height: {scale: "y", band: 1}, fill: {scale: "heat", field: "value"}}}},
@@ -232,7 +248,7 @@ tunicaReport.specs = (() => {
                 baseline: {value: "middle"}, text: {signal: "format(datum.value, '.2f')"}, fontSize: {value: 11},
                 fill: {signal: "datum.value > " + (chart.domain[0] + 0.55 * (chart.domain[1] - chart.domain[0])) + " ? '#000' : '#fff'"}}}}] : [])],
       legends: [{fill: "heat", title: chart.legend, gradientLength: Math.min(200, size.height * 0.7),
-                 ...(size.width < 520 ? {orient: "top", direction: "horizontal"} : {})}],
+                 ...(size.width < 800 && !chart.numeric ? {orient: "top", direction: "horizontal"} : {})}],
     };
   };
 

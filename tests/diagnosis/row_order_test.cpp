@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// History only where there is one: what depends on the order of rows is looked for where somebody gives it, and nothing
+// else depends on it.
+#include <algorithm>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "assembly/assembly.hpp"
+#include "diagnosis/evidence/least_squares.hpp"
+#include "diagnosis/measured.hpp"
+#include "diagnosis/output/outputs.hpp"
+#include "experiment/reader.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::trial {
+namespace {
+
+using diagnosis::Absence;
+using diagnosis::Candidate;
+using diagnosis::Diagnosis;
+using diagnosis::WarningKind;
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Up and down twice: every stretch but the turning points is measured several times.
+std::vector<double> cycles(double rest) {
+  std::vector<double> path = testing::evenly(rest, 1.6, 16);
+  for (const auto& [from, to] : {std::pair{1.58, 1.04}, std::pair{1.06, 1.6}})
+    for (const double x : testing::evenly(from, to, 14)) path.push_back(x);
+  return path;
+}
+
+struct Cyclic : Measured {
+  Cyclic() : Measured({{.stretch = cycles(1.02)}, {.name = "axial", .stretch = cycles(1.02)}}) {}
+
+  /// Nobody says in which order the rows were measured.
+  void forget_order() {
+    for (auto& [name, test] : experiment["tests"].items()) test["data"].erase("order");
+  }
+
+  /// Puts the rows of every file into another order.
+  template <class Reorder>
+  void rewrite(Reorder reorder) const {
+    for (const Strip& strip : strips) {
+      std::ifstream file(folder.path() / (strip.name + ".csv"));
+      std::string header, line;
+      std::getline(file, header);
+      std::vector<std::string> rows;
+      while (std::getline(file, line)) rows.push_back(line);
+      file.close();
+      reorder(rows);
+      std::string text = header + '\n';
+      for (const std::string& row : rows) text += row + '\n';
+      folder.write(strip.name + ".csv", text);
+    }
+  }
+  void reverse() const {
+    rewrite([](auto& rows) { std::reverse(rows.begin(), rows.end()); });
+  }
+  void shuffle(std::uint64_t seed) const {
+    rewrite([&](auto& rows) { std::shuffle(rows.begin(), rows.end(), std::mt19937_64(seed)); });
+  }
+};
+
+std::vector<std::string> sentences(const Diagnosis& found, WarningKind kind) {
+  std::vector<std::string> texts;
+  for (const diagnosis::Warning& warning : found.warnings())
+    if (warning.kind == kind) texts.push_back(warning.text);
+  return texts;
+}
+
+void expect_the_same(const Diagnosis& a, const Diagnosis& b) {
+  EXPECT_EQ(a.explanation.verdict, b.explanation.verdict);
+  EXPECT_NEAR(a.analysis.evidence.fit.chi2, b.analysis.evidence.fit.chi2, 1e-6 * a.analysis.evidence.fit.chi2);
+  EXPECT_NEAR(a.analysis.alarm.p(), b.analysis.alarm.p(), 1e-9);
+  const auto &one = a.explanation.claim, &other = b.explanation.claim;
+  EXPECT_EQ(one.named, other.named);
+  EXPECT_EQ(one.ambiguity_set, other.ambiguity_set);
+  ASSERT_EQ(one.causes.size(), other.causes.size());
+  for (std::size_t k = 0; k < one.causes.size(); ++k) {
+    EXPECT_EQ(one.causes[k].id, other.causes[k].id);
+    EXPECT_EQ(one.causes[k].place.tests, other.causes[k].place.tests);
+    EXPECT_NEAR(one.causes[k].probability, other.causes[k].probability, 1e-6);
+    EXPECT_NEAR(one.causes[k].amplitude.value, other.causes[k].amplitude.value,
+                1e-4 * (1e-3 + std::abs(one.causes[k].amplitude.value)));
+  }
+}
+
+void hide_softening(json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("stress_softening", "d", 0.4)}; }
+
+void hide_fibres(json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 6)}; }
+
+// Seed 3. The noise is stated once, and once nobody states it.
+TEST(RowOrder, ChangesNoVerdictWhereNobodySaysIt) {
+  for (const bool stated : {true, false})
+    for (const auto hide : {hide_fibres, hide_softening}) {
+      Cyclic measured;
+      measured.measure(3, hide);
+      measured.forget_order();
+      if (!stated)
+        for (auto& [name, test] : measured.experiment["tests"].items()) test["data"].erase("noise");
+      const Diagnosis stored = measured.diagnose();
+      measured.reverse();
+      const Diagnosis reversed = measured.diagnose();
+      measured.shuffle(11);
+      const Diagnosis shuffled = measured.diagnose();
+      expect_the_same(stored, reversed);
+      expect_the_same(stored, shuffled);
+    }
+}
+
+// The stored rows are in loading order, the test says so, and then the reversed ones are another experiment.
+TEST(RowOrder, IsReadWhereTheFileDeclaresIt) {
+  Cyclic measured;
+  measured.measure(3, hide_softening);
+  const Diagnosis found = measured.diagnose();
+  EXPECT_FALSE(candidate(found, "stress_softening").hypotheses.empty());
+  ASSERT_FALSE(found.explanation.claim.causes.empty());
+  EXPECT_EQ(found.explanation.claim.causes.front().id, "stress_softening");
+  EXPECT_THAT(sentences(found, WarningKind::memory_not_looked_for), ::testing::IsEmpty());
+}
+
+TEST(RowOrder, MemoryIsNotLookedForWithoutItAndOneSentenceSaysWhatToRecord) {
+  Cyclic measured;
+  measured.measure(3);
+  measured.forget_order();
+  const Diagnosis found = measured.diagnose();
+  for (const char* id : {"stress_softening", "permanent_set", "signal_drift"}) {
+    EXPECT_TRUE(candidate(found, id).hypotheses.empty()) << id;
+    EXPECT_STREQ(code_of(candidate(found, id).absence), "no_past") << id;
+  }
+  EXPECT_FALSE(candidate(found, "axial_fibres").hypotheses.empty());
+  EXPECT_THAT(sentences(found, WarningKind::memory_not_looked_for),
+              ::testing::ElementsAre(AllOf(HasSubstr("stress_softening"), HasSubstr("were not looked for"),
+                                           HasSubstr("nobody says in which order the rows of 'axial' and "
+                                                     "'circumferential' were measured"),
+                                           HasSubstr("add \"order\": \"loading\""))));
+}
+
+// A material remembers in all tests or in none; a sensor drifts in one.
+TEST(RowOrder, OneTestWithoutItKeepsMemoryOutOfTheMaterial) {
+  Cyclic measured;
+  measured.measure(3);
+  measured.experiment["tests"]["axial"]["data"].erase("order");
+  const Diagnosis found = measured.diagnose();
+  EXPECT_TRUE(candidate(found, "stress_softening").hypotheses.empty());
+  for (const auto& one : candidate(found, "signal_drift").hypotheses)
+    EXPECT_THAT(one.addition.place.tests, ::testing::ElementsAre("circumferential"));
+  EXPECT_FALSE(candidate(found, "signal_drift").hypotheses.empty());
+  EXPECT_THAT(sentences(found, WarningKind::memory_not_looked_for),
+              ::testing::ElementsAre(HasSubstr("the rows of 'axial' were measured")));
+}
+
+TEST(RowOrder, IsAssumedWithAWarningWhereMemoryIsAskedFor) {
+  Cyclic measured;
+  measured.measure(3, hide_softening);
+  measured.forget_order();
+  measured.experiment["diagnosis"]["mechanisms"] = {"stress_softening"};
+  const Diagnosis found = measured.diagnose();
+  EXPECT_FALSE(candidate(found, "stress_softening").hypotheses.empty());
+  EXPECT_THAT(sentences(found, WarningKind::order_assumed),
+              ::testing::ElementsAre(HasSubstr("taken for the whole loading path")));
+}
+
+// Declared, but it begins where the strip had been pulled to before.
+TEST(RowOrder, SaysLittleWhereATestBeginsFarFromRestAndUnloads) {
+  Measured measured({{}, {.name = "axial", .stretch = testing::evenly(1.6, 1.02, 30)}});
+  measured.measure(3);
+  const Diagnosis found = measured.diagnose();
+  EXPECT_TRUE(candidate(found, "stress_softening").hypotheses.empty());
+  EXPECT_FALSE(candidate(found, "signal_drift").hypotheses.empty());  // the sensor's past does not matter
+  EXPECT_THAT(sentences(found, WarningKind::memory_not_looked_for),
+              ::testing::ElementsAre(HasSubstr("the rows of 'axial' start far from rest and unload")));
+}
+
+// Of the file, wherever the row stands in the diagnosis. Seed 3; 200 σ.
+TEST(RowOrder, GrossRowsAreCountedAsTheFileHasThem) {
+  Cyclic measured;
+  measured.measure(3);
+  measured.forget_order();
+  std::size_t at = 0;
+  measured.rewrite([&at](std::vector<std::string>& rows) {
+    at = 20;
+    const auto comma = rows[at].find(',');
+    rows[at] = rows[at].substr(0, comma + 1) + std::to_string(std::stod(rows[at].substr(comma + 1)) + 60);
+  });
+  const Diagnosis found = measured.diagnose();
+  const auto& gross = found.explanation.gross.empty() ? found.analysis.evidence.gross : found.explanation.gross;
+  ASSERT_EQ(gross.size(), 2u);
+  for (const auto& row : gross) EXPECT_EQ(row.file_row, at);
+  const json extended = json::parse(diagnosis::extended_experiment(found, testing::catalogue()));
+  std::size_t taken_out = 0;
+  for (const auto& [name, test] : extended["tests"].items())
+    for (const auto& entry : test["mechanisms"])
+      if (entry["type"] == "outliers") {
+        EXPECT_EQ(entry["rows"], "20:21:1");
+        ++taken_out;
+      }
+  EXPECT_GE(taken_out, 1u);
+}
+
+// What a run makes of shuffled rows of unknown order; hold_out means rows of the file.
+TEST(RowOrder, ChangesNoParameterOfARun) {
+  Cyclic measured;
+  measured.measure(3);
+  measured.forget_order();
+  const auto fitted = [&] {
+    const experiment::Experiment read = measured.read();
+    const assembly::Assembly assembly(read, read.runs.front(), testing::catalogue());
+    std::vector<double> initial(assembly.layout().parameters.size());
+    assembly.box().from_unit(assembly.box().initial(), initial);
+    return diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), initial,
+                                    *assembly.evaluator().make_workspace())
+        .free;
+  };
+  const std::vector<double> stored = fitted();
+  measured.shuffle(11);
+  const std::vector<double> shuffled = fitted();
+  for (std::size_t k = 0; k < stored.size(); ++k) EXPECT_NEAR(stored[k], shuffled[k], 1e-5 * std::abs(stored[k]));
+}
+
+}  // namespace
+}  // namespace tunica::trial
