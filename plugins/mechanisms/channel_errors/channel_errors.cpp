@@ -90,7 +90,7 @@ std::vector<MechanismFactory> of_known_channels() {
       reading(described("force_scale_error", {"uniaxial"},
                         {"gain", "1", 0, -0.5, 1, Scale::linear, "Measured over true stress, less one.", ""}, 0.2,
                         {"The load cell's gain, or the area its force was divided by, is wrong.",
-                         {"reference_length_error", "specimen_misalignment", "circumferential_fibres"},
+                         {"reference_length_error", "specimen_misalignment", "permanent_set"},
                          "a known weight on the load cell",
                          load_cells}),
               {"stress"}, scaled),

@@ -195,7 +195,7 @@ MechanismFactory factory() {
                              .side = MechanismFactory::Side::positive,
                              .plausible_min = 0,
                              .plausible_max = 0.6,
-                             .look_alikes = {"stress_softening", "reference_length_error", "viscoelasticity"},
+                             .look_alikes = {"stress_softening", "reference_length_error", "force_scale_error"},
                              .isolated_by = "marks on the specimen, measured unloaded before and after the test",
                              .reference = "Diani, Fayolle, Gilormini, Eur. Polym. J. 45:601 (2009)",
                              .origin = MechanismFactory::Origin::material,
