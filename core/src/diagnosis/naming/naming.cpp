@@ -89,14 +89,21 @@ class Contest {
   [[nodiscard]] bool one_is_worth_more(const Group& group) const {
     const Fit& fit = analysis_.evidence.fit;
     const Single& single = singles_.front();
-    // What takes an amplitude that nobody would believe is worth less.
-    const Cause cause =
-        cause_of(inquiry_, analysis_, *single.best, 0, analysis_.hypotheses.directions[single.direction]);
-    if (cause.amplitude.at_bound || !cause.amplitude.plausible) return false;
+    // What takes an amplitude that nobody would believe is worth less than several that are plausible.
+    if (!believable(*single.best, {single.direction}) && believable(*group.refit, group.directions)) return false;
     const double rows = static_cast<double>(fit.residuals.size());
     const double odds = static_cast<double>(group.additions.size() - 1) * log_odds_of_pair(singles_.size());
     return fit.chi2 - single.best->fit.chi2 > most_of_it * (fit.chi2 - rows) ||
            single.log_weight > group.log_weight + odds;
+  }
+
+  [[nodiscard]] bool believable(const Refit& refit, const std::vector<std::size_t>& directions) const {
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const Direction& direction = analysis_.hypotheses.directions[directions[k]];
+      const Amplitude amplitude = cause_of(inquiry_, analysis_, refit, k, direction).amplitude;
+      if (amplitude.at_bound || !amplitude.plausible) return false;
+    }
+    return true;
   }
 
   const Inquiry& inquiry_;
