@@ -151,10 +151,10 @@ TEST(Diagnose, WritesTheNoiseOfAMeanWhereThereAreReplicates) {
     std::istringstream one(line);
     for (std::string cell; std::getline(one, cell, ',');) cells.push_back(cell);
     const auto number = [&cells](std::size_t k) { return std::stod(cells.at(k)); };
-    EXPECT_NEAR(number(10), cells[0] == "axial" ? 0.15 : 0.3, 1e-9) << line;
-    EXPECT_NEAR((number(7) - number(8)) / number(10), number(11), 1e-4 + 1e-5 * std::abs(number(11))) << line;
+    EXPECT_NEAR(number(11), cells[0] == "axial" ? 0.15 : 0.3, 1e-9) << line;
+    EXPECT_NEAR((number(8) - number(9)) / number(11), number(12), 1e-4 + 1e-5 * std::abs(number(12))) << line;
     // What the cause changes is what it takes from the residuals.
-    EXPECT_NEAR(number(11) - number(12), number(13), 1e-4 + 1e-5 * std::abs(number(11))) << line;  // six digits
+    EXPECT_NEAR(number(12) - number(13), number(14), 1e-4 + 1e-5 * std::abs(number(12))) << line;  // six digits
     ++rows;
   }
   EXPECT_EQ(rows, 60);

@@ -54,9 +54,12 @@ Analysis analysed(const Measured& measured) {
 /// A bend that no parameter of the wall follows, 20 σ high.
 double bend(const Strip& strip, double stretch) { return strip.name == "axial" ? 6 * std::sin(9 * stretch) : 0; }
 
-// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5.
+// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5. A
+// share that grows with the level, one for both channels, is believed where −2 ln L falls by 4: by chance in 2.3 % of
+// the data sets. More than five of 40 have probability 4e-4.
 TEST(EncompassingNoise, IsUnbiasedBesideAMisfitOfManyTimesTheNoise) {
   double sum = 0, freedom = 0;
+  int white = 0;
   const SilentStrips measured;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     measured.measure(seed, {}, bend);
@@ -64,13 +67,15 @@ TEST(EncompassingNoise, IsUnbiasedBesideAMisfitOfManyTimesTheNoise) {
     EXPECT_TRUE(found.alarm.raised) << seed;
     for (const NoiseSource& source : found.evidence.noise) {
       ASSERT_EQ(source.kind, NoiseSource::Kind::encompassing);
-      EXPECT_EQ(source.noise.relative, 0) << seed;
-      sum += std::pow(source.noise.absolute / 0.3, 2) / 80;
-      freedom += source.freedom / 80;
+      if (source.noise.relative > 0) continue;
+      ++white;
+      sum += std::pow(source.noise.absolute / 0.3, 2);
+      freedom += source.freedom;
     }
   }
-  EXPECT_GT(freedom, 15);
-  EXPECT_NEAR(sum, 1, 4 * std::sqrt(2 / (freedom * 80)));
+  EXPECT_GE(white, 70);
+  EXPECT_GT(freedom / white, 15);
+  EXPECT_NEAR(sum / white, 1, 4 * std::sqrt(2 / freedom));
 }
 
 // Seeds 1 … 100, nothing hidden: p-values are uniform. Of 100, 20 are below 0.2; four standard deviations: 6e-5.

@@ -91,7 +91,7 @@ void expect_the_same(const Diagnosis& a, const Diagnosis& b) {
   }
 }
 
-void hide_softening(json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("stress_softening", "d", 0.4)}; }
+void hide_softening(json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("stress_softening", "s", 0.5)}; }
 
 void hide_fibres(json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 6)}; }
 

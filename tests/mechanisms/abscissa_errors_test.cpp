@@ -106,8 +106,21 @@ TEST_P(ReferenceLength, ServesModelsWithMemory) {
   Values expected = values_of(*nominal, {0}, *material, parameters);
   for (std::size_t i = 0; i < measured.size(); ++i) expected[i] *= std::pow(measured[i], power);
   expect_near(values_of(*test, {0, error}, *material, parameters), expected, 1e-9);
+  // Rows depend on the abscissae before them: the column of the error is a difference, that of s is carried along.
   Values jacobian(4 * 10);
-  EXPECT_FALSE(test->predict({*material, parameters, Values{0, error}}, {{}, jacobian, {}, {}}).ok());
+  ASSERT_TRUE(test->predict({*material, parameters, Values{0, error}}, {{}, jacobian, {}, {}}).ok());
+  constexpr double h = 1e-5;
+  constexpr std::size_t s = 4, of_error = 9;
+  const auto moved = [&](double by_s, double by_error) {
+    Values p = parameters;
+    p[s] += by_s;
+    return values_of(*test, {0, error + by_error}, *material, p);
+  };
+  const Values soft = moved(h, 0), hard = moved(-h, 0), longer = moved(0, h), shorter = moved(0, -h);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(jacobian[4 * s + i], (soft[i] - hard[i]) / (2 * h), 1e-6 * expected[2]) << i;
+    EXPECT_NEAR(jacobian[4 * of_error + i], (longer[i] - shorter[i]) / (2 * h), 1e-5 * expected[2] / error) << i;
+  }
 }
 
 TEST_P(ReferenceLength, HasExactDerivativesBesideErrorsOfTheForce) {

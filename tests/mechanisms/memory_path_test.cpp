@@ -170,7 +170,8 @@ TEST_P(MemoryPath, OfATubeIsThatOnTensorsWithDerivativesByEverything) {
       const Status status = tube.test->predict({*one.remembering, p, own}, {values, jacobian, {}, {}});
       ASSERT_TRUE(status.ok()) << one.name << ": " << status.reason();
       ASSERT_TRUE(tube.test->predict({*one.on_tensors, p, own}, {slow, {}, {}, {}}).ok());
-      EXPECT_LE(testing::relative_difference(values, slow), 1e-8) << one.name;
+      // The sector of an opened tube is closed with the wall cut where fibres switch, on tensors without.
+      EXPECT_LE(testing::relative_difference(values, slow), own == testing::bare_tube ? 1e-8 : 1e-5) << one.name;
       for (std::size_t j = 0; j < models + 5; ++j) {
         if (j == models + testing::tethering) continue;  // the exception that the test declares
         double& moved = j < models ? p[j] : own[j - models];

@@ -66,9 +66,10 @@ Status predict_with_history(const Tube& tube, const Rule& rule, const TestInput&
   // At equilibrium only the elastic part of a model plays a part.
   SectorDerivative sector;
   const Model& elastic = input.model.elastic();
-  const Layers bare(followed ? TestInput{elastic, input.model_parameters.first(elastic.describe().parameters.size()),
-                                         input.test_parameters}
-                             : input);
+  const bool in_axes = input.layers.empty() && input.model.describe().axis_history_size > 0;
+  const TestInput without_memory{elastic, input.model_parameters.first(elastic.describe().parameters.size()),
+                                 input.test_parameters};
+  const Layers bare(in_axes ? without_memory : input);
   if (Status status = close_sector(tube, bare, rule, sections, wall, followed ? &sector : nullptr); !status.ok())
     return status;
   sections.begin(layers, wall, rule);
