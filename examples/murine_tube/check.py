@@ -87,7 +87,8 @@ for name, run in runs.items():
         loose = warned(name, "not_fixed_by_data", parameter)
         assert interval or found["at_bound"] or loose, f"{name}: {parameter} has no interval, and nobody says why"
         assert not interval or interval[0] < found["value"] < interval[1], f"{name}: {parameter} {interval}"
-        assert not loose or name in ("four_fibre/lm", "four_fibre/lm_8"), f"{name}: {parameter} is not fixed by the data"
+        widened = best.get("interval_factor", 1) > 1  # the model misses the data by more than the stated noise
+        assert not loose or widened or name in ("four_fibre/lm", "four_fibre/lm_8"), f"{name}: {parameter} is not fixed"
 
 for name in ONE:
     own, unseen = channels(name, "outer_diameter"), channels(name, "axial_force")
