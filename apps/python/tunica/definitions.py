@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Models, tests, optimisers and mechanisms written in Python. They take part like those of plugins: in experiment
+files, in the schema, in describe(), in runs and diagnoses."""
+import inspect
+from typing import NamedTuple
+
+import numpy
+
+from . import _core
+from .errors import InputError
+from .jets import Jet, variables
+from .library import library
+
+
+class Parameter(NamedTuple):
+    """A parameter of a definition, in its base unit. Bounds decide where a search goes; files may change them."""
+    name: str
+    unit: str = "kPa"
+    initial: float = 1.0
+    min: float = 1e-3
+    max: float = 1e3
+    log: bool = False
+    doc: str = ""
+    reference: str = ""
+
+
+def _parameters(declared):
+    """Parameters, or {"mu": ("kPa", 100, 1, 1e4)}."""
+    if isinstance(declared, dict):
+        declared = [Parameter(name, *about) for name, about in declared.items()]
+    return [parameter._asdict() for parameter in declared]
+
+
+def _options(declared):
+    """{"terms": 2} with its default, or {"terms": (2, "How many.")}."""
+    pairs = {name: about if isinstance(about, tuple) else (about, "") for name, about in declared.items()}
+    return [{"name": name, "default": default, "doc": doc} for name, (default, doc) in pairs.items()]
+
+
+def _sentence(documented, doc):
+    return doc or " ".join((inspect.getdoc(documented) or "Defined in Python.").split("\n\n")[0].split())
+
+
+class Strain:
+    """The right Cauchy–Green tensor C in material axes, as an energy sees it: numbers, or jets that carry derivatives.
+    C[0, 0] is circumferential, C[1, 1] axial, C[2, 2] radial."""
+
+    _PLACES = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (0, 1): 3, (1, 2): 4, (0, 2): 5}
+
+    def __init__(self, components):
+        self._components = list(components) + [0.0] * (6 - len(components))
+
+    def __getitem__(self, place):
+        return self._components[self._PLACES[min(place), max(place)]]
+
+    @property
+    def I1(self):
+        """tr C."""
+        return self[0, 0] + self[1, 1] + self[2, 2]
+
+    @property
+    def I2(self):
+        """½ (tr² C − tr C²)."""
+        minors = ((0, 1), (1, 2), (0, 2))
+        return sum(self[i, i] * self[j, j] - self[i, j] * self[i, j] for i, j in minors)
+
+    @property
+    def I3(self):
+        """det C; tests keep it at 1."""
+        a, b, c, d, e, f = self._components
+        return a * (b * c - e * e) - d * (d * c - e * f) + f * (d * e - b * f)
+
+    def along(self, degrees):
+        """a·C a, the squared stretch of fibres in the plane of the wall, with their angle in degrees from the axial
+        direction, as theta of the models of the plugins."""
+        angle = numpy.radians(degrees)
+        cosine, sine = numpy.cos(angle), numpy.sin(angle)
+        return sine * sine * self[0, 0] + cosine * cosine * self[1, 1] + 2 * cosine * sine * self[0, 1]
+
+
+class Energy:
+    """An energy function W(C, parameters…) with the derivatives that the core asks for."""
+
+    # W depends on C_tz through the two equal entries of the tensor: S_tz = 2 ∂W/∂C_tz = ∂W/∂x with x = C_tz = C_zt.
+    _HALF = numpy.array([1, 1, 1, 0.5, 0.5, 0.5])
+    _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+
+    def __init__(self, function, owner=()):
+        self._function, self._owner = function, owner
+
+    def _at(self, points, parameters):
+        n, d = points.shape[1], len(points)
+        jets = variables(numpy.vstack([points, numpy.repeat(parameters[:, None], n, axis=1)]), d)
+        energy = self._function(*self._owner, Strain(jets[:d]), *jets[d:])
+        if isinstance(energy, Jet):
+            return energy
+        zero = jets[0] * 0.0  # an energy that depends on nothing
+        return Jet(zero.value + energy, zero.first, zero.second)
+
+    def evaluate(self, C, parameters, wanted):
+        jet, half = self._at(C, parameters), self._HALF
+        found = {"energy": jet.value}
+        if "stress" in wanted:
+            found["stress"] = 2 * half[:, None] * jet.first[:6]
+        if "tangent" in wanted:
+            found["tangent"] = 4 * half[:, None, None] * half[None, :, None] * jet.second[:, :6]
+        if "stress_dp" in wanted:
+            found["stress_dp"] = 2 * half[None, :, None] * jet.second[:, 6:].transpose(1, 0, 2)
+        return found
+
+    def evaluate_axes(self, c, parameters, wanted):
+        jet = self._at(c, parameters)
+        found = {"energy": jet.value, "gradient": jet.first[:3], "energy_dp": jet.first[3:]}
+        if "hessian" in wanted:
+            found["hessian"] = numpy.stack([jet.second[a, b] for a, b in self._PAIRS])
+        if "gradient_dp" in wanted:
+            found["gradient_dp"] = jet.second[:, 3:].transpose(1, 0, 2)
+        return found
+
+
+def _energy_of(definition, options):
+    """The energy of a function, or of an object of a class that is made with the options."""
+    if inspect.isclass(definition):
+        return Energy(definition(**options).energy)
+    return Energy(lambda C, *parameters: definition(C, *parameters, **options))
+
+
+def model(name, parameters, *, options=None, doc="", reference="", principal_axes=True):
+    """Defines a model by its energy per reference volume, a function of a Strain and the parameters, written with
+    + - * / ** and numpy's functions. All derivatives follow from it, exactly.
+
+        @tunica.model("my_neo_hooke", {"mu": ("kPa", 400, 1, 1e4)})
+        def energy(C, mu):
+            return mu / 2 * (C.I1 - 3)
+
+    With options define a class: it is made with the options, and its method `energy` is the function. Set
+    principal_axes=False where stress and strain do not share their axes, as with a single oblique family of fibres.
+    A definition replaces an earlier one of the same name. What the function raises is a failed evaluation, whose reason
+    is the last line of the traceback.
+    """
+    def define(definition):
+        _core.define_model(library(), {
+            "name": name, "doc": _sentence(definition, doc), "reference": reference,
+            "parameters": _parameters(parameters), "options": _options(options or {}),
+            "principal_axes": principal_axes, "make": lambda **given: _energy_of(definition, given)})
+        return definition
+    return define
+
+
+def forget(name):
+    """Takes back what was defined under this name."""
+    library().forget(name)
