@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
-#include "arrays.hpp"
 #include "assembly/composition.hpp"
+#include "evaluation.hpp"
 #include "experiment/reader.hpp"
 #include "library.hpp"
 #include "module.hpp"
@@ -48,43 +48,10 @@ py::list parameters_of_material(const Material& material) {
   return all;
 }
 
-/// C of n points, component-major as MaterialPoints has it, and what is wanted of the response in the same layout.
 py::dict evaluate_material(const Material& material, const Array& deformations, const Array& parameters,
-                           const Array& times, bool tangent, bool stress_dp) {
-  const std::size_t n = static_cast<std::size_t>(deformations.size()) / 6;
-  const auto p = vector_of(parameters, material.description().parameters.size(), "parameters");
-  const std::size_t history = material.description().history_size;
-  std::vector<double> energy(n), stress(6 * n), by_deformation(tangent ? 36 * n : 0),
-      by_parameter(stress_dp ? 6 * n * p.size() : 0);
-  Status status;
-  {
-    const py::gil_scoped_release free;
-    const std::span<const double> all(deformations.data(), 6 * n), steps = span_of(times);
-    if (history == 0) {
-      status =
-          material.composed.model->evaluate({n, all, p, {}, {}}, {energy, stress, by_deformation, by_parameter, {}});
-    } else {
-      // With memory the points are the steps of one path, each from the state after the one before.
-      std::vector<double> before, after(history);
-      for (std::size_t i = 0; i < n && status.ok(); ++i) {
-        double point[6], found_energy[1], found_stress[6];
-        for (std::size_t c = 0; c < 6; ++c) point[c] = all[c * n + i];
-        status = material.composed.model->evaluate({1, point, p, steps.empty() ? steps : steps.subspan(i, 1), before},
-                                                   {found_energy, found_stress, {}, {}, after});
-        energy[i] = found_energy[0];
-        for (std::size_t c = 0; c < 6; ++c) stress[c * n + i] = found_stress[c];
-        before = after;
-      }
-    }
-  }
-  py::dict found;
-  found["status"] = name(status.kind());
-  found["reason"] = status.reason();
-  found["energy"] = array_of(energy);
-  found["stress"] = matrix_of(stress, 6, n);
-  if (tangent) found["tangent"] = matrix_of(by_deformation, 36, n);
-  if (stress_dp) found["stress_dp"] = matrix_of(by_parameter, 6 * p.size(), n);
-  return found;
+                           const Array& time_step, bool tangent) {
+  const auto values = vector_of(parameters, material.description().parameters.size(), "parameters");
+  return evaluate_points(*material.composed.model, values, deformations, time_step, tangent);
 }
 
 }  // namespace
@@ -96,6 +63,8 @@ void add_material(py::module_& module) {
       .def_property_readonly("parameters", &parameters_of_material)
       .def_property_readonly("remembers", [](const Material& self) { return self.description().history_size > 0; })
       .def("evaluate", &evaluate_material);
+  py::class_<MaterialOfTest, std::shared_ptr<MaterialOfTest>>(module, "MaterialOfTest")
+      .def("evaluate", &MaterialOfTest::evaluate);
 }
 
 }  // namespace tunica::python

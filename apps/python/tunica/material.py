@@ -42,14 +42,54 @@ def tensors(components):
     return full
 
 
-class Material:
+class Response:
+    """What a material answers, whoever holds it. Units are base units: kPa, s. Axes are those of the material:
+    circumferential, axial, radial. Stress has no pressure in it: that depends on the test."""
+
+    def _evaluate(self, C, F, stretches, time_step=None, tangent=False):
+        points = deformation(C, F, stretches)
+        steps = numpy.empty(0) if time_step is None else numpy.broadcast_to(
+            numpy.asarray(time_step, dtype=float), points.shape[1:]).copy()
+        found = self._answer(points, steps, tangent)
+        if found["status"] != "ok":
+            raise EvaluationError(found["reason"])
+        return found
+
+    def energy(self, *, C=None, F=None, stretches=None):
+        """W per reference volume, kPa, (n,)."""
+        return self._evaluate(C, F, stretches)["energy"]
+
+    def stress(self, *, C=None, F=None, stretches=None, time_step=None):
+        """Second Piola–Kirchhoff stress 2 ∂W/∂C without pressure, kPa, (n, 3, 3). Of a model with memory the points
+        are the steps of one path from rest, `time_step` s apart; without time loading is infinitely slow."""
+        return tensors(self._evaluate(C, F, stretches, time_step)["stress"])
+
+    def tangent(self, *, C=None, F=None, stretches=None):
+        """2 ∂S/∂C, kPa, (n, 6, 6) in the order tt, zz, rr, tz, zr, tr. Not of models with memory."""
+        found = self._evaluate(C, F, stretches, tangent=True)["tangent"]
+        return found.reshape(6, 6, -1).transpose(2, 0, 1)
+
+    def cauchy(self, *, F, time_step=None):
+        """Cauchy stress F S Fᵀ/J without pressure, kPa, (n, 3, 3)."""
+        F = numpy.asarray(F, dtype=float).reshape(-1, 3, 3)
+        S = self.stress(F=F, time_step=time_step)
+        return numpy.einsum("nij,njk,nlk->nil", F, S, F) / numpy.linalg.det(F)[:, None, None]
+
+    def axis_stress(self, stretches, free, time_step=None):
+        """Cauchy stresses along the axes of an incompressible material, kPa, (n, 3): the pressure is the one with which
+        the axis `free` (0, 1 or 2) bears none, σ_a = λ_a² S_aa − λ_f² S_ff."""
+        stretches = numpy.asarray(stretches, dtype=float).reshape(-1, 3)
+        along = stretches**2 * self._evaluate(None, None, stretches, time_step)["stress"][:3].T
+        return along - along[:, [free]]
+
+
+class Material(Response):
     """A model at parameters, as an entry of "models" in an experiment describes it.
 
         material = tunica.Material("gho", mu=10.0, k1=20.0)
         material = tunica.Material({"type": "ogden", "terms": 2, "mechanisms": [{"type": "viscoelasticity"}]})
 
-    Parameters that are not given have their fixed or initial value. Units are base units: kPa, deg, s. Axes are those
-    of the material: circumferential, axial, radial.
+    Parameters that are not given have their fixed or initial value, in base units.
     """
 
     def __init__(self, model, **parameters):
@@ -72,37 +112,20 @@ class Material:
         """{name: unit}."""
         return {about["name"]: about["unit"] for about in self._about}
 
-    def _evaluate(self, C, F, stretches, time_step, tangent=False):
-        points = deformation(C, F, stretches)
-        steps = numpy.empty(0) if time_step is None else numpy.broadcast_to(
-            numpy.asarray(time_step, dtype=float), points.shape[1:]).copy()
-        found = self._material.evaluate(points, numpy.array(list(self.parameters.values())), steps, tangent, False)
-        if found["status"] != "ok":
-            raise EvaluationError(found["reason"])
-        return points, found
-
-    def energy(self, *, C=None, F=None, stretches=None):
-        """W per reference volume, kPa, (n,)."""
-        return self._evaluate(C, F, stretches, None)[1]["energy"]
-
-    def stress(self, *, C=None, F=None, stretches=None, time_step=None):
-        """Second Piola–Kirchhoff stress 2 ∂W/∂C without pressure, kPa, (n, 3, 3). Of a model with memory the points
-        are the steps of one path from rest, `time_step` s apart; without time loading is infinitely slow."""
-        return tensors(self._evaluate(C, F, stretches, time_step)[1]["stress"])
-
-    def tangent(self, *, C=None, F=None, stretches=None):
-        """2 ∂S/∂C, kPa, (n, 6, 6) in the order tt, zz, rr, tz, zr, tr. Not of models with memory."""
-        if self._material.remembers:
-            raise InputError(f"the model '{self.type}' has memory: its tangent depends on the path")
-        found = self._evaluate(C, F, stretches, None, tangent=True)[1]["tangent"]
-        return found.reshape(6, 6, -1).transpose(2, 0, 1)
-
-    def cauchy(self, *, F, time_step=None):
-        """Cauchy stress F S Fᵀ/J without pressure, kPa, (n, 3, 3)."""
-        F = numpy.asarray(F, dtype=float).reshape(-1, 3, 3)
-        S = self.stress(F=F, time_step=time_step)
-        return numpy.einsum("nij,njk,nlk->nil", F, S, F) / numpy.linalg.det(F)[:, None, None]
+    def _answer(self, points, steps, tangent):
+        return self._material.evaluate(points, numpy.array(list(self.parameters.values())), steps, tangent)
 
     def __repr__(self):
         values = ", ".join(f"{name}={value:.6g}" for name, value in self.parameters.items())
         return f"<tunica.Material '{self.type}': {values}>"
+
+
+class MaterialInTest(Response):
+    """The material that a test written in Python is asked about, at the parameters of that evaluation. It is gone when
+    the prediction has ended."""
+
+    def __init__(self, material):
+        self._material = material
+
+    def _answer(self, points, steps, tangent):
+        return self._material.evaluate(points, steps, tangent)

@@ -12,6 +12,17 @@ from .errors import InputError
 from .table import Table
 
 
+def _once(method):
+    """Reads a file when it is first asked for, and keeps what it says."""
+    @functools.wraps(method)
+    def kept(self):
+        name = "_" + method.__name__
+        if name not in self.__dict__:
+            self.__dict__[name] = method(self)
+        return self.__dict__[name]
+    return kept
+
+
 class Estimate(float):
     """A parameter: its value, a number to calculate with, and what is known of it. All in `unit`."""
 
@@ -129,7 +140,8 @@ class Run:
     def converged(self):
         return self.json["converged"]
 
-    @functools.cached_property
+    @property
+    @_once
     def fit(self):
         """{test: Table}: measured and predicted, row by row."""
         tables = {}
@@ -148,7 +160,8 @@ class Run:
 class Result(Folder):
     """What tunica.run() found."""
 
-    @functools.cached_property
+    @property
+    @_once
     def runs(self):
         """{name: Run}, in the order of the experiment."""
         return {about["run"]: Run(self, about) for about in self.json["runs"]}
@@ -167,11 +180,13 @@ class Result(Folder):
         """Those of the best run."""
         return self.best.parameters
 
-    @functools.cached_property
+    @property
+    @_once
     def ranking(self):
         return self.table("ranking")
 
-    @functools.cached_property
+    @property
+    @_once
     def evaluations(self):
         """Every evaluation, in the order of evaluations.csv."""
         return self.table("evaluations")
@@ -212,7 +227,8 @@ class Diagnosis(Folder):
         file = self.directory / "extended.json"
         return file if file.exists() else None
 
-    @functools.cached_property
+    @property
+    @_once
     def residuals(self):
         return self.table("residuals")
 

@@ -1,44 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Models, tests, optimisers and mechanisms written in Python. They take part like those of plugins: in experiment
-files, in the schema, in describe(), in runs and diagnoses."""
-import inspect
-from typing import NamedTuple
-
+"""Models written in Python as an energy: all derivatives follow from it."""
 import numpy
 
 from . import _core
-from .errors import InputError
+from .declarations import head, method_of, parameters_of
 from .jets import Jet, variables
 from .library import library
-
-
-class Parameter(NamedTuple):
-    """A parameter of a definition, in its base unit. Bounds decide where a search goes; files may change them."""
-    name: str
-    unit: str = "kPa"
-    initial: float = 1.0
-    min: float = 1e-3
-    max: float = 1e3
-    log: bool = False
-    doc: str = ""
-    reference: str = ""
-
-
-def _parameters(declared):
-    """Parameters, or {"mu": ("kPa", 100, 1, 1e4)}."""
-    if isinstance(declared, dict):
-        declared = [Parameter(name, *about) for name, about in declared.items()]
-    return [parameter._asdict() for parameter in declared]
-
-
-def _options(declared):
-    """{"terms": 2} with its default, or {"terms": (2, "How many.")}."""
-    pairs = {name: about if isinstance(about, tuple) else (about, "") for name, about in declared.items()}
-    return [{"name": name, "default": default, "doc": doc} for name, (default, doc) in pairs.items()]
-
-
-def _sentence(documented, doc):
-    return doc or " ".join((inspect.getdoc(documented) or "Defined in Python.").split("\n\n")[0].split())
 
 
 class Strain:
@@ -85,13 +52,13 @@ class Energy:
     _HALF = numpy.array([1, 1, 1, 0.5, 0.5, 0.5])
     _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 
-    def __init__(self, function, owner=()):
-        self._function, self._owner = function, owner
+    def __init__(self, function):
+        self._function = function
 
     def _at(self, points, parameters):
         n, d = points.shape[1], len(points)
         jets = variables(numpy.vstack([points, numpy.repeat(parameters[:, None], n, axis=1)]), d)
-        energy = self._function(*self._owner, Strain(jets[:d]), *jets[d:])
+        energy = self._function(Strain(jets[:d]), *jets[d:])
         if isinstance(energy, Jet):
             return energy
         zero = jets[0] * 0.0  # an energy that depends on nothing
@@ -118,13 +85,6 @@ class Energy:
         return found
 
 
-def _energy_of(definition, options):
-    """The energy of a function, or of an object of a class that is made with the options."""
-    if inspect.isclass(definition):
-        return Energy(definition(**options).energy)
-    return Energy(lambda C, *parameters: definition(C, *parameters, **options))
-
-
 def model(name, parameters, *, options=None, doc="", reference="", principal_axes=True):
     """Defines a model by its energy per reference volume, a function of a Strain and the parameters, written with
     + - * / ** and numpy's functions. All derivatives follow from it, exactly.
@@ -133,20 +93,15 @@ def model(name, parameters, *, options=None, doc="", reference="", principal_axe
         def energy(C, mu):
             return mu / 2 * (C.I1 - 3)
 
-    With options define a class: it is made with the options, and its method `energy` is the function. Set
-    principal_axes=False where stress and strain do not share their axes, as with a single oblique family of fibres.
-    A definition replaces an earlier one of the same name. What the function raises is a failed evaluation, whose reason
-    is the last line of the traceback.
+    Options are keywords of the function; of a class they are those of __init__, and its method `energy` is the
+    function. Set principal_axes=False where stress and strain do not share their axes, as with a single oblique family
+    of fibres. A definition replaces an earlier one of the same name. What the function raises is a failed evaluation,
+    whose reason is the last line of the traceback.
     """
     def define(definition):
         _core.define_model(library(), {
-            "name": name, "doc": _sentence(definition, doc), "reference": reference,
-            "parameters": _parameters(parameters), "options": _options(options or {}),
-            "principal_axes": principal_axes, "make": lambda **given: _energy_of(definition, given)})
+            **head(name, definition, doc, reference, options), "parameters": parameters_of(parameters),
+            "principal_axes": principal_axes,
+            "make": lambda **given: Energy(method_of(definition, given, "energy"))})
         return definition
     return define
-
-
-def forget(name):
-    """Takes back what was defined under this name."""
-    library().forget(name)
