@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Python computes is what the command line computes, bit for bit."""
 import json
+import os
 
 import numpy
 
@@ -97,3 +98,19 @@ class CommandLine(Case):
         print(numpy.abs(fit["stress"] - fit["stress.predicted"]).max())
         self.assertEqual(1, result.json["ranking"][0]["rank"])
         self.assertIn("k1", result.parameters)
+
+    def test_a_table_in_memory_is_the_file_that_it_came_from(self):
+        experiment = of_treloar({"type": "yeoh"})
+        of_files = tunica.run(experiment, self.folder / "files", base=TRELOAR)
+        os.environ["XDG_CACHE_HOME"] = str(self.folder / "cache")
+        self.addCleanup(os.environ.pop, "XDG_CACHE_HOME")
+        kinds = {"uniaxial": lambda table: table, "equibiaxial": dict, "pure_shear": lambda table: table.frame()}
+        for test, kind in kinds.items():
+            data = experiment["tests"][test]["data"]
+            data["table"] = kind(tunica.Table.read(TRELOAR / data.pop("file")))
+        of_tables = tunica.run(experiment, self.folder / "tables")
+        self.assertEqual({**of_files.parameters}, {**of_tables.parameters})
+        self.assertEqual(3, len(list((self.folder / "cache" / "tunica").iterdir())))
+        experiment["tests"]["uniaxial"]["data"]["table"] = {"stretch": [1.0, 2.0], "stress": [0.0]}
+        with self.assertRaisesRegex(tunica.InputError, "/tests/uniaxial/data/table"):
+            tunica.read(experiment)

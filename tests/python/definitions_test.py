@@ -113,3 +113,15 @@ class Definitions(Case):
     def test_a_declaration_that_makes_no_sense_is_refused(self):
         with self.assertRaisesRegex(tunica.InputError, "min ≤ initial ≤ max"):
             tunica.model("py_wrong", {"mu": ("kPa", 1, 2, 3)})(lambda C, mu: mu)
+
+    def test_a_fresh_process_certifies_what_a_module_defines(self):
+        module = tunica.run(of_treloar({"type": "py_neo_hooke"}), self.folder / "module", base=TRELOAR)
+        self.assertTrue(module.best.best["certificate"]["fresh_process"])
+        neo_hooke.__module__, kept = "__main__", neo_hooke.__module__
+        try:
+            tunica.model("py_loose", {"mu": ("kPa", 100, 1, 1e4, True)})(neo_hooke)
+        finally:
+            neo_hooke.__module__ = kept
+        loose = tunica.run(of_treloar({"type": "py_loose"}), self.folder / "loose", base=TRELOAR)
+        self.assertFalse(loose.best.best["certificate"]["fresh_process"])
+        self.assertIn("'py_loose' is defined in a notebook or a script", str(loose.best.best["certificate"]))

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""python3 -m tunica.certify FOLDER POINTS: evaluates the best points of a run in a process of its own."""
+"""python3 -m tunica.certify FOLDER POINTS MODULE...: evaluates the best points of a run in a process of its own, which
+knows of the run what is in the folder, and of definitions those of the modules."""
+import importlib
 import sys
 
 from tunica.verbs import certify
 
 if __name__ == "__main__":
-    sys.stdout.write(certify(*sys.argv[1:]))
+    for module in sys.argv[3:]:
+        importlib.import_module(module)
+    sys.stdout.write(certify(*sys.argv[1:3]))

@@ -49,8 +49,13 @@ def options_of(declared):
     return [{"name": name, "default": default, "doc": doc} for name, (default, doc) in pairs.items()]
 
 
+#: {name: module} of what was defined, for processes that have to know it too
+modules = {}
+
+
 def head(name, definition, doc, reference, options):
     """What all kinds have in common. The sentence is the first one of the docstring unless given."""
+    modules[name] = getattr(definition, "__module__", None) or "__main__"
     written = inspect.getdoc(definition) if inspect.isfunction(definition) or inspect.isclass(definition) else None
     sentence = doc or " ".join((written or "Defined in Python.").split("\n\n")[0].split())
     return {"name": name, "doc": sentence, "reference": reference, "options": options_of(options)}
@@ -69,3 +74,4 @@ def method_of(definition, options, method):
 def forget(name):
     """Takes back what was defined under this name."""
     library().forget(name)
+    modules.pop(name, None)

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The plugins of this process, and how an experiment is read from what the user has: a file, a dictionary."""
+import csv
+import hashlib
+import io
 import json
+import os
 import pathlib
+import tempfile
 import threading
 import warnings
 
@@ -53,6 +58,45 @@ def _plain(value):
                     "dictionaries, lists, text, numbers, True, False and None")
 
 
+def _kept(table, place):
+    """The file of a table: its name is the hash of what is in it, so that the same data are the same file."""
+    try:
+        columns = {str(name): numpy.asarray(table[name]) for name in table}
+        lengths = {len(column) for column in columns.values()}
+    except TypeError:
+        columns, lengths = {}, set()
+    if len(lengths) != 1:
+        raise InputError(f"{place}: found a table with columns of the lengths {sorted(lengths)}; expected a frame, or a "
+                         "dictionary with columns of one length")
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*(column.tolist() for column in columns.values())))  # floats as they read back bit for bit
+    text = stream.getvalue()
+    folder = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "tunica"
+    file = folder / f"{hashlib.sha256(text.encode()).hexdigest()}.csv"
+    if not file.exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=folder, suffix=".part", delete=False, encoding="utf-8") as part:
+            part.write(text)
+        os.replace(part.name, file)
+    return str(file)
+
+
+def _with_files(experiment):
+    """The experiment with a file in place of each table that its tests have."""
+    tests = experiment.get("tests")
+    if not isinstance(tests, dict):
+        return experiment
+    changed = dict(tests)
+    for name, test in tests.items():
+        data = test.get("data") if isinstance(test, dict) else None
+        if isinstance(data, dict) and "table" in data and "file" not in data:
+            rest = {key: value for key, value in data.items() if key != "table"}
+            changed[name] = {**test, "data": {"file": _kept(data["table"], f"/tests/{name}/data/table"), **rest}}
+    return {**experiment, "tests": changed}
+
+
 class Experiment:
     """An experiment that has been read and checked: every name, unit and number in it is known to fit."""
 
@@ -78,13 +122,14 @@ class Experiment:
 
 def read(experiment, base="."):
     """Reads an experiment: the path of a file, or a dictionary with the same keys, whose data files are relative to
-    the folder `base`. What is an Experiment already is returned as it is. Raises InputError, which names file, line and
-    key; a line of a dictionary counts the lines of `json.dumps(experiment, indent=2)`."""
+    the folder `base`; "table" in place of "file" is a frame or a dictionary of columns. What is an Experiment already
+    is returned as it is. Raises InputError, which names file, line and key; a line of a dictionary counts the lines of
+    `json.dumps(experiment, indent=2)`."""
     if isinstance(experiment, Experiment):
         return experiment
     if isinstance(experiment, dict):
         try:
-            text = json.dumps({"name": "experiment", **experiment} if "name" not in experiment else experiment,
+            text = json.dumps({**({} if "name" in experiment else {"name": "experiment"}), **_with_files(experiment)},
                               indent=2, default=_plain, allow_nan=False)
         except (TypeError, ValueError) as problem:
             raise InputError(str(problem)) from None

@@ -8,6 +8,7 @@ import sys
 import tempfile
 
 from . import _core
+from .declarations import modules
 from .errors import Interrupted, WriteFailure
 from .library import library, read
 from .results import Check, Diagnosis, Result, Simulation
@@ -41,13 +42,30 @@ def _listener(progress):
     return _Line() if progress is True else progress or None
 
 
+def _types(value):
+    """Every text under a key "type"."""
+    if isinstance(value, list):
+        return set().union(*map(_types, value))
+    if not isinstance(value, dict):
+        return set()
+    found = set().union(*map(_types, value.values()))
+    return found | {value["type"]} if isinstance(value.get("type"), str) else found
+
+
 def _certify(folder, points):
     """The best points, evaluated by a Python process that has seen nothing of the search. Returns its answer, or why
     there is none."""
+    used = _types(json.loads((pathlib.Path(folder) / "input.json").read_text(encoding="utf-8"))) & set(modules)
+    loose = sorted(name for name in used if modules[name] == "__main__")
+    if loose:
+        return "", (f"'{loose[0]}' is defined in a notebook or a script, which a fresh process does not have; define it "
+                    "in a module, and import that")
     package = str(pathlib.Path(_core.__file__).absolute().parent.parent)
-    paths = [package] + [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
-    answer = subprocess.run([sys.executable, "-m", "tunica.certify", folder, points], capture_output=True, text=True,
-                            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)}, check=False)
+    paths = [package] + [path or os.getcwd() for path in sys.path]
+    answer = subprocess.run([sys.executable, "-m", "tunica.certify", folder, points, *sorted({modules[name]
+                                                                                              for name in used})],
+                            capture_output=True, text=True, check=False,
+                            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)})
     if answer.returncode:
         last = answer.stderr.strip().splitlines()
         return "", f"it ended with code {answer.returncode}" + (f": {last[-1]}" if last else "")
