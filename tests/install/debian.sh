@@ -55,6 +55,5 @@ chroot "$root" bash -euc 'export DEBIAN_FRONTEND=noninteractive
   apt-get -q install -y --no-install-recommends /tmp/python3-tunica_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
   cd /root/try && python3 -c "
 import tunica
-result = tunica.run(\"my_model/experiment.json\", \"out_python\") if \"my_model\" in tunica.names()[\"models\"] else None
 print(tunica.__version__, len(tunica.names()[\"models\"]), \"models\", tunica.Material(\"neo_hooke\", mu=10.0))"'
 say "done"

@@ -126,7 +126,8 @@ def python():
     (here / "use.py").write_text(
         "import json, sys, tunica\n"
         "result = tunica.run(sys.argv[1], 'out', certificate=True)\n"
-        "print(json.dumps([tunica.__file__, result.best.best['certificate']['fresh_process'], len(tunica.names()['models'])]))\n")
+        "certified = result.best.best['certificate']['fresh_process']\n"
+        "print(json.dumps([tunica.__file__, certified, len(tunica.names()['models'])]))\n")
     shown = run("env", f"PYTHONPATH={package}", told.python, "-B", "use.py",
                 told.source / "examples/treloar/experiment.json", cwd=here)
     file, certified, models = json.loads(shown.splitlines()[-1])

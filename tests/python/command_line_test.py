@@ -46,7 +46,8 @@ class CommandLine(Case):
             for problem in found["problems"]:
                 problem["initial"].pop("seconds")
             return found
-        self.assertEqual(timeless(json.loads(program("check", experiment, "--json"))), timeless(tunica.check(experiment)))
+        self.assertEqual(timeless(json.loads(program("check", experiment, "--json"))),
+                         timeless(tunica.check(experiment)))
         self.assertTrue(tunica.check(experiment).in_order)
 
     def test_a_simulation_has_the_numbers_of_the_program(self):

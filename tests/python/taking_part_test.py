@@ -74,7 +74,8 @@ class Tests(Case):
             x = theirs.initial
             numpy.testing.assert_allclose(mine.residuals(x), theirs.residuals(x), rtol=1e-9, atol=1e-9)
             reference = theirs.jacobian(x)
-            numpy.testing.assert_allclose(mine.jacobian(x), reference, rtol=1e-6, atol=1e-7 * numpy.abs(reference).max())
+            numpy.testing.assert_allclose(mine.jacobian(x), reference, rtol=1e-6,
+                                          atol=1e-7 * numpy.abs(reference).max())
 
     def test_it_is_fitted_with_any_number_of_threads_to_the_same_bits(self):
         experiment = one_test("py_uniaxial", {"type": "mooney_rivlin"})
@@ -108,7 +109,8 @@ class Tests(Case):
         failed = result.evaluations["status"] == "failed"
         self.assertEqual(300, result.evaluations.rows)
         self.assertTrue(0 < failed.sum() < 300)
-        self.assertIn("ValueError: the strip is torn (taking_part_test.py, line", result.evaluations["reason"][failed][0])
+        self.assertIn("ValueError: the strip is torn (taking_part_test.py, line",
+                      result.evaluations["reason"][failed][0])
         self.assertTrue(result.best.found)
 
     def test_wrong_answers_are_failures_that_say_what_was_expected(self):

@@ -24,7 +24,8 @@ problem.evaluate(problem.initial, jacobian=True).jacobian
 
 class Types(Case):
     def mypy(self, *arguments, ignore_errors=False):
-        (self.folder / "mypy.ini").write_text(f"[mypy]\nignore_missing_imports = True\nignore_errors = {ignore_errors}\n")
+        (self.folder / "mypy.ini").write_text(f"[mypy]\nignore_missing_imports = True\n"
+                                              f"ignore_errors = {ignore_errors}\n")
         return subprocess.run([sys.executable, "-B", "-m", *arguments], capture_output=True, text=True, cwd=self.folder,
                               check=False)
 
@@ -40,5 +41,5 @@ class Types(Case):
         right, wrong = (self.mypy("mypy", "--strict", "--config-file", "mypy.ini", f"{name}.py")
                         for name in ("right", "wrong"))
         self.assertEqual(0, right.returncode, right.stdout)
-        self.assertEqual(["arg-type", "attr-defined"],
-                         [line.rpartition("[")[2].rstrip("]") for line in wrong.stdout.splitlines() if "error:" in line])
+        codes = [line.rpartition("[")[2].rstrip("]") for line in wrong.stdout.splitlines() if "error:" in line]
+        self.assertEqual(["arg-type", "attr-defined"], codes)

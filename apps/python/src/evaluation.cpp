@@ -56,7 +56,8 @@ py::dict evaluate_points(const Model& model, std::span<const double> parameters,
 
 py::dict MaterialOfTest::evaluate(const Array& deformations, const Array& time_step, bool tangent) const {
   if (input_ == nullptr)
-    throw InputError("the material of a prediction is gone when the prediction has ended; do not keep it");
+    throw InputError(
+        "the material of a prediction is gone when the prediction has ended; take what you need of it before");
   return evaluate_points(input_->model, input_->model_parameters, deformations, time_step, tangent);
 }
 

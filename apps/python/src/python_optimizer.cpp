@@ -20,7 +20,7 @@ py::tuple told(const Status& status, double objective) {
 
 Problem& SearchOfOptimizer::get() const {
   if (problem_ == nullptr)
-    throw InputError("the problem of a search is gone when the search has ended; do not keep it");
+    throw InputError("the problem of a search is gone when the search has ended; take what you need of it before");
   return *problem_;
 }
 

@@ -66,8 +66,8 @@ def _kept(table, place):
     except TypeError:
         columns, lengths = {}, set()
     if len(lengths) != 1:
-        raise InputError(f"{place}: found a table with columns of the lengths {sorted(lengths)}; expected a frame, or a "
-                         "dictionary with columns of one length")
+        raise InputError(f"{place}: found a table with columns of the lengths {sorted(lengths)}; expected a frame, or "
+                         "a dictionary with columns of one length")
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)

@@ -86,7 +86,7 @@ class Folder:
     def _repr_html_(self):
         """The report with its charts. Scripts run in a frame of their own, which reaches nothing outside of it."""
         page = html.escape(self.report.read_text(encoding="utf-8"), quote=True)
-        return (f'<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 45em; border: 1px solid #ccc" '
+        return (f'<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 45em; border: 1px solid" '
                 f'title="Report of {html.escape(self.name, quote=True)}" srcdoc="{page}"></iframe>')
 
 

@@ -58,8 +58,8 @@ def _certify(folder, points):
     used = _types(json.loads((pathlib.Path(folder) / "input.json").read_text(encoding="utf-8"))) & set(modules)
     loose = sorted(name for name in used if modules[name] == "__main__")
     if loose:
-        return "", (f"'{loose[0]}' is defined in a notebook or a script, which a fresh process does not have; define it "
-                    "in a module, and import that")
+        return "", (f"'{loose[0]}' is defined in a notebook or a script, which a fresh process does not have; define "
+                    "it in a module, and import that")
     package = str(pathlib.Path(_core.__file__).absolute().parent.parent)
     paths = [package] + [path or os.getcwd() for path in sys.path]
     answer = subprocess.run([sys.executable, "-m", "tunica.certify", folder, points, *sorted({modules[name]
@@ -93,8 +93,8 @@ def run(experiment, directory=None, *, base=".", threads=None, seed=None, profil
         if isinstance(listener, _Line):
             listener.clear()
     if found["ending"] == "interrupted":
-        raise Interrupted(f"interrupted; everything so far is saved. Go on with run(…, directory={found['directory']!r}, "
-                          "resume=True)", found["directory"])
+        raise Interrupted(f"interrupted; everything so far is saved. Go on with "
+                          f"run(…, directory={found['directory']!r}, resume=True)", found["directory"])
     if found["ending"] == "write_failure":
         raise WriteFailure(f"{found['write_failure']}. Then go on with run(…, directory={found['directory']!r}, "
                            "resume=True)")
