@@ -91,15 +91,6 @@ class CommandLine(Case):
         again = tunica.open(self.folder / "run")
         self.assertEqual(result.parameters, again.parameters)
 
-    def test_the_readme_in_five_lines(self):
-        import tunica
-        result = tunica.run(EXAMPLES / "lamb_aorta" / "experiment.json", self.folder / "run")
-        print(result.best.name, result.parameters)
-        fit = result.best.fit["circumferential_strip"]
-        print(numpy.abs(fit["stress"] - fit["stress.predicted"]).max())
-        self.assertEqual(1, result.json["ranking"][0]["rank"])
-        self.assertIn("k1", result.parameters)
-
     def test_a_table_in_memory_is_the_file_that_it_came_from(self):
         experiment = of_treloar({"type": "yeoh"})
         of_files = tunica.run(experiment, self.folder / "files", base=TRELOAR)
