@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Ctrl-C, and a progress function that raises: what was searched is saved, and goes on to the identical result."""
+import json
 import os
 import signal
+import subprocess
+import sys
 import threading
 
 import tunica
@@ -37,6 +40,33 @@ class Interrupts(Case):
         self.assertFalse((self.folder / "part" / "result.json").exists())
         resumed = tunica.run(SHORT_LAST, self.folder / "part", base=TRELOAR, threads=1, resume=True)
         self.assertEqual(result_of(whole.directory), result_of(resumed.directory))
+
+    def test_a_killed_run_of_a_definition_is_resumed_to_the_identical_result(self):
+        (self.folder / "mine.py").write_text(
+            "import sys, tunica\n"
+            "@tunica.model('mine', {'c10': ('kPa', 100, 0, 1000), 'c01': ('kPa', 10, 0, 1000)})\n"
+            "def energy(C, c10, c01):\n"
+            "    return c10 * (C.I1 - 3) + c01 * (C.I2 - 3)\n"
+            "experiment, folder, resume = sys.argv[1:]\n"
+            "tunica.run(experiment, folder, resume=resume == 'yes', certificate=False)\n")
+        experiment = of_treloar({"type": "mine"}, {"type": "es"}, 3000)
+        for test in experiment["tests"].values():
+            test["data"]["file"] = str(TRELOAR / test["data"]["file"])
+        (self.folder / "experiment.json").write_text(json.dumps(experiment))
+
+        def start(folder, resume="no"):
+            return subprocess.Popen([sys.executable, "-B", "mine.py", "experiment.json", folder, resume],
+                                    cwd=self.folder)
+        killed = start("killed")
+        table = self.folder / "killed" / "evaluations.csv"
+        while not table.exists() or table.stat().st_size < 20000:
+            self.assertIsNone(killed.poll(), "the run ended before it could be killed")
+        killed.kill()
+        killed.wait()
+        for folder, resume in (("killed", "yes"), ("whole", "no")):
+            self.assertEqual(0, start(folder, resume).wait())
+        self.assertEqual(result_of(self.folder / "whole"), result_of(self.folder / "killed"))
+        self.assertEqual(3000, tunica.open(self.folder / "killed").evaluations.rows)
 
     def test_signals_do_afterwards_what_they_did_before(self):
         before = signal.getsignal(signal.SIGINT)

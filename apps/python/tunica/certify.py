@@ -6,7 +6,12 @@ import sys
 
 from tunica.verbs import certify
 
-if __name__ == "__main__":
-    for module in sys.argv[3:]:
+
+def main(folder, points, *modules):
+    for module in modules:
         importlib.import_module(module)
-    sys.stdout.write(certify(*sys.argv[1:3]))
+    sys.stdout.write(certify(folder, points))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
