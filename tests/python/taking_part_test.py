@@ -227,6 +227,18 @@ class Mechanisms(Case):
             shift = problem.predict(x)[("uniaxial", "stress")] - bare.predict([321.0])[("uniaxial", "stress")]
             numpy.testing.assert_allclose(shift, value, atol=1e-9)
 
+    def test_what_a_mechanism_raises_is_a_failed_evaluation(self):
+        @tunica.mechanism("py_broken", {"a": ("kPa", 0, -1, 1)}, acts_on="readings", side="both")
+        def broken(predicted, rows, a):
+            return {"stress": predicted["stres"] + a}
+        experiment = of_treloar({"type": "neo_hooke"})
+        experiment["tests"]["uniaxial"]["mechanisms"] = [{"type": "py_broken"}]
+        problem = tunica.Problem(experiment, base=TRELOAR)
+        found = problem.evaluate(problem.vector({"uniaxial.py_broken.a": 0.5}))
+        self.assertEqual("failed", found.status)
+        self.assertIn("mechanism 'py_broken': KeyError: 'stres' (taking_part_test.py, line", found.reason)
+        self.assertEqual("ok", problem.evaluate(problem.vector({"uniaxial.py_broken.a": 0.0})).status)
+
     def test_a_diagnosis_considers_it_and_names_it(self):
         data = of_treloar({"type": "mooney_rivlin"})
         tunica.simulate(data, "rubber", {"c10": 150.0, "c01": 12.0}, self.folder / "data", base=TRELOAR, noise=0.005,
@@ -253,6 +265,17 @@ class Declarations(Case):
                       lambda: tunica.test("py_c", {"stretch": ("1", "abscissa")})(lambda material, rows: {})):
             with self.assertRaises(tunica.InputError):
                 wrong()
+
+    def test_what_the_making_of_a_definition_raises_is_an_input_error(self):
+        @tunica.model("py_unmade", {"mu": ("kPa", 1, 0.1, 10)}, options={"terms": 2})
+        class Unmade:
+            def __init__(self, terms):
+                raise ValueError(f"{terms} terms are too many for me")
+        with self.assertRaisesRegex(tunica.InputError, "ValueError: 2 terms are too many for me"):
+            tunica.Material("py_unmade")
+        with self.assertRaisesRegex(tunica.InputError, "ValueError: 2 terms are too many for me"):
+            tunica.run(of_treloar({"type": "py_unmade"}), self.folder / "run", base=TRELOAR)
+        self.assertFalse((self.folder / "run").exists())
 
     def test_definitions_are_in_the_schema(self):
         text = str(tunica.schema())
