@@ -55,17 +55,20 @@ class Energy:
     def __init__(self, function):
         self._function = function
 
-    def _at(self, points, parameters):
+    def _at(self, points, parameters, by_parameters, twice):
+        """The energy as a jet: by the components, and where wanted by the parameters and twice."""
         n, d = points.shape[1], len(points)
-        jets = variables(numpy.vstack([points, numpy.repeat(parameters[:, None], n, axis=1)]), d)
-        energy = self._function(Strain(jets[:d]), *jets[d:])
-        if isinstance(energy, Jet):
-            return energy
-        zero = jets[0] * 0.0  # an energy that depends on nothing
-        return Jet(zero.value + energy, zero.first, zero.second)
+        count = len(parameters) if by_parameters else 0
+        second = d if twice else 0
+        components = variables(points, 0, d + count, second)
+        own = variables(parameters[:, None], d, d + count, second) if by_parameters else parameters.tolist()
+        energy = self._function(Strain(components), *own)
+        zero = components[0] * 0.0  # whatever the energy depends on, there is a value a point
+        return zero + energy if not isinstance(energy, Jet) or energy.value.shape != (n,) else energy
 
     def evaluate(self, C, parameters, wanted):
-        jet, half = self._at(C, parameters), self._HALF
+        by_parameters, half = "stress_dp" in wanted, self._HALF
+        jet = self._at(C, parameters, by_parameters, by_parameters or "tangent" in wanted)
         found = {"energy": jet.value}
         if "stress" in wanted:
             found["stress"] = 2 * half[:, None] * jet.first[:6]
@@ -76,7 +79,8 @@ class Energy:
         return found
 
     def evaluate_axes(self, c, parameters, wanted):
-        jet = self._at(c, parameters)
+        by_parameters = "gradient_dp" in wanted or "energy_dp" in wanted
+        jet = self._at(c, parameters, by_parameters, "hessian" in wanted or "gradient_dp" in wanted)
         found = {"energy": jet.value, "gradient": jet.first[:3], "energy_dp": jet.first[3:]}
         if "hessian" in wanted:
             found["hessian"] = numpy.stack([jet.second[a, b] for a, b in self._PAIRS])

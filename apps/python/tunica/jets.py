@@ -28,6 +28,13 @@ class Jet:
         outer = self.first[:d, None] * self.first[None]
         return Jet(value, d1 * self.first, d1 * self.second + d2 * outer)
 
+    def joined(self, other, value, da, db, daa, dab, dbb):
+        """f of this jet a and another b, from the value and the partial derivatives of f."""
+        d = self.second.shape[0]
+        a, b, a_d, b_d = self.first[None], other.first[None], self.first[:d, None], other.first[:d, None]
+        return Jet(value, da * self.first + db * other.first,
+                   da * self.second + db * other.second + daa * a_d * a + dab * (a_d * b + b_d * a) + dbb * b_d * b)
+
     def __add__(self, other):
         if _constant(other):
             return Jet(self.value + other, self.first, self.second)
@@ -53,26 +60,37 @@ class Jet:
     def __rsub__(self, other):
         return -self + other
 
-    def reciprocal(self):
-        inverse = 1 / self.value
-        return self.chained(inverse, -inverse**2, 2 * inverse**3)
-
+    # Values are those of the same operation between numbers, bit for bit: with derivatives or without.
     def __truediv__(self, other):
-        return self * (1 / other if _constant(other) else other.reciprocal())
+        if _constant(other):
+            return Jet(self.value / other, self.first / other, self.second / other)
+        b, quotient = other.value, self.value / other.value
+        return self.joined(other, quotient, 1 / b, -quotient / b, 0.0, -1 / b**2, 2 * quotient / b**2)
 
     def __rtruediv__(self, other):
-        return self.reciprocal() * other
+        b, quotient = self.value, other / self.value
+        return self.chained(quotient, -quotient / b, 2 * quotient / b**2)
 
     def __pow__(self, power):
         if not _constant(power):
-            return numpy.exp(power * numpy.log(self))
+            return self._to_a_jet(power)
         def term(k):  # the derivative of a constant is 0 at 0 too
             factor = numpy.prod([power - i for i in range(k)])
             return factor * self.value**(power - k) if factor else numpy.zeros_like(self.value)
         return self.chained(self.value**power, term(1), term(2))
 
+    def _to_a_jet(self, power):
+        """a^b: its limits at a = 0 are those of b > 2."""
+        a, b = numpy.broadcast_arrays(self.value, power.value)
+        value = a**b
+        with numpy.errstate(divide="ignore"):
+            logarithm = numpy.where(a == 0, 0.0, numpy.log(a))
+        return self.joined(power, value, b * a**(b - 1), value * logarithm, b * (b - 1) * a**(b - 2),
+                           a**(b - 1) * (1 + b * logarithm), value * logarithm**2)
+
     def __rpow__(self, base):
-        return numpy.exp(self * numpy.log(base))
+        value, logarithm = base**self.value, numpy.log(base)
+        return self.chained(value, logarithm * value, logarithm**2 * value)
 
     def __abs__(self):
         return self * numpy.sign(self.value)
@@ -159,12 +177,12 @@ BINARY = {
 COMPARISONS = {numpy.less, numpy.less_equal, numpy.greater, numpy.greater_equal}
 
 
-def variables(values, second):
-    """One jet for each row of `values`, (m, n), with second derivatives by the first `second` of them."""
-    m, n = values.shape
+def variables(values, at, m, second):
+    """A jet for each row of `values`, which are variables at, at + 1, … of m. `second` is d. Rows of one value stand for
+    all points: they broadcast."""
     jets = []
-    for j in range(m):
-        first = numpy.zeros((m, n))
-        first[j] = 1
-        jets.append(Jet(values[j].copy(), first, numpy.zeros((second, m, n))))
+    for k, row in enumerate(values):
+        first = numpy.zeros((m, len(row)))
+        first[at + k] = 1
+        jets.append(Jet(row.copy(), first, numpy.zeros((second, m, len(row)))))
     return jets
