@@ -57,6 +57,8 @@ class CommandLine(Case):
                 self.folder / "a", "--noise", 0.02, "--seed", 3)
         given = tunica.simulate(experiment, "yeoh", result, self.folder / "b", noise=0.02, seed=3)
         by_run = tunica.simulate(experiment, "yeoh", result.runs["yeoh/lm"], noise=0.02, seed=3)
+        self.assertIn("<iframe", given._repr_html_())
+        self.assertIn("<table>", by_run._repr_html_())
         for test in ("uniaxial", "equibiaxial", "pure_shear"):
             self.assertEqual((self.folder / "a" / f"{test}.csv").read_bytes(),
                              (self.folder / "b" / f"{test}.csv").read_bytes())
@@ -88,6 +90,10 @@ class CommandLine(Case):
         stretch = fit["stretch"]
         numpy.testing.assert_allclose(fit["stress.predicted"], mu * (stretch - stretch**-2), rtol=1e-9)
         self.assertEqual(result.json["runs"][0]["evaluations"], result.evaluations.rows)
+        frame, table = result.frame(), fit.frame()
+        self.assertEqual([("rubber/lm", "mu", float(mu))],
+                         list(frame[["run", "parameter", "value"]].itertuples(index=False, name=None)))
+        numpy.testing.assert_array_equal(table["stretch [1]"], stretch)
         again = tunica.open(self.folder / "run")
         self.assertEqual(result.parameters, again.parameters)
 

@@ -53,6 +53,13 @@ class Estimate(float):
         return Estimate, (float(self), self.about)
 
 
+def _framed(report, name):
+    """The report with its charts. Scripts run in a frame of their own, which reaches nothing outside of it."""
+    page = html.escape(report.read_text(encoding="utf-8"), quote=True)
+    return ('<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 45em; border: 1px solid" '
+            f'title="Report of {html.escape(name, quote=True)}" srcdoc="{page}"></iframe>')
+
+
 class Folder:
     """What a folder of results holds. It is as good when it is opened years later: tunica.open(folder)."""
 
@@ -84,10 +91,7 @@ class Folder:
         return Table.read(file)
 
     def _repr_html_(self):
-        """The report with its charts. Scripts run in a frame of their own, which reaches nothing outside of it."""
-        page = html.escape(self.report.read_text(encoding="utf-8"), quote=True)
-        return (f'<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 45em; border: 1px solid" '
-                f'title="Report of {html.escape(self.name, quote=True)}" srcdoc="{page}"></iframe>')
+        return _framed(self.report, self.name)
 
 
 class Run:
@@ -251,6 +255,11 @@ class Simulation:
 
     def __getitem__(self, test):
         return self.tables[test]
+
+    def _repr_html_(self):
+        if self.directory is not None:
+            return _framed(self.directory / "report.html", self.model)
+        return "".join(f"<h4>{html.escape(test)}</h4>{table._repr_html_()}" for test, table in self.tables.items())
 
     def __repr__(self):
         return f"<tunica.Simulation of {', '.join(self.tables)} with '{self.model}'>"
