@@ -73,6 +73,7 @@ struct TestEntry {
   data::DataRequest data;
   std::vector<double> weights;  ///< one per mapped channel, in the order of data.columns' channels
   HoldOut hold_out;
+  std::filesystem::path folder = {};  ///< where files that options name are looked for, absolute
 };
 
 enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
