@@ -126,3 +126,16 @@ class Definitions(Case):
         loose = tunica.run(of_treloar({"type": "py_loose"}), self.folder / "loose", base=TRELOAR)
         self.assertFalse(loose.best.best["certificate"]["fresh_process"])
         self.assertIn("'py_loose' is defined in a notebook or a script", str(loose.best.best["certificate"]))
+
+    def test_memory_comes_from_mechanisms_around_it(self):
+        entry = {"mechanisms": [{"type": "viscoelasticity"}]}
+        path = numpy.repeat([[1.1, 1 / 1.1, 1.0], [1.5, 1 / 1.5, 1.0]], 3, axis=0)
+        found = []
+        for kind, mu in (("py_neo_hooke", "mu"), ("neo_hooke", "mu")):
+            material = tunica.Material({"type": kind, **entry}, mu=30.0)
+            material.parameters.update(zip(list(material.parameters)[1:], (0.5, 2.0)))
+            found.append(material.stress(stretches=path, time_step=[0, 1, 1, 1, 1, 1]))
+        numpy.testing.assert_allclose(*found, rtol=1e-10, atol=1e-10)
+        self.assertFalse(numpy.allclose(found[0][0], found[0][1]), "nothing relaxes")
+        with self.assertRaises(tunica.InputError):
+            tunica.Material({"type": "py_neo_hooke", "mechanisms": [{"type": "matrix_stiffening"}]})
