@@ -67,6 +67,15 @@ class CommandLine(Case):
                 numpy.testing.assert_array_equal(values, written[column])
                 numpy.testing.assert_array_equal(values, by_run[test][column])
 
+    def test_a_card_is_that_of_the_program(self):
+        result = tunica.run(TRELOAR / "experiment.json", self.folder / "run")
+        for to in ("calculix", "abaqus"):
+            for run in ("yeoh/lm", "neo_hooke/lm"):
+                self.assertEqual(program("export", result.directory, "--to", to, "--run", run, "--units", "mm-mN-kPa"),
+                                 result.runs[run].card(to, units="mm-mN-kPa"))
+        with self.assertRaises(tunica.InputError):
+            result.best.card("nastran")
+
     def test_a_diagnosis_has_the_verdict_of_the_program(self):
         experiment = EXAMPLES / "treloar_cause" / "experiment.json"
         program("diagnose", experiment, "--quick", "-o", self.folder / "a", "--quiet")

@@ -8,6 +8,7 @@ import re
 
 import numpy
 
+from . import _core
 from .errors import InputError
 from .table import Table
 
@@ -153,6 +154,12 @@ class Run:
             table = self._result.table("fit_" + re.sub(r"[^A-Za-z0-9_-]", "-", test))
             tables[test] = table.where("run", self.name).filled()
         return tables
+
+    def card(self, to, *, model="", units="mm-N-MPa", name="", bulk_ratio=None):
+        """The material card for a finite-element program, as `tunica export` prints it: text. to: "calculix", "abaqus"
+        and others that docs/export.md lists. model: where layers have several. Raises InputError with the reason for
+        what the program cannot express."""
+        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio)
 
     def __repr__(self):
         if not self.found:
