@@ -99,6 +99,9 @@ class CommandLine(Case):
         stretch = fit["stretch"]
         numpy.testing.assert_allclose(fit["stress.predicted"], mu * (stretch - stretch**-2), rtol=1e-9)
         self.assertEqual(result.json["runs"][0]["evaluations"], result.evaluations.rows)
+        about = {"parameters": ["a", "b"], "values": [[4.0, 1.0], [1.0, 9.0]]}
+        names, matrix = tunica.Run(result, {"best": {"covariance": about}}).covariance
+        self.assertEqual((["a", "b"], (2, 2), 9.0), (names, matrix.shape, matrix[1, 1]))
         frame, table = result.frame(), fit.frame()
         self.assertEqual([("rubber/lm", "mu", float(mu))],
                          list(frame[["run", "parameter", "value"]].itertuples(index=False, name=None)))

@@ -142,6 +142,13 @@ class Run:
         return {name: Estimate(about["value"], about) for name, about in self.json["fixed"].items()}
 
     @property
+    def covariance(self):
+        """(names, matrix) of the parameters that the data fix, in the units of the parameters; None in results without
+        it."""
+        about = self.best.get("covariance")
+        return about and (about["parameters"], numpy.array(about["values"]))
+
+    @property
     def converged(self):
         return self.json["converged"]
 
