@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Models written in Python take part like those of plugins."""
+import warnings
+
 import numpy
 
 import tunica
@@ -126,6 +128,15 @@ class Definitions(Case):
         loose = tunica.run(of_treloar({"type": "py_loose"}), self.folder / "loose", base=TRELOAR)
         self.assertFalse(loose.best.best["certificate"]["fresh_process"])
         self.assertIn("'py_loose' is defined in a notebook or a script", str(loose.best.best["certificate"]))
+
+    def test_what_is_not_finite_is_a_failed_evaluation_without_a_warning(self):
+        experiment = of_treloar({"type": "py_fibres", "parameters": {"k2": {"max": 1e6}}})
+        problem = tunica.Problem(experiment, base=TRELOAR)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            found = problem.evaluate(problem.vector({"k2": 1e5}), jacobian=True)
+        self.assertEqual("failed", found.status)
+        self.assertRegex(found.reason, "uniaxial")
 
     def test_memory_comes_from_mechanisms_around_it(self):
         entry = {"mechanisms": [{"type": "viscoelasticity"}]}
