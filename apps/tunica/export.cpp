@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "card_name.hpp"
 #include "cards/card.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
@@ -21,14 +22,6 @@ struct ExportOptions {
   std::string result, target, run, model, name, units = "mm-N-MPa", file;
   std::optional<double> bulk_ratio;
 };
-
-/// The model's name as a card can have it.
-std::string card_name(const std::string& model) {
-  std::string name;
-  for (const char c : model) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name.front()))) name = "M_" + name;
-  return name.substr(0, 40);
-}
 
 int export_card(const ExportOptions& options) {
   const cards::Target target = cards::target_of(options.target);
