@@ -17,6 +17,8 @@ struct Draft {
   double bulk = 0;    ///< bulk modulus in the units of the card; 0 = incompressible
   /// Two over the bulk modulus, the coefficient D1 of (J − 1)²/D1; 0 = incompressible.
   [[nodiscard]] double d1() const { return bulk > 0 ? 2 / bulk : 0; }
+  /// In the units of the card; "" where none is given. Throws InputError where it is not positive.
+  [[nodiscard]] std::string density() const;
   /// A parameter of the dimension stress in the units of the card.
   [[nodiscard]] double modulus(const std::string& parameter) const;
 };
@@ -33,5 +35,8 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
 
 std::string calculix_card(const Draft& draft);
 std::string abaqus_card(const Draft& draft);
+std::string febio_card(const Draft& draft);
+std::string ansys_card(const Draft& draft);
+std::string lsdyna_card(const Draft& draft);
 
 }  // namespace tunica::cards
