@@ -19,6 +19,7 @@ ROOT = HERE.parent
 
 # The first folder or file that fits decides; the order is that of the page.
 SUBJECTS = [
+    ("Python", "Raised as `tunica.InputError`, beside the messages of the command line.", ["apps/python/"]),
     ("Command line", "What stands behind `tunica`, and where results go.",
      ["apps/", "core/src/exporting/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
       "core/src/comparison/parameter_file", "core/src/comparison/certify"]),
