@@ -146,14 +146,14 @@ void compare(const std::string& type, const std::string& fibre_switch) {
   EXPECT_GT(active, 50) << "most draws have fibres that carry load";
 }
 
+}  // namespace
+
 class Fortran : public ::testing::TestWithParam<std::pair<const char*, const char*>> {
  protected:
   void SetUp() override {
     if (std::system("command -v gfortran > /dev/null") != 0) GTEST_SKIP() << "no gfortran here (Debian: gfortran)";
   }
 };
-
-}  // namespace
 
 TEST_P(Fortran, HasTheEnergyAndTheDerivativesOfTheModel) { compare(GetParam().first, GetParam().second); }
 

@@ -59,15 +59,16 @@ std::string holzapfel(const Draft& draft) {
   const FibreEnergy energy = fibre_energy(material);
   const char* const subroutine = "use the user subroutine, tunica export --subroutine FILE.f";
   if (material.type == "four_fibre")
-    refuse("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
+    cannot_express("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
   const FibreFamily& family = energy.families.front();
   if (!family.without_normal())
-    refuse("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall", subroutine);
+    cannot_express("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall",
+                   subroutine);
   if (material.fibre_switch == "none" || (material.fibre_switch == "stretch" && family.A > 0))
-    refuse("Abaqus", material,
-           fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
-                       material.fibre_switch),
-           subroutine);
+    cannot_express("Abaqus", material,
+                   fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
+                               material.fibre_switch),
+                   subroutine);
   const std::vector<double> constants = {0.5 * draft.modulus("mu"), draft.d1(), draft.stress * family.k1, family.k2,
                                          family.A};
   return orientation(energy, false) +
@@ -94,9 +95,9 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
   if (material.type == "ogden") {
     const auto terms = ogden_terms(material);
     if (terms.size() > most_ogden_terms)
-      refuse(program, material,
-             fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
-             "fit fewer terms, or export for another program");
+      cannot_express(program, material,
+                     fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
+                     "fit fewer terms, or export for another program");
     std::vector<double> values;
     // U = Σ 2 μ_i/α_i² (λ̄1^α_i + λ̄2^α_i + λ̄3^α_i − 3) + Σ (J − 1)^2i/D_i: their μ_i is ½ μ_i α_i here
     for (const auto& term : terms) values.insert(values.end(), {0.5 * draft.stress * term.mu * term.alpha, term.alpha});
@@ -104,8 +105,8 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
     values.resize(3 * terms.size(), 0.0);
     return keyword_line(fmt::format("OGDEN, N={}", terms.size())) + data_lines(values);
   }
-  refuse(program, material, "it has no energy with a limit of extension of the chains",
-         "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+  cannot_express(program, material, "it has no energy with a limit of extension of the chains",
+                 "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
 }
 
 std::string abaqus_card(const Draft& draft) {

@@ -77,15 +77,22 @@ Target target_of(std::string_view name) {
 
 double Draft::modulus(const std::string& parameter) const { return stress * value_of(material, parameter); }
 
-void refuse(std::string_view program, const Material& material, std::string_view reason, std::string_view cure) {
+void cannot_express(std::string_view program, const Material& material, std::string_view reason,
+                    std::string_view cure) {
   throw InputError(fmt::format("{} cannot express the model '{}': {}; {}", program, material.type, reason, cure));
 }
 
-std::string data_lines(std::span<const double> values) {
+std::string joined_lines(std::span<const std::string> values) {
   std::string lines;
   for (std::size_t k = 0; k < values.size(); ++k)
-    lines += number(values[k]) + (k + 1 == values.size() || k % 8 == 7 ? "\n" : ", ");
+    lines += values[k] + (k + 1 == values.size() || k % 8 == 7 ? "\n" : ", ");
   return lines;
+}
+
+std::string data_lines(std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.insert(texts.end(), number(value));
+  return joined_lines(texts);
 }
 
 std::string Draft::density() const {

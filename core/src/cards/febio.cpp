@@ -57,12 +57,13 @@ std::string fibres(const Draft& draft) {
   const FibreFamily& family = energy.families.front();
   const std::string& chosen = draft.material.fibre_switch;
   if (!family.without_normal())
-    refuse("FEBio", draft.material, "its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall",
-           "export for Abaqus with --subroutine");
+    cannot_express("FEBio", draft.material,
+                   "its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall",
+                   "export for Abaqus with --subroutine");
   if (chosen == "none" || (chosen == "stretch" && family.A > 0))
-    refuse("FEBio", draft.material,
-           fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", chosen),
-           "fit with fibre_switch 'strain', or export for Abaqus with --subroutine");
+    cannot_express("FEBio", draft.material,
+                   fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", chosen),
+                   "fit with fibre_switch 'strain', or export for Abaqus with --subroutine");
   return draft.material.type == "four_fibre" ? mixture(draft, energy) : holzapfel_gasser_ogden(draft, family);
 }
 

@@ -57,12 +57,12 @@ std::string polynomial(const Draft& draft, double c10, double c01, double c20, d
 std::string lsdyna_card(const Draft& draft) {
   const auto& material = draft.material;
   if (has_fibres(material))
-    refuse("LS-DYNA", material,
-           "tunica writes no card of its anisotropic energies (*MAT_295), which nobody here could check",
-           "export for FEBio or Abaqus");
+    cannot_express("LS-DYNA", material,
+                   "tunica writes no card of its anisotropic energies (*MAT_295), which nobody here could check",
+                   "export for FEBio or Abaqus");
   if (material.type == "gent")
-    refuse("LS-DYNA", material, "it has no energy with a limit of extension of the chains",
-           "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+    cannot_express("LS-DYNA", material, "it has no energy with a limit of extension of the chains",
+                   "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
   if (material.type == "neo_hooke") return polynomial(draft, 0.5 * draft.modulus("mu"), 0, 0, 0);
   if (material.type == "mooney_rivlin") return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), 0, 0);
   if (material.type == "yeoh")

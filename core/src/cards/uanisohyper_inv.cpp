@@ -62,7 +62,7 @@ C
         iAt(2) = i*i + i + 2
         iAt(3) = nNormal*nNormal + nNormal + 2
         nTerms = 3
-        if (abs(weight(3)) .lt. 1.d-12) nTerms = 2
+        if (abs(weight(3)) .lt. 1.d-9) nTerms = 2
         if (nTerms .eq. 3 .and. nFibers .lt. nNormal) call xit
         e = -1.d0
         do 30 k = 1, nTerms

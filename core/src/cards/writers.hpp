@@ -24,11 +24,12 @@ struct Draft {
 };
 
 /// Throws the refusal of a model, with the reason and what to do.
-[[noreturn]] void refuse(std::string_view program, const Material& material, std::string_view reason,
-                         std::string_view cure);
+[[noreturn]] void cannot_express(std::string_view program, const Material& material, std::string_view reason,
+                                 std::string_view cure);
 
 /// Values with commas, eight a line, each line ended.
 std::string data_lines(std::span<const double> values);
+std::string joined_lines(std::span<const std::string> values);
 
 /// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
 std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms);
