@@ -39,7 +39,7 @@ importing::Pairs pairs(const std::vector<std::string>& texts, std::string_view o
   for (const std::string& text : texts) {
     const std::size_t at = text.rfind('=');
     if (at == std::string::npos || at == 0 || at + 1 == text.size())
-      throw InputError(fmt::format("{} {}: expected NAME=VALUE", option, text));
+      throw InputError(fmt::format("{} {}: expected a name and a value. Write NAME=VALUE", option, text));
     found.emplace_back(text.substr(0, at), text.substr(at + 1));
   }
   return found;

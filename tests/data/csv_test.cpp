@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data/csv.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "data/dataset.hpp"

@@ -3,7 +3,10 @@
 """import.py TUNICA SOURCES FOLDER: `tunica import` of a strip, a sheet and a tube of made-up machines; what it cannot
 know, and bad input, is refused with what to give; `tunica check --page` draws what was understood."""
 import json
+import os
 import pathlib
+import pty
+import subprocess
 import sys
 
 sys.dont_write_bytecode = True  # nothing is left beside the sources
@@ -51,6 +54,19 @@ assert "grip_distance" in said, said
 # Everything that is missing is asked for at once, and nothing is written.
 there, said = imported(strip, code=2)
 assert all(option in said for option in ("--width", "--thickness", "--gauge-length")) and not there, said
+
+# On a terminal it asks, and asks again where the answer makes no sense.
+asked = folder / "asked.json"
+terminal, other_end = pty.openpty()
+with subprocess.Popen([program, "import", strip, "-o", asked], stdin=other_end, stderr=other_end, stdout=subprocess.PIPE,
+                      text=True) as process:
+    os.write(terminal, b"5 kPa\n-5 mm\n5 mm\n1.5 mm\n20 mm\n")
+    printed = process.communicate(timeout=60)[0]
+assert process.returncode == 0, printed
+dialogue = words(os.read(terminal, 100000).decode())
+assert "Width of the specimen" in dialogue and "must be greater than zero" in dialogue, dialogue
+assert json.loads(asked.read_text())["tests"]["strip"]["data"]["specimen"] == {
+    "width": "5 mm", "thickness": "1.5 mm", "gauge_length": "20 mm"}
 
 # A long table: a test for each value of a column; a name that says nothing; numbers in place of names.
 long = table("long.csv", ["run,a,b", "slow,0,0", "slow,1,0.2", "slow,2,0.5", "fast,0,0", "fast,1,0.3", "fast,2,0.7"])
@@ -107,7 +123,7 @@ for file, options, expected in [
         (strip, ("--width", "5 mm", "--thickness", "-1 mm", "--gauge-length", "20 mm"), "the thickness is -1 mm"),
         (strip, ("--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "0 mm"), "the gauge length is 0 mm"),
         (strip, ("--specimens", table("other.csv", ["specimen,width", "x,5"])), "no row has the specimen 'strip'"),
-        (strip, ("--where", "Kraft"), "expected NAME=VALUE"),
+        (strip, ("--where", "Kraft"), "Write NAME=VALUE"),
         (table("words.csv", ["a,b", "x,y"]), (), "no column is known to give 'stretch'"),
         (folder / "missing.csv", (), "there is no such file")]:
     there, said = imported(file, *options, code=2)

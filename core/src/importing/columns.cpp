@@ -21,7 +21,9 @@ struct Word {
   const char* quantity;
   const char* base;
 };
-constexpr Word words[] = {{"outer_diameter", "outer_diameter", "mm"},
+constexpr Word words[] = {{"cycle", "cycle", "1"},
+                          {"zyklus", "cycle", "1"},
+                          {"outer_diameter", "outer_diameter", "mm"},
                           {"outer diameter", "outer_diameter", "mm"},
                           {"od", "outer_diameter", "mm"},
                           {"inner_diameter", "inner_diameter", "mm"},
@@ -112,6 +114,12 @@ void guess_quantity(ColumnGuess& guess, const std::string& title) {
     if (!guess.unit.empty() && measures(guess.unit, base)) guess.quantity = quantity;
 }
 
+bool has(const std::vector<ColumnGuess>& columns, std::string_view quantity, std::string_view direction = {}) {
+  return std::any_of(columns.begin(), columns.end(), [&](const ColumnGuess& column) {
+    return column.quantity == quantity && (direction.empty() || column.direction == direction);
+  });
+}
+
 }  // namespace
 
 bool measures(std::string_view unit, std::string_view base) {
@@ -151,12 +159,19 @@ std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {
 }
 
 bool counts_cycles(const ColumnGuess& column) {
-  if (column.numeric || column.values.size() < 2) return false;
+  if (column.numeric) return column.quantity == "cycle";
   const std::string name = small(column.name);
-  const bool named = name.find("cycle") != std::string::npos || name.find("zyklus") != std::string::npos ||
-                     name.find("loop") != std::string::npos;
-  return named && std::all_of(column.values.begin(), column.values.end(),
-                              [](const std::string& value) { return data::first_number(value).has_value(); });
+  return column.values.size() > 1 && (has_word(name, "cycle") || has_word(name, "zyklus")) &&
+         std::all_of(column.values.begin(), column.values.end(),
+                     [](const std::string& value) { return data::first_number(value).has_value(); });
+}
+
+std::string likely_test(const std::vector<ColumnGuess>& columns) {
+  if (has(columns, "pressure") && (has(columns, "outer_diameter") || has(columns, "inner_diameter")))
+    return "thick_wall_pressurisation";
+  for (const char* measured : {"force", "stress"})
+    if (has(columns, measured, "circumferential") && has(columns, measured, "axial")) return "biaxial";
+  return "uniaxial";
 }
 
 }  // namespace tunica::importing

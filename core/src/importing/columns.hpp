@@ -24,8 +24,11 @@ struct ColumnGuess {
 /// One guess a column of the table.
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv);
 
-/// "2-Stretch", "3-Stretch": a column of text whose name and cells count cycles.
+/// A column whose name says cycle, and whose cells hold numbers: "2", or "2-Stretch".
 bool counts_cycles(const ColumnGuess& column);
+
+/// The type of test whose quantities these are: a tube, a sheet, else a strip.
+std::string likely_test(const std::vector<ColumnGuess>& columns);
 
 /// Whether a unit measures what the base unit does; grams count as a force.
 bool measures(std::string_view unit, std::string_view base);

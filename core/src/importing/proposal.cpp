@@ -8,11 +8,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "data/cycles.hpp"
 #include "data/nearest.hpp"
 #include "data/quantities.hpp"
 #include "data/row_choice.hpp"
-#include "data/table_place.hpp"
 #include "importing/columns.hpp"
 #include "importing/sizes.hpp"
 #include "tunica/error.hpp"
@@ -28,20 +26,6 @@ std::string as_name(std::string text) {
     if (letter == '.' || letter == '/' || letter == '\\' || letter == ' ') letter = '_';
   if (text.empty() || text.front() == '-') text = "test" + text;
   return text;
-}
-
-bool has(const std::vector<ColumnGuess>& columns, std::string_view quantity, std::string_view direction = {}) {
-  return std::any_of(columns.begin(), columns.end(), [&](const ColumnGuess& column) {
-    return column.quantity == quantity && (direction.empty() || column.direction == direction);
-  });
-}
-
-std::string likely_test(const std::vector<ColumnGuess>& columns) {
-  if (has(columns, "pressure") && (has(columns, "outer_diameter") || has(columns, "inner_diameter")))
-    return "thick_wall_pressurisation";
-  for (const char* measured : {"force", "stress"})
-    if (has(columns, measured, "circumferential") && has(columns, measured, "axial")) return "biaxial";
-  return "uniaxial";
 }
 
 std::string listed(const std::vector<std::string>& values) {
@@ -92,7 +76,7 @@ class File {
       if (!answers_.each.empty()) own[answers_.each] = value;
       if (!own.empty()) data["where"] = own;
       add_sizes(data, own);
-      add_cycles(data);
+      add_cycles(data, own);
       add_measure(data);
       Json entry = {{"type", type_}};
       add_options(entry);
@@ -207,11 +191,12 @@ class File {
     Json where = Json::object();
     for (const auto& [column, value] : answers_.where) where[column] = value;
     for (const ColumnGuess& column : columns_) {
-      if (column.numeric || where.contains(column.name) || column.name == answers_.each) continue;
+      if (where.contains(column.name) || column.name == answers_.each) continue;
       if (cycle_column_.empty() && counts_cycles(column)) {
         cycle_column_ = column.name;
         continue;
       }
+      if (column.numeric) continue;
       if (column.values.size() < 2 || column.values.size() >= 50) continue;
       where[column.name] = column.values.front();
       note(
@@ -223,13 +208,19 @@ class File {
     return where;
   }
 
+  std::vector<const data::Csv::Row*> rows(const Json& where) const {
+    data::DataRequest request;
+    for (const auto& [column, value] : where.items()) request.where.emplace_back(column, value.get<std::string>());
+    return data::rows_where(csv_, request);
+  }
+
   std::vector<std::string> values_of_each() const {
     if (answers_.each.empty()) return {""};
     const std::size_t index = csv_.column(answers_.each);
-    data::DataRequest request;
-    for (const auto& [column, value] : answers_.where) request.where.emplace_back(column, value);
+    Json where = Json::object();
+    for (const auto& [column, value] : answers_.where) where[column] = value;
     std::vector<std::string> values;
-    for (const data::Csv::Row* row : data::rows_where(csv_, request))
+    for (const data::Csv::Row* row : rows(where))
       if (std::find(values.begin(), values.end(), row->cells[index]) == values.end())
         values.push_back(row->cells[index]);
     return values;
@@ -282,44 +273,37 @@ class File {
     };
     const std::string unit = length->unit;
     if (unit.empty() || unit != unit_of(way->second)) return {};
-    data::DataRequest request;
-    for (const auto& [column, value] : where.items()) request.where.emplace_back(column, value.get<std::string>());
-    const auto rest = length_at_rest(csv_, length->name, way->second, data::rows_where(csv_, request));
+    const auto rest = length_at_rest(csv_, length->name, way->second, rows(where));
     if (!rest) return {};
     note("gauge length {} {}: '{}' less '{}' in most rows", *rest, unit, length->name, way->second);
     return fmt::format("{} {}", *rest, unit);
   }
 
-  void add_cycles(Json& data) {
+  void add_cycles(Json& data, const Json& where) {
     if (!cycle_column_.empty() && answers_.cycle != "none") data["cycles_from"] = cycle_column_;
-    const bool several = !cycle_column_.empty() || !answers_.cycle.empty() || goes_to_and_fro();
+    const bool several = !cycle_column_.empty() || !answers_.cycle.empty() || goes_to_and_fro(where);
     if (several && answers_.cycle != "none") {
       const std::string cycle = answers_.cycle.empty() ? "last" : answers_.cycle;
       const Json number = Json::parse(cycle, nullptr, false);
       data["cycle"] = number.is_discarded() ? Json(cycle) : number;
-      if (answers_.branch.empty()) data["branch"] = "loading";
+      if (answers_.branch.empty() && cycle != "all") data["branch"] = "loading";
       if (answers_.cycle.empty() && answers_.branch.empty())
         note(
             "several cycles: the last loading is taken. Choose with --cycle and --branch, or take all as history with "
-            "--cycle all --branch none");
+            "--cycle all");
     }
     if (!answers_.branch.empty() && answers_.branch != "none") data["branch"] = answers_.branch;
     if (!answers_.preload.empty() && answers_.preload != "none") data["preload"] = answers_.preload;
   }
 
   /// Whether a prescribed displacement, length, strain or stretch returns more than once.
-  bool goes_to_and_fro() const {
+  bool goes_to_and_fro(const Json& where) const {
     for (const auto& [name, column] : mapped_) {
       const auto quantity = data::quantity_named(name, factory_->observables);
       if (quantity->observable->role != Observable::Role::abscissa) continue;
-      const std::size_t index = csv_.column(column);
-      const char decimal = csv_.decimal_mark({index});
-      std::vector<double> path;
-      for (const data::Csv::Row& row : csv_.rows)
-        if (data::looks_like_number(row.cells[index], decimal == ',')) path.push_back(csv_.number(row, index, decimal));
       const double rest =
           quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch ? 1 : 0;
-      return data::returns_in(path, data::branches_of(path, rest)) > 0;
+      return importing::goes_to_and_fro(csv_, column, rows(where), rest);
     }
     return false;
   }

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "data/cycles.hpp"
 #include "data/nearest.hpp"
+#include "data/table_place.hpp"
 #include "importing/columns.hpp"
 #include "tunica/error.hpp"
 
@@ -72,6 +74,16 @@ std::optional<double> length_at_rest(const data::Csv& csv, const std::string& le
                                    [&](double one) { return std::abs(one - rounded) <= 1.5 / scale; });
   if (2 * static_cast<std::size_t>(agree) <= difference.size() || !(rounded > 0)) return std::nullopt;
   return rounded;
+}
+
+bool goes_to_and_fro(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
+                     double rest) {
+  const std::size_t index = csv.column(column);
+  const char decimal = csv.decimal_mark({index});
+  std::vector<double> path;
+  for (const data::Csv::Row* row : rows)
+    if (data::looks_like_number(row->cells[index], decimal == ',')) path.push_back(csv.number(*row, index, decimal));
+  return data::returns_in(path, data::branches_of(path, rest)) > 0;
 }
 
 }  // namespace tunica::importing

@@ -8,7 +8,7 @@
 
 #include "data/csv.hpp"
 
-/// Sizes of specimens: from a table with one row a specimen, and from the lengths in the file itself.
+/// Sizes of specimens: from a table with one row a specimen, and from the lengths in the file itself; its path.
 namespace tunica::importing {
 
 /// Sizes as quantities with a unit, "26.902 mm"; empty = not known.
@@ -25,5 +25,9 @@ KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string&
 /// 0.
 std::optional<double> length_at_rest(const data::Csv& csv, const std::string& length, const std::string& displacement,
                                      const std::vector<const data::Csv::Row*>& rows);
+
+/// Whether a column returns towards `rest` at least once by more than half its way.
+bool goes_to_and_fro(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
+                     double rest);
 
 }  // namespace tunica::importing
