@@ -108,12 +108,19 @@ channels = {one["observable"]: one["range"] for one in json.loads(printed)["prob
 assert abs(channels["stress_circumferential"][1] - 500 / 5) < 1e-9 and abs(channels["stress_axial"][1] - 1000 / 10) < 1e-9
 
 # The murine tubes of the examples as their authors published them.
-murine = pathlib.Path(sources) / "examples" / "murine_tube" / "inflation.csv"
-target = folder / "murine.json"
-rig.tunica(program, "import", murine, "--each", "test", "--thickness", "769.85606 um", "--set", "outer_radius=2301 um",
-           "-o", target)
-assert list(json.loads(target.read_text())["tests"]) == ["test1", "test2", "test3"]
-rig.tunica(program, "check", target)
+murine = pathlib.Path(sources) / "examples" / "murine_tube"
+example = json.loads("\n".join(line for line in (murine / "experiment.json").read_text().splitlines()
+                               if not line.strip().startswith("//")))
+for name, tests in (("inflation", ["test1", "test2", "test3"]), ("force_length", ["test1", "test2", "test3", "test4"])):
+    target = folder / f"murine_{name}.json"
+    rig.tunica(program, "import", murine / f"{name}.csv", "--each", "test", "--thickness", "769.85606 um",
+               "--set", "outer_radius=2301 um", "-o", target)
+    proposed = json.loads(target.read_text())["tests"]
+    assert list(proposed) == tests
+    # The columns of the hand-written example, and all rows.
+    by_hand = example["tests"]["in_vivo"]["data"]["columns"]
+    assert all(test["data"]["columns"] == by_hand and "cycle" not in test["data"] for test in proposed.values()), proposed
+    rig.tunica(program, "check", target)
 
 # Bad input: what and where, exit code 2.
 for file, options, expected in [

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tunica/model.hpp"
@@ -60,6 +63,13 @@ struct TestRows {
   std::span<const double> time;
 };
 
+/// What TestSetup::card is asked for.
+struct CardRequest {
+  std::string program;   ///< a target of `tunica export`, for example "calculix"
+  std::string units;     ///< its system of units, for example "mm-N-MPa"
+  std::string material;  ///< the name of the material in the card
+};
+
 /// The arguments of TestFactory::create. The test copies what it keeps.
 struct TestSetup {
   /// The options of the test, as TestFactory::options declares them; checked.
@@ -70,6 +80,31 @@ struct TestSetup {
   std::string stress_measure;
   /// Thickness of each layer from inside, in mm, positive. Empty = one model; others only if TestFactory::layered.
   std::vector<double> layers = {};
+  /// The folder of the experiment file, absolute. Names of files in options begin there unless they are absolute.
+  std::string folder = {};
+  /// Factor from one unit to another, in UDUNITS spelling: unit_factor("kPa", "MPa") = 0.001. It throws InputError
+  /// where a unit is unknown or the two measure different things. Empty where a host has no units.
+  std::function<double(std::string_view from, std::string_view to)> unit_factor = {};
+  /// The material card of a model for a finite-element program: card(model, values, {"calculix", "mm-N-MPa",
+  /// "TISSUE"}). It throws InputError where the program cannot express the model. Empty where a host writes no cards.
+  std::function<std::string(const Model& model, std::span<const double> parameters, const CardRequest& request)> card =
+      {};
+};
+
+/// How the host differences a test that has no derivatives of its own, with any model.
+///
+///     forward:  ∂f/∂p_j ≈ (f(p + h_j e_j) − f(p)) / h_j           one prediction a parameter
+///     central:  ∂f/∂p_j ≈ (f(p + h_j e_j) − f(p − h_j e_j)) / 2h_j  two
+///
+/// with h_j = step · |p_j|, on a linear scale at least of a hundredth of the range. The predictions run side by side.
+/// Between differences a search may go on with Broyden's update of the Jacobian J of its last point, which costs no
+/// prediction (Broyden, Math. Comp. 19:577, 1965; here with parameters measured on their scale):
+///
+///     J⁺ = J + (Δf − J Δp) (W Δp)ᵀ / (Δpᵀ W Δp),  W = diag(1/scale_j²)
+struct Differencing {
+  double step = 1e-4;    ///< relative; the error of the simulation's numbers, divided by it, enters the derivative
+  bool central = false;  ///< whether two predictions are made a parameter
+  bool updates = false;  ///< whether Broyden's update stands in while it predicts well
 };
 
 /// The properties of a test. They never change during the test's life.
@@ -95,6 +130,11 @@ struct TestDescription {
   /// one where those fail. Where a constraint is violated it runs only for optimizers that need it, see
   /// Optimizer::Needs::infeasible.
   bool costly = false;
+  /// Set by a test that has no derivatives whatever the model: the host differences it like this.
+  std::optional<Differencing> differencing = {};
+  /// The names of the model's parameters that a prediction depends on. The host refuses a run that searches for others
+  /// in this test, and names that the model does not have. None = all.
+  std::optional<std::vector<std::string>> reads = {};
 };
 
 /// The input of one prediction. The test keeps nothing of it.
@@ -162,6 +202,12 @@ struct Snapshot {
   std::vector<Column> section;     ///< a table along a line, for example through a wall; may be empty
 };
 
+/// A count that a test keeps of its own work, for results: {"solver_runs", 34}.
+struct Effort {
+  std::string name;         ///< lower case, with underscores
+  std::uint64_t count = 0;  ///< since the test was made
+};
+
 /// Simulates one experiment with a model, at the rows that it was made with.
 ///
 /// Required: describe(), rows() and predict(). Rows come in loading order; a model with history sees them in that
@@ -194,6 +240,8 @@ class Test {
                            [[maybe_unused]] std::vector<Snapshot>& found) const {
     return Status::failed("this test has no fields to show");
   }
+  /// Optional, for results: what it has done so far, in an order that stays.
+  [[nodiscard]] virtual std::vector<Effort> efforts() const { return {}; }
 };
 
 }  // namespace tunica

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/channels.hpp"
+#include "data/nearest.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
 
@@ -82,6 +83,27 @@ std::vector<std::string> out_of_range(const std::vector<FreeParameter>& free,
   return warnings;
 }
 
+/// A test that reads some parameters of its model only must be given no others to search for.
+void refuse_unread(const RunTest& test, const RunModel& model) {
+  const auto& reads = test.test->describe().reads;
+  if (!reads) return;
+  const auto& parameters = model.model->describe().parameters;
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  for (const std::string& name : *reads)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("test '{}': it reads the parameter '{}', which the model '{}' does not have. {}",
+                                   test.name, name, model.name, data::suggestion(name, names)));
+  for (const Link& link : test.materials.links) {
+    const std::string& name = names[link.position];
+    if (std::find(reads->begin(), reads->end(), name) == reads->end())
+      throw InputError(
+          fmt::format("test '{}': the run searches for '{}', which the test does not read. It reads {}. Give it a "
+                      "place in the test's files, or hold the parameter with \"fixed\"",
+                      test.name, name, reads->empty() ? "none" : fmt::format("{}", fmt::join(*reads, ", "))));
+  }
+}
+
 std::string words_on_unstated(std::vector<std::string> channels) {
   constexpr std::size_t told = 3;
   const std::size_t more = channels.size() > told ? channels.size() - told : 0;
@@ -150,6 +172,7 @@ void Builder::add_test(std::size_t number) {
   test.own = std::move(vectors_[parts_.models.size() + number]);
   test.costly = test.test->describe().costly;
   assign_models(test, entry, parts_.models);
+  if (test.layers.empty()) refuse_unread(test, parts_.models.front());
   chain_parameters(test, layout.parameters.size());
   const auto& observables = catalogue_.tests().at(entry.type).factory.observables;
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);

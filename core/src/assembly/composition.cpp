@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "data/nearest.hpp"
+#include "data/units.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::assembly {
@@ -186,6 +187,8 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     TestSetup setup{entry.options, composed.dataset.rows(), entry.data.stress_measure};
     override_options(setup.options, on_shelf.factory.options, mechanisms);
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
+    setup.folder = entry.folder.string();
+    setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", owner, problem.what()));

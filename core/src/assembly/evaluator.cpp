@@ -12,6 +12,7 @@
 #include "assembly/models.hpp"
 #include "assembly/objective.hpp"
 #include "assembly/run_test.hpp"
+#include "assembly/secant.hpp"
 #include "assembly/workspace.hpp"
 
 namespace tunica::assembly {
@@ -248,6 +249,17 @@ void Evaluator::measure(std::span<const double> values, Workspace& workspace) co
     auto& measured = workspace.measured.emplace_back();
     for (const std::size_t row : channel.rows) measured.push_back(values[row]);
   }
+}
+
+void Evaluator::remember(SecantMemory* memory, Workspace& workspace) const {
+  workspace.secant = memory;
+  if (memory != nullptr) memory->tests.resize(tests_.size());
+}
+
+std::vector<std::pair<std::string, std::vector<Effort>>> Evaluator::efforts() const {
+  std::vector<std::pair<std::string, std::vector<Effort>>> found;
+  for (const RunTest& test : tests_) found.emplace_back(test.name, test.test->efforts());
+  return found;
 }
 
 void Evaluator::transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const {

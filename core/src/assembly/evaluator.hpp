@@ -20,6 +20,7 @@ class Models;
 struct ChannelObjective;
 struct PriorRow;
 struct RunTest;
+struct SecantMemory;
 
 class Workspace;  ///< scratch of one thread
 struct WorkspaceDeleter {
@@ -59,6 +60,12 @@ class Evaluator {
   /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.
   void measure(std::span<const double> values, Workspace& workspace) const;
 
+  /// From now on Jacobians in this workspace may be updates of what the search remembers, and it remembers what they
+  /// are, see Differencing::updates. None = differences each time.
+  void remember(SecantMemory* memory, Workspace& workspace) const;
+  /// What the tests have done so far, one entry a test of the run.
+  [[nodiscard]] std::vector<std::pair<std::string, std::vector<Effort>>> efforts() const;
+
   /// A residual row is r = own e_k − previous e_{k−1}, e = prediction − measured: the transpose of that map, from one
   /// value a residual (priors left out) to one a prediction.
   void transpose_residuals(std::span<const double> by_residual, std::span<double> by_prediction) const;
@@ -80,6 +87,9 @@ class Evaluator {
   /// Rows of the workspace's Jacobian by free parameter, from differences of `values` (differences.cpp).
   Status difference(const RunTest& test, std::span<const double> at, std::span<const double> values,
                     Workspace& workspace) const;
+  /// The same for a test that states how, see Differencing: side by side, or by an update of what the search remembers.
+  Status difference_as_stated(const RunTest& test, std::span<const double> at, std::span<const double> values,
+                              Workspace& workspace) const;
   /// Where one evaluation writes; empty = not wanted.
   struct Wanted {
     std::span<double> per_test, residuals, jacobian;

@@ -22,6 +22,7 @@ bool off_the_path(const RunTest& test) {
 }
 
 bool has_derivatives(const RunTest& test, const ModelDescription& model) {
+  if (test.test->describe().differencing) return false;
   if (model.history_size == 0) return model.parameter_derivatives;
   return model.axis_history_size > 0 && test.test->describe().path_derivatives && !off_the_path(test);
 }

@@ -6,6 +6,8 @@
 
 namespace tunica::assembly {
 
+struct SecantMemory;
+
 /// Scratch of one thread.
 class Workspace {
  public:
@@ -16,6 +18,7 @@ class Workspace {
   std::vector<double> ahead, behind, shifted;         ///< for differences
   std::vector<double> constraints;                    ///< values
   std::vector<std::vector<double>> measured;          ///< by fitted channel, in place of the data; empty = the data
+  SecantMemory* secant = nullptr;                     ///< of the search that evaluates; none = differences each time
 };
 
 }  // namespace tunica::assembly

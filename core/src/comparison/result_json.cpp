@@ -211,7 +211,10 @@ json run_json(const RunSummary& run) {
   over_realisations["evaluations"] = statistics(run.evaluations_spent);
   over_realisations["seconds"] = statistics(run.seconds_spent);
   over_realisations["parameters"] = std::move(over_parameters);
-  return {
+  json counted = json::object();
+  for (const auto& [test, efforts] : run.efforts)
+    for (const Effort& effort : efforts) counted[test][effort.name] = effort.count;
+  json document = {
       {"run", run.label},
       {"model", run.model},
       {"optimizer", run.optimizer},
@@ -230,6 +233,8 @@ json run_json(const RunSummary& run) {
       {"ended_by", run.stop_sentence.empty() ? run.reason : run.stop_sentence},
       {"stop_reason", run.stopped_by == search::StopReason::none ? json(nullptr) : json(search::code(run.stopped_by))},
       {"seconds", run.seconds}};
+  if (!counted.empty()) document["efforts"] = std::move(counted);
+  return document;
 }
 
 }  // namespace

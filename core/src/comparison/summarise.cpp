@@ -67,6 +67,19 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
   summary.objectives = sample_statistics(objectives);
 }
 
+/// "test 'strip': 34 solver runs, 2 failed runs until the search had ended"
+void add_effort_notes(RunSummary& summary) {
+  for (const auto& [test, efforts] : summary.efforts) {
+    std::string words;
+    for (const Effort& effort : efforts) {
+      std::string name = effort.name;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", effort.count, name);
+    }
+    if (!words.empty()) summary.notes.push_back(fmt::format("test '{}': {} until the search had ended", test, words));
+  }
+}
+
 RunSummary summarise_run(const experiment::Experiment& experiment, const execution::PlannedRun& run,
                          const execution::RunResult& result, std::vector<execution::Warning>& warnings) {
   RunSummary summary;
@@ -79,6 +92,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.target = run.entry->stop.target;
   summary.fixed = run.assembly->layout().fixed_parameters;
   add_counts(result, summary);
+  summary.efforts = run.assembly->evaluator().efforts();
   const auto* best = best_of(result);
   const auto* told = best ? best : result.realisations.empty() ? nullptr : &result.realisations.front();
   if (told) {
@@ -96,6 +110,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.best_id = best->best.index + 1;
   summary.objective = best->best.objective;
   estimate(*run.assembly, *best, result, summary, warnings);
+  add_effort_notes(summary);
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
   if (best->best.feasible())
     add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);

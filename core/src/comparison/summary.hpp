@@ -123,6 +123,8 @@ struct RunSummary {
   std::optional<StabilitySummary> stability;  ///< with a result
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::string first_failure;
+  /// What each test counted until the search had ended, by test; empty for tests that count nothing.
+  std::vector<std::pair<std::string, std::vector<Effort>>> efforts;
   std::uint64_t faults = 0;  ///< realisations that ended because the optimiser threw
   std::string first_fault;
   bool one_course = false;                           ///< all of several realisations improved by the same steps

@@ -88,6 +88,11 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   std::vector<std::string> keys = {"type", "data", "weight", "hold_out", "parameters", "mechanisms"};
   if (factory.layered) keys.emplace_back("layers");
   test.options = read_options(entry, factory.options, keys, owner);
+  test.folder = std::filesystem::absolute(folder.empty() ? "." : folder);
+  if (test.options.has("folder")) {  // absolute from here on, so that a copy of the file elsewhere means the same
+    test.folder = (test.folder / test.options.text("folder")).lexically_normal();
+    test.options.set("folder", test.folder.string());
+  }
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);

@@ -296,16 +296,18 @@ class File {
     if (!answers_.preload.empty() && answers_.preload != "none") data["preload"] = answers_.preload;
   }
 
-  /// Whether a prescribed displacement, length, strain or stretch returns more than once.
+  /// Whether every prescribed quantity that changes comes back.
   bool goes_to_and_fro(const Json& where) const {
+    bool any = false;
     for (const auto& [name, column] : mapped_) {
       const auto quantity = data::quantity_named(name, factory_->observables);
       if (quantity->observable->role != Observable::Role::abscissa) continue;
-      const double rest =
-          quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch ? 1 : 0;
-      return importing::goes_to_and_fro(csv_, column, rows(where), rest);
+      const bool stretch = quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch;
+      const auto returns = importing::goes_to_and_fro(csv_, column, rows(where), stretch ? 1 : 0);
+      if (returns && !*returns) return false;  // the others are held, and show noise
+      any = any || returns;
     }
-    return false;
+    return any;
   }
 
   void add_measure(Json& data) {

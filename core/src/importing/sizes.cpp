@@ -76,13 +76,15 @@ std::optional<double> length_at_rest(const data::Csv& csv, const std::string& le
   return rounded;
 }
 
-bool goes_to_and_fro(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
-                     double rest) {
+std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
+                                    const std::vector<const data::Csv::Row*>& rows, double rest) {
   const std::size_t index = csv.column(column);
   const char decimal = csv.decimal_mark({index});
   std::vector<double> path;
   for (const data::Csv::Row* row : rows)
     if (data::looks_like_number(row->cells[index], decimal == ',')) path.push_back(csv.number(*row, index, decimal));
+  if (path.empty() || *std::max_element(path.begin(), path.end()) == *std::min_element(path.begin(), path.end()))
+    return std::nullopt;
   return data::returns_in(path, data::branches_of(path, rest)) > 0;
 }
 

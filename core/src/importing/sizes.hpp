@@ -26,8 +26,8 @@ KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string&
 std::optional<double> length_at_rest(const data::Csv& csv, const std::string& length, const std::string& displacement,
                                      const std::vector<const data::Csv::Row*>& rows);
 
-/// Whether a column returns towards `rest` at least once by more than half its way.
-bool goes_to_and_fro(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
-                     double rest);
+/// Whether a column returns towards `rest` at least once by more than half its way; none where it keeps its value.
+std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
+                                    const std::vector<const data::Csv::Row*>& rows, double rest);
 
 }  // namespace tunica::importing

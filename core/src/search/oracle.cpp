@@ -229,7 +229,9 @@ Status Oracle::linearise(std::span<const double> x, double& objective, std::span
   const double before = made.objectives[slot];
   const Status status_before = made.statuses[slot];
   const WorkspacePool::Loan workspace(shared_.pool);
+  shared_.assembly.evaluator().remember(&secant_, *workspace);
   made.statuses[slot] = evaluate_at(x, slot, residuals, jacobian, *workspace);  // residuals are not in the journal
+  shared_.assembly.evaluator().remember(nullptr, *workspace);
   const Status& status = made.statuses[slot];
   if (replayed && status.kind() != status_before.kind()) {
     contradict(slot,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "assembly/secant.hpp"
 #include "search/calibration_problem.hpp"
 #include "search/continuation.hpp"
 #include "search/ledger.hpp"
@@ -125,6 +126,7 @@ class Oracle {
   std::optional<std::uint64_t> replay_from_;
   const std::atomic<bool>* needless_;
   GoodPoints good_;
+  assembly::SecantMemory secant_;
   JournalEntry entry_;
 };
 

@@ -56,6 +56,8 @@ class DecoratedTest : public Test {
                    std::vector<Snapshot>& found) const override {
     return base_->snapshots(bare(input), rows, found);
   }
+  /// Passed on to the test inside.
+  [[nodiscard]] std::vector<Effort> efforts() const override { return base_->efforts(); }
 
  protected:
   /// Appends `amplitude` with its `null` to the parameters of the base.

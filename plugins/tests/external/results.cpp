@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "results.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace tunica::external {
+namespace {
+
+using Json = nlohmann::json;
+using Found = std::variant<std::vector<double>, std::string>;
+
+/// A number as C and Fortran print it: "1.5e-3", "+2", "1.5D-03".
+std::optional<double> number_in(std::string text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
+  if (first == text.npos) return std::nullopt;
+  text = text.substr(first, last - first + 1);
+  std::ranges::replace(text, 'D', 'e');
+  std::ranges::replace(text, 'd', 'e');
+  const char* begin = text.data() + (text.front() == '+' ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+char delimiter_of(const std::string& line) {
+  for (const char candidate : {';', ',', '\t'})
+    if (line.find(candidate) != line.npos) return candidate;
+  return ' ';
+}
+
+std::vector<std::string> cells_of(const std::string& line, char delimiter) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  std::string cell;
+  if (delimiter == ' ')
+    while (stream >> cell) cells.push_back(cell);
+  else
+    while (std::getline(stream, cell, delimiter)) {
+      const std::size_t first = cell.find_first_not_of(" \t\r\""), last = cell.find_last_not_of(" \t\r\"");
+      cells.push_back(first == cell.npos ? "" : cell.substr(first, last - first + 1));
+    }
+  return cells;
+}
+
+Found column_of(std::istream& stream, const ResultPlace& place) {
+  std::vector<double> values;
+  std::optional<std::size_t> column;
+  if (const auto numbered = number_in(place.text); numbered && *numbered >= 1)
+    column = static_cast<std::size_t>(*numbered) - 1;
+  const bool by_number = column.has_value();
+  char delimiter = 0;
+  std::size_t number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == line.npos || line[first] == '#') continue;
+    const bool heading = delimiter == 0;
+    if (heading) delimiter = delimiter_of(line);
+    const std::vector<std::string> cells = cells_of(line, delimiter);
+    if (heading && !by_number) {
+      const auto found = std::ranges::find(cells, place.text);
+      if (found == cells.end())
+        return fmt::format("has no column '{}': its first line names {}", place.text, fmt::join(cells, ", "));
+      column = static_cast<std::size_t>(found - cells.begin());
+      continue;
+    }
+    const auto value = *column < cells.size() ? number_in(cells[*column]) : std::nullopt;
+    if (!value && heading) continue;  // names above numbered columns
+    if (!value)
+      return fmt::format("has '{}' in column {} of line {} where a number is expected",
+                         *column < cells.size() ? cells[*column] : "nothing", place.text, number);
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Found pointed_at(std::istream& stream, const ResultPlace& place) {
+  const Json document = Json::parse(stream, nullptr, false, true);
+  if (document.is_discarded()) return std::string("is no JSON");
+  try {
+    const Json& value = document.at(Json::json_pointer(place.text));
+    if (value.is_number()) return std::vector<double>{value.get<double>()};
+    return value.get<std::vector<double>>();
+  } catch (const Json::exception&) {
+    return fmt::format("has no number, and no list of numbers, at {}", place.text);
+  }
+}
+
+Found matches_of(std::istream& stream, const ResultPlace& place) {
+  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const std::regex pattern(place.text, std::regex::ECMAScript | std::regex::optimize);
+  std::vector<double> values;
+  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
+    const auto value = number_in((*match)[1].str());
+    if (!value) return fmt::format("has '{}' where the pattern expects a number", (*match)[1].str());
+    values.push_back(*value);
+  }
+  if (values.empty()) return std::string("has nothing that matches the pattern");
+  return values;
+}
+
+}  // namespace
+
+Found read_result(const ResultPlace& place, const std::filesystem::path& folder) {
+  const auto words = [&](const std::string& what) {
+    return fmt::format("'{}', where '{}' is to be found, {}", place.file, place.observable, what);
+  };
+  std::ifstream stream(folder / place.file);
+  if (!stream) return words("was not written");
+  Found found = place.kind == ResultPlace::Kind::column    ? column_of(stream, place)
+                : place.kind == ResultPlace::Kind::pointer ? pointed_at(stream, place)
+                                                           : matches_of(stream, place);
+  if (const auto* problem = std::get_if<std::string>(&found)) return words(*problem);
+  auto& values = std::get<std::vector<double>>(found);
+  if (values.empty()) return words("has no rows");
+  values.insert(values.begin(), place.start.begin(), place.start.end());
+  for (double& value : values) {
+    value *= place.factor;
+    if (!std::isfinite(value)) return words("has a number that is not finite");
+  }
+  return found;
+}
+
+}  // namespace tunica::external

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tunica::external {
+
+/// A new folder for one run of the solver, removed at the end unless it is kept.
+class Scratch {
+ public:
+  /// Below `parent`, which is made where it does not exist. Throws std::runtime_error where that fails.
+  explicit Scratch(const std::filesystem::path& parent);
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  void keep() { kept_ = true; }
+  /// Writes a file below the folder. Throws std::runtime_error where that fails.
+  void write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path folder_;
+  bool kept_ = false;
+};
+
+}  // namespace tunica::external

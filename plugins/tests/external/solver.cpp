@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver.hpp"
+
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "process.hpp"
+#include "scratch.hpp"
+
+namespace tunica::external {
+namespace {
+
+constexpr std::size_t kept_failures = 3, shown_lines = 5;
+constexpr const char* printed = "output.txt";
+
+}  // namespace
+
+std::variant<Numbers, std::string> Solver::solve(
+    const std::function<std::string(const TextTemplate::Place&)>& value) const {
+  std::vector<std::string> arguments, texts;
+  std::string content = settings_.content;
+  for (const TextTemplate& argument : settings_.arguments) {
+    arguments.push_back(argument.filled(value));
+    content += fmt::format("argument {} {}\n", arguments.back().size(), arguments.back());
+  }
+  for (const auto& [name, text] : settings_.templates) {
+    texts.push_back(text.filled(value));
+    content += fmt::format("text {} {} {}\n", name, texts.back().size(), texts.back());
+  }
+  const std::string key = digest(content);
+  if (auto numbers = cache_.find(key)) {
+    ++cached_;
+    return std::move(*numbers);
+  }
+  ++runs_;
+  auto found = [&]() -> std::variant<Numbers, std::string> {
+    try {
+      return run_in_scratch(arguments, texts);
+    } catch (const std::exception& problem) {
+      return std::string(problem.what());
+    }
+  }();
+  if (const auto* numbers = std::get_if<Numbers>(&found))
+    cache_.keep(key, *numbers);
+  else
+    ++failed_;
+  return found;
+}
+
+std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std::string>& arguments,
+                                                          const std::vector<std::string>& texts) const {
+  Scratch scratch(settings_.scratch);
+  if (settings_.keep == Keep::always) scratch.keep();
+  for (const auto& [name, file] : settings_.files) std::filesystem::create_symlink(file, scratch.folder() / name);
+  for (std::size_t k = 0; k < texts.size(); ++k) scratch.write(settings_.templates[k].first, texts[k]);
+  Command command;
+  command.words = {settings_.program.string()};
+  command.words.insert(command.words.end(), arguments.begin(), arguments.end());
+  command.folder = scratch.folder();
+  command.output = scratch.folder() / printed;
+  command.environment = {{"OMP_NUM_THREADS", std::to_string(settings_.threads)}};
+  command.seconds = settings_.time_limit;
+  command.mebibytes = settings_.memory_limit;
+  const Ending ending = run(command);
+  std::string problem = ending.good() ? "" : ending.words;
+  Numbers numbers;
+  for (const ResultPlace& place : settings_.results) {
+    if (!problem.empty()) break;
+    ResultPlace here = place;
+    if (here.file == "-") here.file = printed;
+    auto found = read_result(here, scratch.folder());
+    if (auto* values = std::get_if<std::vector<double>>(&found))
+      numbers.push_back(std::move(*values));
+    else
+      problem = fmt::format("ended well, but {}", std::get<std::string>(found));
+  }
+  if (problem.empty()) return numbers;
+  std::string words = fmt::format("'{}' {}. The last lines of its output: {}", settings_.program.filename().string(),
+                                  problem, last_lines(scratch.folder() / printed, shown_lines));
+  if (settings_.keep == Keep::on_failure && failed_ < kept_failures) scratch.keep();
+  if (settings_.keep == Keep::always || (settings_.keep == Keep::on_failure && failed_ < kept_failures))
+    words += fmt::format(". Its files are in {}", scratch.folder().string());
+  return words;
+}
+
+std::vector<Effort> Solver::efforts() const {
+  return {{"solver_runs", runs_}, {"failed_runs", failed_}, {"cached_results", cached_}};
+}
+
+}  // namespace tunica::external

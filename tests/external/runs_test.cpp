@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+
+#include <gmock/gmock.h>
+
+#include "external/solver.hpp"
+
+using namespace tunica;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST(External, ParametersAreFoundThroughAProgramOfFiles) {
+  trial::SolverBench bench;
+  const auto ended = bench.run();
+  ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
+  EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-3);
+  EXPECT_NEAR(bench.parameter("Jm"), 12, 12 * 1e-3);
+  EXPECT_LE(bench.result()["jacobians"], 12);
+  EXPECT_GT(bench.solver_runs(), 0U);
+  EXPECT_THAT(ended.out, HasSubstr("solver runs"));
+  EXPECT_TRUE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
+}
+
+TEST(External, UpdatesSaveRunsAndDifferencesAgree) {
+  trial::SolverBench bench;
+  ASSERT_EQ(bench.run("broyden").code, 0);
+  bench.test["derivatives"] = "forward";
+  ASSERT_EQ(bench.run("forward").code, 0);
+  bench.test["derivatives"] = "central";
+  ASSERT_EQ(bench.run("central").code, 0);
+  EXPECT_LE(static_cast<double>(bench.solver_runs("broyden")), 0.6 * static_cast<double>(bench.solver_runs("forward")));
+  EXPECT_GT(bench.solver_runs("central"), bench.solver_runs("forward"));
+  for (const char* run : {"forward", "central"})
+    EXPECT_NEAR(bench.parameter("mu", run), bench.parameter("mu", "broyden"), 310 * 1e-3) << run;
+}
+
+// Starts run side by side, and each has a memory of its own.
+TEST(External, ResultsDoNotDependOnTheNumberOfThreads) {
+  trial::SolverBench bench;
+  bench.experiment["optimizers"]["lm"]["starts"] = 3;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "--threads", "1", "-o", "one"}).code, 0);
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "--threads", "3", "-o", "three"}).code, 0);
+  EXPECT_EQ(bench.result("one")["best"]["parameters"], bench.result("three")["best"]["parameters"]);
+  EXPECT_EQ(bench.result("one")["best"]["objective"], bench.result("three")["best"]["objective"]);
+}
+
+TEST(External, AKilledRunCostsOneEvaluation) {
+  // The seventh run kills itself, as the system would that is short of memory.
+  trial::SolverBench bench(310, 12, R"(
+runs = "FOLDER/runs"
+open(runs, "a").write("x")
+if os.path.getsize(runs) == 7: os.kill(os.getpid(), signal.SIGKILL))");
+  std::string program = trial::text_of(bench.folder.path() / "gent.py");
+  program.replace(program.find("FOLDER"), 6, bench.folder.path().string());
+  bench.folder.write("gent.py", program);
+  const auto ended = bench.run();
+  ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
+  EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-3);
+  EXPECT_LE(bench.result()["failures"], 1);
+  EXPECT_EQ(bench.result()["efforts"]["strip"]["failed_runs"], 1);
+}
+
+TEST(External, AProgramThatHangsIsEndedAtItsLimit) {
+  trial::SolverBench bench(310, 12, "print('begun', flush=True); time.sleep(60)");
+  bench.test["time_limit"] = "0.5 s";
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  const auto begun = std::chrono::steady_clock::now();
+  const auto ended = bench.run();
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(30));
+  EXPECT_NE(ended.code, 0);
+  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(),
+              AllOf(HasSubstr("was ended at its time limit of 0.5 s"), HasSubstr("begun")));
+}
+
+TEST(External, AFailureShowsTheLastLinesAndKeepsTheFolder) {
+  trial::SolverBench bench(310, 12, "print('matrix is singular'); sys.exit(3)");
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  EXPECT_NE(bench.run().code, 0);
+  const std::string reason = bench.result()["first_failure"];
+  EXPECT_THAT(reason, AllOf(HasSubstr("exit code 3"), HasSubstr("matrix is singular"), HasSubstr("Its files are in")));
+  EXPECT_FALSE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
+}
+
+TEST(External, MissingResultsAreAFailedEvaluation) {
+  trial::SolverBench bench(310, 12, "print('nothing to do'); sys.exit(0)");
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  EXPECT_NE(bench.run().code, 0);
+  EXPECT_THAT(
+      bench.result()["first_failure"].get<std::string>(),
+      AllOf(HasSubstr("ended well, but 'curve.csv'"), HasSubstr("was not written"), HasSubstr("nothing to do")));
+}
+
+TEST(External, ResultsAreKeptByContent) {
+  trial::SolverBench bench;
+  bench.test["cache"] = "cache";
+  ASSERT_EQ(bench.run("first").code, 0);
+  ASSERT_EQ(bench.run("second").code, 0);
+  EXPECT_EQ(bench.solver_runs("second"), 0U);
+  EXPECT_EQ(bench.parameter("mu", "first"), bench.parameter("mu", "second"));
+  bench.folder.write("input.in", "mu_MPa={{mu MPa}}\nJm={{Jm}}\n\n");  // other content
+  ASSERT_EQ(bench.run("third").code, 0);
+  EXPECT_GT(bench.solver_runs("third"), 0U);
+}
+
+TEST(External, ATemplateWithoutAParameterOfTheSearchIsRefused) {
+  trial::SolverBench bench;
+  bench.folder.write("input.in", "mu_MPa={{mu MPa}}\nJm=12\n");
+  auto ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("test 'strip'"), HasSubstr("searches for 'Jm'"), HasSubstr("fixed")));
+  bench.experiment["models"]["gent"]["parameters"]["Jm"] = {{"fixed", 12}};
+  ended = bench.run();
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-3);
+}
+
+TEST(External, AMisspeltParameterIsRefusedWithTheNearestName) {
+  trial::SolverBench bench;
+  bench.folder.write("input.in", "mu_MPa={{my MPa}}\nJm={{Jm}}\n");
+  const auto ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("'my'"), HasSubstr("Did you mean 'mu'")));
+}
+
+TEST(External, AProgramThatIsNotThereIsRefused) {
+  trial::SolverBench bench;
+  bench.test["command"] = {"no_such_solver", "input"};
+  auto ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("'no_such_solver'"), HasSubstr("PATH")));
+  bench.test["command"] = {"./solver"};
+  ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("does not exist"));
+}
+
+TEST(External, ResultsThatDoNotSayWhereAreRefused) {
+  trial::SolverBench bench;
+  bench.test["results"].erase("force");
+  auto ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("'force'"), HasSubstr("\"results\"")));
+  bench.test["results"]["force"] = {{"file", "curve.csv"}, {"pattern", "no group"}};
+  ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("no group"));
+  bench.test["results"]["force"] = {{"file", "../curve.csv"}, {"column", 2}};
+  ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("without '..'"));
+}
+
+TEST(External, AnEffectOnTheDataCostsNoRuns) {
+  trial::SolverBench bench;
+  bench.test["mechanisms"] = {{{"type", "force_offset"}}};
+  const auto ended = bench.run();
+  ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
+  EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-2);
+  EXPECT_GT(bench.result()["efforts"]["strip"]["cached_results"], 0);
+}
+
+TEST(External, ACurveThatEndsTooEarlyNamesTheRow) {
+  trial::SolverBench bench;
+  std::string text = trial::text_of(bench.folder.path() / "data.csv");
+  bench.folder.write("data.csv", text + "84,3000\n");
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  EXPECT_NE(bench.run().code, 0);
+  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(),
+              AllOf(HasSubstr("row 20"), HasSubstr("from 0 to 80")));
+}
