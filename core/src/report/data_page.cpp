@@ -20,6 +20,22 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit);
 }
 
+/// The rows of the least and the largest value of as many stretches of rows as are drawn, in their order.
+std::vector<std::size_t> peaks_kept(const std::vector<double>& values) {
+  const std::size_t step = std::max<std::size_t>(1, 2 * values.size() / points_drawn);
+  std::vector<std::size_t> rows;
+  for (std::size_t begin = 0; begin < values.size(); begin += step) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = values.begin() + static_cast<std::ptrdiff_t>(std::min(begin + step, values.size()));
+    const auto [low, high] = std::minmax_element(first, last);
+    const auto one = static_cast<std::size_t>(std::min(low, high) - values.begin());
+    const auto other = static_cast<std::size_t>(std::max(low, high) - values.begin());
+    rows.push_back(one);
+    if (other != one) rows.push_back(other);
+  }
+  return rows;
+}
+
 /// A column of the file over the clock, and over it what the test uses.
 Chart signal_chart(const TestData& test, const data::Signal& signal, std::size_t column) {
   const data::Signal::Column& values = signal.columns[column];
@@ -33,14 +49,15 @@ Chart signal_chart(const TestData& test, const data::Signal& signal, std::size_t
   chart.low_height = true;
   const auto used = static_cast<std::size_t>(std::count(signal.used.begin(), signal.used.end(), true));
   chart.note = fmt::format("{}: {} of {} rows are used.", signal.file.filename().string(), used, signal.used.size());
-  const std::size_t step = std::max<std::size_t>(1, signal.used.size() / points_drawn);
   Series all{"in the file", "line", 1}, kept{"used", "points", 0};
+  for (const std::size_t row : peaks_kept(values.values)) {
+    all.x.push_back(signal.clock.values[row]);
+    all.y.push_back(values.values[row]);
+  }
+  const std::size_t step = std::max<std::size_t>(1, used / points_drawn);
+  std::size_t seen = 0;
   for (std::size_t row = 0; row < signal.used.size(); ++row) {
-    if (row % step == 0) {
-      all.x.push_back(signal.clock.values[row]);
-      all.y.push_back(values.values[row]);
-    }
-    if (!signal.used[row] || (used > points_drawn && row % step != 0)) continue;
+    if (!signal.used[row] || seen++ % step != 0) continue;
     kept.x.push_back(signal.clock.values[row]);
     kept.y.push_back(values.values[row]);
   }
