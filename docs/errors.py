@@ -21,7 +21,7 @@ ROOT = HERE.parent
 SUBJECTS = [
     ("Python", "Raised as `tunica.InputError`, beside the messages of the command line.", ["apps/python/"]),
     ("Command line", "What stands behind `tunica`, and where results go.",
-     ["apps/", "core/src/exporting/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
+     ["apps/", "core/src/exporting/", "core/src/importing/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
       "core/src/comparison/parameter_file", "core/src/comparison/certify"]),
     ("JSON", "The experiment file as text. Each message names file, line and column.",
      ["core/src/experiment/json_document"]),
@@ -32,7 +32,7 @@ SUBJECTS = [
     ("Setting up a calibration", "Found when models, tests and data are put together, before anything is evaluated.",
      ["core/src/assembly/binding", "core/src/assembly/builder", "core/src/assembly/channels",
       "core/src/assembly/composition", "core/src/assembly/constraint.", "core/src/assembly/noise",
-      "core/src/assembly/objective", "core/src/search/calibration_problem", "core/src/execution/plan",
+      "core/src/assembly/objective", "core/src/calibration/", "core/src/search/calibration_problem", "core/src/execution/plan",
       "core/src/comparison/uncertainty", "core/src/comparison/stability_map"]),
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "

@@ -2,6 +2,7 @@
 #include "check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,9 +10,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "data/loading_path.hpp"
 #include "data/nearest.hpp"
+#include "data/signal.hpp"
 #include "describe.hpp"
+#include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "report/data_page.hpp"
 #include "text/lists.hpp"
 #include "text/styled.hpp"
 #include "text/units.hpp"
@@ -29,14 +34,22 @@ using text::pad;
 
 void print_tests(const assembly::Assembly& assembly) {
   for (const auto& channel : assembly.layout().channels) {
-    const auto held_out = std::count(channel.fitted.begin(), channel.fitted.end(), false);
-    const auto [low, high] = std::minmax_element(channel.measured.begin(), channel.measured.end());
+    std::vector<double> values = channel.measured;
+    std::erase_if(values, [](double value) { return std::isnan(value); });
     const auto [first, last] = std::minmax_element(channel.abscissa.begin(), channel.abscissa.end());
+    const std::string over = channel.count == 0 ? ""
+                                                : fmt::format(" over {} {:.4g} … {:.4g}{}", channel.abscissa_name,
+                                                              *first, *last, text::unit_suffix(channel.abscissa_unit));
     std::string text = fmt::format("{} rows", channel.count);
-    if (held_out > 0) text += fmt::format(" ({} held out)", held_out);
-    if (channel.count > 0)
-      text += fmt::format(", {:.4g} … {:.4g}{} over {} {:.4g} … {:.4g}{}", *low, *high, text::unit_suffix(channel.unit),
-                          channel.abscissa_name, *first, *last, text::unit_suffix(channel.abscissa_unit));
+    if (values.empty()) {
+      fmt::print("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable),
+                                 text + over + ", nothing measured: predicted only"));
+      continue;
+    }
+    if (channel.held_out_rows() > 0) text += fmt::format(" ({} held out)", channel.held_out_rows());
+    if (values.size() < channel.count) text += fmt::format(" ({} without a value)", channel.count - values.size());
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    text += fmt::format(", {:.4g} … {:.4g}{}{}", *low, *high, text::unit_suffix(channel.unit), over);
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
                           : std::string(", noise estimated");
@@ -141,9 +154,25 @@ void print(const calibration::Examination& checked, const std::string& file) {
                                       : std::string("Not in order: see above. `tunica run` would still start."));
 }
 
-int check(const GlobalOptions& global, const std::string& file, bool as_json) {
+/// The data as they were understood, as one HTML file.
+void write_data_page(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                     const std::filesystem::path& file) {
+  std::vector<report::TestData> tests;
+  for (const auto& entry : experiment.tests) {
+    const auto& observables = catalogue.tests().find(entry.type)->second.factory.observables;
+    report::TestData test{
+        entry.name, "", data::read_signals(entry.data, observables), data::read_dataset(entry.data, observables), {}};
+    test.words = fmt::format("{}; {}", entry.type, data::path_words(test.dataset, observables));
+    for (const auto& observable : observables) test.units.emplace_back(observable.name, observable.unit);
+    tests.push_back(std::move(test));
+  }
+  execution::write_atomically(file, report::data_page(experiment.name, tests));
+}
+
+int check(const GlobalOptions& global, const std::string& file, bool as_json, const std::string& page) {
   const Session session(global);
   const auto experiment = session.read(file);
+  if (!page.empty()) write_data_page(experiment, session.catalogue(), page);
   const auto checked = calibration::examine(experiment, session.catalogue());
   if (as_json)
     print_json(check_json(checked));
@@ -157,15 +186,18 @@ int check(const GlobalOptions& global, const std::string& file, bool as_json) {
 void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
   auto file = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
+  auto page = std::make_shared<std::string>();
   auto* verb =
       app.add_subcommand("check", "Dry run: check names, units, data, bounds, the initial point and identifiability");
   verb->add_option("experiment", *file, "Experiment file (JSON)")->required()->type_name("EXP");
   verb->add_flag("--json", *as_json, "Print one JSON object; `in_order` says whether the exit code is 0");
+  verb->add_option("--page", *page, "Write a page that draws the data as they were understood")->type_name("FILE");
   verb->footer(
       "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n"
-      "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n\nWrites nothing.");
-  verb->callback([&global, &action, file, as_json] {
-    action = [&global, file, as_json] { return check(global, *file, *as_json); };
+      "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n"
+      "  tunica check experiment.json --page data.html\n\nWrites nothing else.");
+  verb->callback([&global, &action, file, as_json, page] {
+    action = [&global, file, as_json, page] { return check(global, *file, *as_json, *page); };
   });
 }
 

@@ -26,16 +26,15 @@ json status_json(const Status& status) {
 }
 
 json channel_json(const assembly::MeasuredChannel& channel) {
-  json one = {{"test", channel.test},
-              {"observable", channel.observable},
-              {"unit", channel.unit},
-              {"rows", channel.count},
-              {"held_out", std::count(channel.fitted.begin(), channel.fitted.end(), false)},
-              {"weight", channel.weight}};
+  json one = {{"test", channel.test},  {"observable", channel.observable},    {"unit", channel.unit},
+              {"rows", channel.count}, {"held_out", channel.held_out_rows()}, {"weight", channel.weight}};
+  std::vector<double> values = channel.measured;
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  one["measured"] = values.size();
   if (channel.count > 0) {
-    const auto [low, high] = std::minmax_element(channel.measured.begin(), channel.measured.end());
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const auto [first, last] = std::minmax_element(channel.abscissa.begin(), channel.abscissa.end());
-    one["range"] = {*low, *high};
+    one["range"] = values.empty() ? json(nullptr) : json{*low, *high};
     one["over"] = {{"name", channel.abscissa_name}, {"unit", channel.abscissa_unit}, {"range", {*first, *last}}};
   }
   one["noise"] = nullptr;

@@ -8,7 +8,7 @@ namespace tunica::app {
 
 namespace {
 
-constexpr const char* head =
+constexpr const char* bash_head =
     R"sh(# bash completion for tunica, made by `tunica completion bash` from the program's own help.
 # Installed as share/bash-completion/completions/tunica; without that: source <(tunica completion bash)
 
@@ -148,7 +148,7 @@ std::string bash_completion(const Verb& program) {
       "# How many words an option takes.\n_tunica_takes() {{\n  case \"$1 $2\" in\n{}  esac\n  return 0\n}}\n\n"
       "# Offers the value of an option, or the argument at a place; false for a flag.\n"
       "_tunica_value() {{\n  case \"$1 $2\" in\n{}    *) return 1 ;;\n  esac\n}}\n\n{}",
-      head, tables.grammar, tables.takes, tables.values, walk);
+      bash_head, tables.grammar, tables.takes, tables.values, walk);
 }
 
 }  // namespace tunica::app

@@ -26,6 +26,7 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action);
 void add_report(CLI::App& app, GlobalOptions& global, Action& action);
 void add_export(CLI::App& app, GlobalOptions& global, Action& action);
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action);
+void add_import(CLI::App& app, GlobalOptions& global, Action& action);
 void add_check(CLI::App& app, GlobalOptions& global, Action& action);
 void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);
 void add_stability(CLI::App& app, GlobalOptions& global, Action& action);

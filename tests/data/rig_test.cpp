@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <random>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "data/cycles.hpp"
+#include "data/local_regression.hpp"
 #include "data/strip.hpp"
 #include "data/table_place.hpp"
 
@@ -288,6 +290,69 @@ TEST(RigData, ShiftsADisplacementToThePreload) {
   const Dataset strip = read_strip("Way [mm],Force [mN]\n0,0\n1,0\n2,80\n3,120\n", by_force, request);
   ASSERT_EQ(strip.count, 2u);
   EXPECT_DOUBLE_EQ(strip.abscissae[0].second[0], 11 / 10.5);  // 9 + 1.5 mm at 40 mN
+}
+
+TEST(RigData, LeavesCellsOutOfChannelsThatHaveOthers) {
+  const Mapping both = {{"stretch", "stretch"}, {"stress", "stress"}, {"transverse_stretch", "across"}};
+  const Dataset strip = read_strip("stretch,stress [kPa],across\n1,0,1\n1.1,,0.95\n1.2,5,NaN\n", both);
+  EXPECT_TRUE(std::isnan(strip.channels[0].values[1]));
+  EXPECT_EQ(strip.channels[0].values[2], 5);
+  EXPECT_TRUE(std::isnan(strip.channels[1].values[2]));
+  EXPECT_EQ(strip.channels[1].values[1], 0.95);
+  EXPECT_NE(strip_refusal("stretch,stress [kPa],across\n1,0,1\n1.1,,\n", both)
+                .find("line 3, column 2 ('stress'): found an empty cell"),
+            std::string::npos)
+      << "nothing was measured in that row";
+}
+
+TEST(LocalRegression, ReproducesALineAndStatesItsError) {
+  std::vector<double> x, y;
+  std::mt19937 generator(11);
+  std::normal_distribution<double> normal(0, 0.5);
+  for (int row = 0; row < 4000; ++row) {
+    x.push_back(row / 4000.0);
+    y.push_back(2 + 3 * x.back() + normal(generator));
+  }
+  std::vector<double> line;
+  for (const double at : x) line.push_back(2 + 3 * at);
+  std::vector<double> at;
+  for (int point = 0; point < 21; ++point) at.push_back(point / 20.0 * x.back());
+  const Smoothed exact = local_regression(x, line, at, 0.05);
+  for (std::size_t point = 0; point < at.size(); ++point) EXPECT_NEAR(exact.values[point], 2 + 3 * at[point], 1e-10);
+  const Smoothed noisy = local_regression(x, y, at, 0.05);
+  EXPECT_NEAR(noisy.scatter, 0.5, 0.5 * 0.06);  // sd of an estimate from 4000 values is 1.1 %: six of them
+  double squares = 0;
+  for (std::size_t point = 0; point < at.size(); ++point)
+    squares += std::pow((noisy.values[point] - 2 - 3 * at[point]) / noisy.error, 2);
+  // χ² with 21 degrees of freedom, but for the correlation: outside of 5 to 50 with a chance below 0.001.
+  EXPECT_GT(squares, 5);
+  EXPECT_LT(squares, 50);
+  EXPECT_GT(noisy.correlation, 0);
+  EXPECT_LT(noisy.correlation, 0.5);
+}
+
+TEST(RigData, ResamplesBranchesAndKeepsTheScatterAsNoise) {
+  std::string text = "stretch [-],stress [kPa]\n";
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal(0, 2);
+  for (int row = 0; row <= 800; ++row) {
+    const double x = 1 + 0.4 * (row <= 400 ? row : 800 - row) / 400.0;
+    text += fmt::format("{},{}\n", x, 100 * (x - 1) + (row > 400 ? 30 : 0) + normal(generator));
+  }
+  DataRequest request;
+  request.resample = 11;
+  const Dataset strip = read_strip(text, {}, request);
+  ASSERT_EQ(strip.count, 22u);
+  EXPECT_NEAR(strip.abscissae[0].second[5], 1.2, 1e-12);
+  ASSERT_TRUE(strip.channels[0].noise);
+  const double error = strip.channels[0].noise->absolute;
+  EXPECT_LT(error, 2.0 / std::sqrt(10)) << "many rows stand behind each point";
+  EXPECT_GT(error, 2.0 / std::sqrt(80));
+  for (std::size_t row = 1; row < 10; ++row)
+    EXPECT_NEAR(strip.channels[0].values[row], 100 * (strip.abscissae[0].second[row] - 1), 5 * error) << row;
+  request.resample = 500;
+  EXPECT_NE(strip_refusal(text, {}, request).find("\"resample\" is 500, and a branch has only 401 rows"),
+            std::string::npos);
 }
 
 TEST(RigData, NamesWhatIsMissing) {

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """dermis.py TUNICA SOURCES FOLDER: 25 strips of porcine dermis as the rig wrote them (public repository
-tajtac/node_damage). The stretch–stress curve that tunica fits is that of numpy to 1e-10, and so is the fit."""
+tajtac/node_damage), untouched. `tunica import` proposes a block for each, `tunica check` accepts them, and curve and fit
+are those of a script with numpy to 1e-10."""
 import csv
+import json
 import os
 import pathlib
 import sys
@@ -19,51 +21,63 @@ if not data.is_dir():
     sys.exit(77)
 folder = rig.fresh_folder(out)
 TO = 1e-10
-MODEL = {"yeoh": {"type": "yeoh", "parameters": {
-    "c10": {"min": 0.01, "max": 1e4}, "c20": {"min": -1e5, "max": 1e5}, "c30": {"min": -1e6, "max": 1e6}}}}
+with open(data / "specimens.csv", encoding="utf-8") as stream:
+    SPECIMENS = list(csv.DictReader(stream))
 
 
-def specimens():
-    with open(data / "specimens.csv", encoding="utf-8") as stream:
-        return list(csv.DictReader(stream))
-
-
-def curve(name, width, thickness):
-    """Last loading to the first stretch: λ = size/size without displacement, P = F/(width·thickness) in kPa."""
-    with open(data / f"{name}.csv", encoding="utf-8") as stream:
-        rows = [row for row in csv.DictReader(stream) if row["SetName"] == "Stretch3" and row["Cycle"] == "5-Stretch"]
-    size = np.array([float(row["Size_mm"]) for row in rows])
-    way = np.array([float(row["Displacement_mm"]) for row in rows])
-    gauge = float(f"{np.median(size - way):.3f}")
-    force = np.array([float(row["Force_N"]) for row in rows])
-    return gauge, 1 + way / gauge, 1000 * force / (width * thickness)
+def curve(specimen):
+    """Last loading to the first stretch: λ = 1 + displacement/size without displacement, P = F/(width·thickness) in kPa.
+    The loading of cycle 5 goes from the last row of the valley before its peak to the first row of the peak."""
+    with open(data / f"{specimen['Specimen']}.csv", encoding="utf-8") as stream:
+        rows = [row for row in csv.DictReader(stream) if row["SetName"] == "Stretch3"]
+    cycle = np.array([int(row["Cycle"].split("-")[0]) for row in rows])
+    size, way, force = (np.array([float(row[key]) for row in rows]) for key in ("Size_mm", "Displacement_mm", "Force_N"))
+    before = np.flatnonzero(cycle == 4)[0] + int(np.argmax(way[cycle == 4]))
+    peak = np.flatnonzero(cycle == 5)[0] + int(np.argmax(way[cycle == 5]))
+    valley = before + np.flatnonzero(way[before:peak] == way[before:peak].min())[-1]
+    used = slice(max(valley, np.flatnonzero(cycle == 5)[0]), peak + 1)
+    gauge = round(float(np.median(size - way)), 3)
+    area = float(specimen["Width"]) * float(specimen["Thickness"])
+    return 1 + way[used] / gauge, 1000 * force[used] / area
 
 
 def close(a, b):
-    return np.max(np.abs(np.asarray(a) - np.asarray(b)) / np.maximum(np.abs(b), 1)) < TO
+    a, b = np.asarray(a), np.asarray(b)
+    return a.shape == b.shape and np.max(np.abs(a - b) / np.maximum(np.abs(b), 1)) < TO
 
 
-for row in specimens():
-    name = row["Specimen"]
-    gauge, stretch, stress = curve(name, float(row["Width"]), float(row["Thickness"]))
-    block = {"file": str(data / f"{name}.csv"), "columns": {"displacement": "Displacement_mm", "force": "Force_N"},
-             "units": {"Displacement_mm": "mm", "Force_N": "N"}, "where": {"SetName": "Stretch3", "Cycle": "5-Stretch"},
-             "specimen": {"width": f"{row['Width']} mm", "thickness": f"{row['Thickness']} mm",
-                          "gauge_length": f"{gauge} mm"},
-             "stress_measure": "first_piola_kirchhoff"}
-    raw = rig.write_experiment(folder / f"{name}.json", block, models=MODEL)
-    rig.tunica(program, "check", raw)
-    rig.tunica(program, "run", raw, "-o", folder / f"{name}.raw")
+files = [data / f"{specimen['Specimen']}.csv" for specimen in SPECIMENS]
+raw = folder / "raw.json"
+printed, _ = rig.tunica(program, "import", *files, "--specimens", data / "specimens.csv", "--model", "yeoh", "-o", raw)
+assert "gauge length" in printed and "last loading is taken" in " ".join(printed.split()), printed
+printed, _ = rig.tunica(program, "check", raw)
+assert "read as one curve" not in " ".join(printed.split()), printed
+
+# The same tests, their data blocks replaced by clean files.
+experiment = json.loads(raw.read_text())
+experiment["models"]["yeoh"]["parameters"] = {
+    "c10": {"min": 0.01, "max": 1e4}, "c20": {"min": -1e5, "max": 1e5}, "c30": {"min": -1e6, "max": 1e6}}
+experiment["optimizers"]["lm"]["starts"] = 1
+raw.write_text(json.dumps(experiment, indent=1))
+curves = {}
+for specimen in SPECIMENS:
+    name = specimen["Specimen"]
+    stretch, stress = curves[name] = curve(specimen)
     (folder / f"{name}.csv").write_text("stretch [-],stress [kPa]\n" + "".join(
         f"{x!r},{y!r}\n" for x, y in zip(stretch.tolist(), stress.tolist())))
-    clean = rig.write_experiment(folder / f"{name}_clean.json", {
-        "file": f"{name}.csv", "columns": {"stretch": "stretch", "stress": "stress"},
-        "stress_measure": "first_piola_kirchhoff"}, models=MODEL)
-    rig.tunica(program, "run", clean, "-o", folder / f"{name}.clean")
-    fitted = rig.fitted_curve(folder / f"{name}.raw")
+    experiment["tests"][name]["data"] = {"file": f"{name}.csv", "columns": {"stretch": "stretch", "stress": "stress"},
+                                         "stress_measure": "first_piola_kirchhoff", "order": "loading"}
+clean = folder / "clean.json"
+clean.write_text(json.dumps(experiment, indent=1))
+for file in (raw, clean):
+    rig.tunica(program, "run", file, "-o", file.with_suffix(".out"))
+best = [json.loads((folder / f"{kind}.out" / "result.json").read_text())["runs"] for kind in ("raw", "clean")]
+assert len(best[0]) == 25
+for of_raw, of_clean in zip(*best):
+    a, b = ({key: entry["value"] for key, entry in run["best"]["parameters"].items()} for run in (of_raw, of_clean))
+    assert all(abs(a[key] - b[key]) <= TO * max(1, abs(b[key])) for key in b), (of_raw["tests"], a, b)
+for name, (stretch, stress) in curves.items():
+    fitted, of_clean = (rig.fitted_curve(folder / f"{kind}.out", name) for kind in ("raw", "clean"))
     assert close(fitted["stretch"], stretch) and close(fitted["stress"], stress), name
-    of_clean = rig.fitted_curve(folder / f"{name}.clean")
     assert close(fitted["stress.predicted"], of_clean["stress.predicted"]), name
-    a, b = (rig.best_parameters(folder / f"{name}.{kind}") for kind in ("raw", "clean"))
-    assert all(abs(a[key] - b[key]) <= TO * max(1, abs(b[key])) for key in b), (name, a, b)
-print(f"{len(specimens())} specimens: curves and fits agree to {TO:g}")
+print(f"{len(curves)} specimens: curves and fits agree to {TO:g}")

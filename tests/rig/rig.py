@@ -46,11 +46,11 @@ def write_experiment(file, data, direction="circumferential", models=None):
 
 def fitted_curve(folder, test="strip"):
     """Columns of fit_<test>*.csv by their names without units."""
-    file = next(iter(sorted(folder.glob(f"fit_{test}*.csv"))))
+    file = next(iter(sorted(folder.glob(f"fit_{test}.csv"))))
     with open(file, encoding="utf-8") as stream:
         rows = list(csv.reader(line for line in stream if not line.startswith("#")))
     names = [name.split(" [")[0] for name in rows[0]]
-    return {name: [float(row[k]) for row in rows[1:]] for k, name in enumerate(names)
+    return {name: [float(row[k]) if row[k] else None for row in rows[1:]] for k, name in enumerate(names)
             if name in ("stretch", "stress", "stress.predicted")}
 
 

@@ -80,6 +80,8 @@ std::vector<MeasuredChannel> measured_channels(const experiment::TestEntry& entr
       measured.noise->relative /= root;
     }
     measured.fitted = fitted_rows(entry, dataset);
+    for (std::size_t row = 0; row < dataset.count; ++row)
+      if (std::isnan(channel.values[row])) measured.fitted[row] = false;  // nothing was measured there
     measured.file_rows = dataset.file_rows;
     if (!entry.weights.empty()) measured.weight = entry.weights[k];
     if (!dataset.abscissae.empty()) {

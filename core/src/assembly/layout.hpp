@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -51,13 +52,13 @@ struct DrawnOver {
 struct MeasuredChannel {
   std::string test, observable, unit;
   std::size_t offset = 0, count = 0;  ///< rows [offset, offset + count) of the predictions
-  std::vector<double> measured;       ///< count
+  std::vector<double> measured;       ///< count; NaN = not measured
   std::vector<double> abscissa;       ///< count; the test's first abscissa
   std::string abscissa_name, abscissa_unit;
   /// "name [unit]" → count values
   std::vector<std::pair<std::string, std::vector<double>>> other_abscissae;
   DrawnOver drawn_over;                     ///< the abscissa of this channel, see data/curves.hpp
-  std::vector<bool> fitted;                 ///< count; false = held out
+  std::vector<bool> fitted;                 ///< count; false = held out, or not measured
   std::vector<std::size_t> file_rows = {};  ///< count, data::Dataset::file_rows; empty = in the order of the file
   double weight = 1;
   std::optional<data::Noise> noise;  ///< of `measured`, as stated; a mean over m replicates has 1/√m of it
@@ -65,6 +66,12 @@ struct MeasuredChannel {
 
   /// The number that a row has in the file, behind `where` and `rows`.
   [[nodiscard]] std::size_t file_row(std::size_t row) const { return file_rows.empty() ? row : file_rows[row]; }
+  [[nodiscard]] bool held_out(std::size_t row) const { return !fitted[row] && !std::isnan(measured[row]); }
+  [[nodiscard]] std::size_t held_out_rows() const {
+    std::size_t rows = 0;
+    for (std::size_t row = 0; row < count; ++row) rows += held_out(row) ? 1 : 0;
+    return rows;
+  }
 };
 
 /// What a run consists of; nothing in it depends on parameter values.

@@ -33,6 +33,7 @@ std::vector<ChannelQuality> quality(const Assembly& assembly, std::span<const do
   for (const MeasuredChannel& view : assembly.layout().channels) {
     std::vector<double> measured[2], predicted[2];
     for (std::size_t i = 0; i < view.count; ++i) {
+      if (!view.fitted[i] && !view.held_out(i)) continue;
       measured[view.fitted[i]].push_back(view.measured[i]);
       predicted[view.fitted[i]].push_back(predictions[view.offset + i]);
     }

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -20,6 +21,7 @@
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "report/report.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::calibration {
 
@@ -75,6 +77,16 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       [&] { comparison::analyse(plan, catalogue, directory, execution::InterruptWatch::interrupted, summary); });
 }
 
+void refuse_runs_without_data(const execution::Plan& plan) {
+  for (const execution::PlannedRun& run : plan.runs)
+    if (std::none_of(run.entry->tests.begin(), run.entry->tests.end(),
+                     [&](const std::string& name) { return plan.experiment->test(name).measured; }))
+      throw InputError(
+          fmt::format("run {}: no test has measured values, so there is nothing to fit. Map a measured "
+                      "quantity in \"columns\", or predict with `tunica simulate`.",
+                      run.label));
+}
+
 }  // namespace
 
 bool Outcome::sound() const {
@@ -86,6 +98,7 @@ bool Outcome::sound() const {
 Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                   const Options& options) {
   const auto plan = execution::make_plan(experiment, catalogue);
+  refuse_runs_without_data(plan);
   comparison::check_analysis(plan, catalogue);
   const auto folder = options.resume ? execution::RunDirectory::reopen(options.directory, experiment.name)
                                      : execution::RunDirectory::create(options.directory, experiment.name);

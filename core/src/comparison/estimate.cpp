@@ -67,6 +67,20 @@ void add_parameters(const assembly::Assembly& assembly, const execution::Realisa
   }
 }
 
+/// p = p(x) in the unit box: to first order cov p = diag(dp/dx) cov x diag(dp/dx).
+void add_covariance(const assembly::Assembly& assembly, const std::vector<double>& best,
+                    const uncertainty::Identifiability& found, ParameterCovariance& covariance) {
+  const auto& parameters = assembly.layout().parameters;
+  covariance.search = found.covariance;
+  std::size_t at = 0;
+  for (const std::size_t i : found.fixed_by_data) {
+    covariance.parameters.push_back({parameters[i].name, parameters[i].unit, parameters[i].scale});
+    for (const std::size_t j : found.fixed_by_data)
+      covariance.values.push_back(found.covariance[at++] * assembly.box().slope(i, best[i]) *
+                                  assembly.box().slope(j, best[j]));
+  }
+}
+
 /// Intervals from the noise of the data where they fix a parameter, and in words what they do not.
 void add_identifiability(const assembly::Assembly& assembly, const execution::RealisationResult& best,
                          RunSummary& summary, std::vector<execution::Warning>& warnings) {
@@ -89,6 +103,7 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
     estimate.straight = interval.straight;
     if (interval.identified && std::isfinite(interval.ci95)) estimate.ci95 = {interval.lower, interval.upper};
   }
+  add_covariance(assembly, best.best.parameters, found, summary.covariance);
   summary.curve_ci95 = std::move(found.curve_ci95);
   summary.identifiability = found.sentences();
 }

@@ -102,7 +102,9 @@ std::string fit_table(const execution::Plan& plan, const Summary& summary, const
       for (const auto& other : lead.other_abscissae) text += ',' + fit_cell(other.second[row]);
       for (const auto* channel : fit.channels)
         text += ',' + fit_cell(channel->measured[row]) + ',' + fit_cell(fit.predictions[channel->offset + row]);
-      text += lead.fitted[row] ? ",0" : ",1";
+      const bool held_out = std::any_of(fit.channels.begin(), fit.channels.end(),
+                                        [row](const auto* channel) { return channel->held_out(row); });
+      text += held_out ? ",1" : ",0";
       for (const auto& name : diagnostics) {
         const auto found = std::find_if(fit.diagnostics.begin(), fit.diagnostics.end(),
                                         [&](const auto& entry) { return entry.first == name; });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison/result_json.hpp"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "comparison/hold_out.hpp"
@@ -106,6 +108,36 @@ json noise(const std::vector<NoiseOf>& channels) {
   return all;
 }
 
+json matrix(const std::vector<double>& values, std::size_t size) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < size; ++row) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row * size);
+    rows.push_back(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(size)));
+  }
+  return rows;
+}
+
+json covariance(const ParameterCovariance& found) {
+  const std::size_t n = found.parameters.size();
+  if (n == 0) return nullptr;
+  json names = json::array(), units = json::array(), scales = json::array();
+  for (const auto& parameter : found.parameters) {
+    names.push_back(parameter.name);
+    units.push_back(parameter.unit);
+    scales.push_back(parameter.scale == Scale::log ? "log" : "linear");
+  }
+  std::vector<double> correlation = found.search;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      correlation[i * n + j] =
+          i == j ? 1 : found.search[i * n + j] / std::sqrt(found.search[i * n + i] * found.search[j * n + j]);
+  return {{"parameters", std::move(names)},
+          {"units", std::move(units)},
+          {"values", matrix(found.values, n)},
+          {"correlation", matrix(correlation, n)},
+          {"search", {{"scales", std::move(scales)}, {"values", matrix(found.search, n)}}}};
+}
+
 json best(const RunSummary& run) {
   json parameters = json::object();
   for (const auto& parameter : run.parameters) {
@@ -146,6 +178,7 @@ json best(const RunSummary& run) {
                  {"stability", stability_json(run)},
                  {"realisation", run.best_realisation},
                  {"evaluation", run.best_id}};
+  result["covariance"] = covariance(run.covariance);
   result["aicc"] = run.information ? or_null(run.information->aicc) : json(nullptr);
   result["bic"] = run.information ? json(run.information->bic) : json(nullptr);
   result["noise"] = run.information ? json(word(run.information->noise)) : json(nullptr);

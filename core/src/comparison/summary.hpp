@@ -71,6 +71,17 @@ struct NoiseOf {
   double sd = 0;  ///< median over the fitted rows
 };
 
+/// Covariance of the parameters that the data fix, row after row; empty = none.
+struct ParameterCovariance {
+  struct Of {
+    std::string name, unit;
+    Scale scale = Scale::linear;
+  };
+  std::vector<Of> parameters;
+  std::vector<double> values;  ///< in the units of the parameters
+  std::vector<double> search;  ///< in the unit box: x = (p − min)/(max − min), or log(p/min)/log(max/min)
+};
+
 struct RunSummary {
   std::string label, model, optimizer;
   std::vector<std::string> tests;
@@ -91,6 +102,7 @@ struct RunSummary {
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of
   /// the data leaves them; and the range over the best points of all realisations. Each empty where there is none.
   std::vector<double> curve_ci95, curve_lowest, curve_highest;
+  ParameterCovariance covariance;
   std::vector<std::string> identifiability;  ///< sentences
   std::vector<std::string> uncertainty;      ///< sentences on profiles and bootstrap
   struct Draws {

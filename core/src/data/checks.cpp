@@ -19,6 +19,7 @@ using Kind = Observable::Kind;
 constexpr double largest_stretch = 20;
 
 void check_stretch(const Series& series, const Series::Column& column, std::vector<std::string>& warnings) {
+  if (std::any_of(column.values.begin(), column.values.end(), [](double value) { return std::isnan(value); })) return;
   const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
   const auto row = [&](auto at) { return static_cast<std::size_t>(at - column.values.begin()); };
   const bool from_zero = std::abs(column.values.front()) < 0.1;
@@ -94,7 +95,7 @@ void check_duplicates(const Series& series, std::vector<std::string>& warnings) 
   for (std::size_t row = 0; row < series.lines.size(); ++row) {
     std::vector<double> all, prescribed;
     for (const Series::Column& column : series.columns) {
-      all.push_back(column.values[row]);
+      all.push_back(std::isnan(column.values[row]) ? INFINITY : column.values[row]);  // a missing cell
       if (column.observable->role == Role::abscissa) prescribed.push_back(column.values[row]);
     }
     const bool new_row = rows.emplace(std::move(all), row).second;

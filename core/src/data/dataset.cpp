@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -45,7 +46,8 @@ void check_request(const DataRequest& request, const std::vector<Observable>& ob
     if (observable.required && !mapped.contains(observable.name))
       throw InputError(fmt::format("no column is mapped to '{}' ({}), which the test needs; add it to \"columns\"",
                                    observable.name, observable.doc));
-  if (!channel) throw InputError("no measured channel is mapped, so there is nothing to fit; add one to \"columns\"");
+  if (!channel && request.files.size() > 1)
+    throw InputError("replicates need a measured channel, and none is mapped; add one to \"columns\"");
   if (time && request.time_rate) throw InputError("a time column is mapped and \"time_from\" is given: leave out one");
 }
 
@@ -54,6 +56,21 @@ void check_request(const DataRequest& request, const std::vector<Observable>& ob
 const std::vector<std::string>& stress_measures() {
   static const std::vector<std::string> names = {"cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"};
   return names;
+}
+
+std::vector<const Observable*> predicted_channels(const DataRequest& request,
+                                                  const std::vector<Observable>& observables) {
+  std::set<std::string> mapped;
+  for (const auto& [name, column] : request.columns) mapped.insert(find_quantity(name, observables).observable->name);
+  std::vector<const Observable*> stresses, all;
+  for (const Observable& observable : observables) {
+    if (observable.role != Observable::Role::channel) continue;
+    all.push_back(&observable);
+    const Observable* const stretch =
+        observable.kind == Observable::Kind::stress ? stretch_beside(observable, observables) : nullptr;
+    if (stretch != nullptr && mapped.contains(stretch->name)) stresses.push_back(&observable);
+  }
+  return stresses.empty() ? all : stresses;
 }
 
 std::pair<std::size_t, std::size_t> RowRange::among(std::size_t count) const {
@@ -131,10 +148,18 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
         channel.values[row] = sum / static_cast<double>(replicates.size());
       }
     }
+    for (const auto& [name, noise] : first.scatter)
+      if (name == observable.name) channel.noise = noise;
     for (const auto& [name, noise] : request.noise)
       if (name == observable.name) channel.noise = noise;
     dataset.channels.push_back(std::move(channel));
   }
+  if (dataset.channels.empty())
+    for (const Observable* const predicted : predicted_channels(request, observables)) {
+      const std::vector<double> nothing(dataset.count, std::numeric_limits<double>::quiet_NaN());
+      dataset.channels.push_back({predicted->name, predicted->unit, nothing, {}, {}});
+      dataset.source_columns.push_back({predicted->name, {predicted->name, ""}});
+    }
   const bool timed = !dataset.time.empty() && dataset.time.back() > dataset.time.front();
   dataset.ordered = request.order == Order::loading || request.cycle || timed || dataset.count < 2;
   if (request.sorted) sort_rows(dataset);

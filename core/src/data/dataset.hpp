@@ -57,14 +57,15 @@ struct DataRequest {
   std::string cycles_from;           ///< column that counts cycles; empty: from the turning points
   BranchChoice branch = BranchChoice::both;
   std::optional<Preload> preload;
-  bool sorted = false;  ///< rows by their values, whatever their order in the file; for a diagnosis
+  std::optional<std::size_t> resample;  ///< points of each branch
+  bool sorted = false;                  ///< rows by their values, whatever their order in the file; for a diagnosis
 };
 
 /// One fitted channel: the measured values and what is known of their noise.
 struct Channel {
   std::string observable;
   std::string unit;                             ///< base unit
-  std::vector<double> values;                   ///< mean over replicates where there are several
+  std::vector<double> values;                   ///< mean over replicates where there are several; NaN = not measured
   std::vector<std::vector<double>> replicates;  ///< each as long as values; empty = none
   std::optional<Noise> noise;
 };
@@ -90,6 +91,10 @@ struct Dataset {
 
 /// The names that DataRequest::stress_measure may have.
 const std::vector<std::string>& stress_measures();
+
+/// Channels that a request without any is there to predict: the stresses whose stretches it has, else all.
+std::vector<const Observable*> predicted_channels(const DataRequest& request,
+                                                  const std::vector<Observable>& observables);
 
 /// Reads and checks the data of one test; `observables` are those the test declares. Throws InputError whose message
 /// names file, line and column.

@@ -77,8 +77,9 @@ void sort_rows(Dataset& dataset) {
   std::vector<std::size_t> rows(dataset.count);
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   std::stable_sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    const auto key = [](double value) { return std::isnan(value) ? INFINITY : value; };  // a missing cell
     for (const auto& [different, values] : keys)
-      if ((*values)[a] != (*values)[b]) return (*values)[a] < (*values)[b];
+      if (key((*values)[a]) != key((*values)[b])) return key((*values)[a]) < key((*values)[b]);
     return false;
   });
   const auto sort = [&rows](auto& values) {

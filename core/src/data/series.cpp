@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -62,7 +63,10 @@ class Reader {
     for (std::size_t& row : selected) row = chosen[row];
     for (const std::size_t row : selected) series_.lines.push_back(rows_[row]->line);
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
-      for (const std::size_t row : selected) series_.columns[k].values.push_back(value(k, *rows_[row]));
+      for (const std::size_t row : selected)
+        series_.columns[k].values.push_back(is_missing(k, *rows_[row]) ? std::numeric_limits<double>::quiet_NaN()
+                                                                       : value(k, *rows_[row]));
+    series_.used_lines = series_.lines;
     take_time(selected);
     derive_stretches();
     derive_stresses();
@@ -108,6 +112,18 @@ class Reader {
 
   double value(std::size_t k, const Csv::Row& row) const {
     return in_base_unit(k, csv_.number(row, series_.columns[k].index, decimal_));
+  }
+
+  static bool is_empty(const std::string& cell) { return cell.empty() || cell == "NaN" || cell == "nan"; }
+
+  /// A row counts for the channels that it has, so one of them may lack. Replicates are averaged row by row.
+  bool is_missing(std::size_t k, const Csv::Row& row) const {
+    if (quantities_[k].observable->role != Role::channel || request_.files.size() > 1) return false;
+    if (!is_empty(row.cells[series_.columns[k].index])) return false;
+    for (std::size_t other = 0; other < quantities_.size(); ++other)
+      if (quantities_[other].observable->role == Role::channel && !is_empty(row.cells[series_.columns[other].index]))
+        return true;
+    return false;
   }
 
   RawColumn all_rows_of(std::size_t k) const {
@@ -313,7 +329,9 @@ std::string Series::header_place(const Column& column) const {
 Series read_series(const std::filesystem::path& file, const DataRequest& request,
                    const std::vector<Observable>& observables, std::vector<std::string>& warnings) {
   const std::string bytes = read_bytes(file);
-  return Reader(file, bytes, request, observables, warnings).read();
+  Series series = Reader(file, bytes, request, observables, warnings).read();
+  if (request.resample) resample(series, *request.resample);
+  return series;
 }
 
 }  // namespace tunica::data

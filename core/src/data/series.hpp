@@ -22,10 +22,12 @@ struct Series {
   std::filesystem::path file;
   std::string sha256;
   std::size_t header_line = 0;
-  std::vector<Column> columns;              ///< in the order of the request
-  std::vector<std::size_t> lines;           ///< one per row
-  std::vector<double> time;                 ///< from `time_from`; empty = none
-  std::optional<double> gauge_length = {};  ///< mm, where it was taken at the preload
+  std::vector<Column> columns;                              ///< in the order of the request
+  std::vector<std::size_t> lines;                           ///< one per row
+  std::vector<double> time;                                 ///< from `time_from`; empty = none
+  std::vector<std::size_t> used_lines = {};                 ///< of the rows that were read
+  std::vector<std::pair<std::string, Noise>> scatter = {};  ///< by channel, where it was resampled
+  std::optional<double> gauge_length = {};                  ///< mm, where it was taken at the preload
 
   /// "circ.csv, line 7, column 2 ('stress')".
   [[nodiscard]] std::string place(std::size_t row, const Column& column) const;
@@ -38,6 +40,10 @@ Series read_series(const std::filesystem::path& file, const DataRequest& request
 /// Refuses what cannot be a measurement of the observable (a stretch of zero or less, strain for stretch, percent for
 /// a fraction, time that runs backwards) and warns of what probably is none. Throws InputError.
 void check_series(const Series& series, std::vector<std::string>& warnings);
+
+/// Puts `points` rows in place of each branch of the path, evenly along it, by local regression. What the measured rows
+/// scatter about the curve becomes the noise of the new ones. Throws InputError where a branch has fewer rows.
+void resample(Series& series, std::size_t points);
 
 /// Brings replicates to one set of abscissae, those of the first file: series with the same ones are taken as they
 /// are, others interpolated linearly with a warning; rows that some replicate does not reach are left out. After it

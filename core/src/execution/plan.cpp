@@ -65,6 +65,14 @@ void check_constraints(const PlannedRun& run, const PlannedStage& stage, const O
         run.label, stage.entry->name, stage.entry->type, status.reason().empty() ? "" : ": ", status.reason()));
 }
 
+/// Whether anything was measured: without, `tunica check` still says what the rows are, and nothing is searched.
+bool is_measured(const assembly::Layout& layout) {
+  return std::any_of(layout.channels.begin(), layout.channels.end(), [](const auto& channel) {
+    return std::any_of(channel.measured.begin(), channel.measured.end(),
+                       [](double value) { return !std::isnan(value); });
+  });
+}
+
 /// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
 void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   if (run.assembly->layout().parameters.empty())
@@ -77,7 +85,7 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
     const auto& needs = optimizer->needs();
     random = random || needs.random;
-    if (needs.residuals && run.assembly->layout().blocks.empty())
+    if (needs.residuals && run.assembly->layout().blocks.empty() && is_measured(run.assembly->layout()))
       throw InputError(
           fmt::format("run {}: the optimiser '{}' ({}) works on residuals, and the objective has none: every "
                       "row is held out. Set hold_out to false in a test, or take out the run",

@@ -73,6 +73,7 @@ struct TestEntry {
   data::DataRequest data;
   std::vector<double> weights;  ///< one per mapped channel, in the order of data.columns' channels
   HoldOut hold_out;
+  bool measured = true;               ///< false: no measured quantity is mapped, so that its rows are predicted only
   std::filesystem::path folder = {};  ///< where files that options name are looked for, absolute
 };
 

@@ -16,10 +16,9 @@ namespace {
 
 using Role = Observable::Role;
 
-std::vector<std::string> observable_names(const std::vector<Observable>& observables, bool channels_only = false) {
+std::vector<std::string> observable_names(const std::vector<Observable>& observables) {
   std::vector<std::string> names;
-  for (const Observable& observable : observables)
-    if (!channels_only || observable.role == Role::channel) names.push_back(observable.name);
+  for (const Observable& observable : observables) names.push_back(observable.name);
   return names;
 }
 
@@ -63,7 +62,6 @@ void read_columns(const Node& block, const std::vector<Observable>& observables,
                   data::DataRequest& data) {
   const Node node = block.require("columns", fmt::format("the data of {}", owner));
   std::map<std::string, std::string> mapped;  // observable → the name that gives it
-  bool channel = false;
   for (const auto& [name, column] : node.members("an object that maps observables to column names")) {
     const auto quantity = data::quantity_named(name, observables);
     if (!quantity)
@@ -75,15 +73,11 @@ void read_columns(const Node& block, const std::vector<Observable>& observables,
           fmt::format("'{}' and '{}' both give the {} of {}", first->second, name, quantity->observable->name, owner),
           "Leave out one.");
     data.columns.emplace_back(name, read_column_name(column));
-    channel = channel || quantity->observable->role == Role::channel;
   }
   for (const Observable& observable : observables)
     if (observable.required && !mapped.contains(observable.name))
       node.fail(fmt::format("no column is mapped to '{}', which {} needs", observable.name, owner),
                 fmt::format("Add it. {}{}", observable.doc, sources_of(observable, observables)));
-  if (!channel)
-    node.fail(fmt::format("no measured quantity of {} is mapped, so there is nothing to fit", owner),
-              suggestion("", observable_names(observables, true)));
 }
 
 data::Noise read_noise_of(const Node& node, const Observable& channel) {

@@ -28,7 +28,8 @@ void read_delimiters(const Node& block, data::TableLayout& layout) {
   static const std::map<std::string, char> delimiters = {{",", ','},   {";", ';'},     {"tab", '\t'},
                                                          {"\t", '\t'}, {"space", ' '}, {" ", ' '}};
   if (const auto node = block.find("delimiter")) {
-    const auto found = delimiters.find(node->text("a delimiter"));
+    const std::string& mark = node->text("a delimiter");
+    const auto found = delimiters.find(mark);
     if (found == delimiters.end()) node->fail_expected("\",\", \";\", \"tab\" or \"space\"");
     layout.delimiter = found->second;
   }
@@ -151,8 +152,8 @@ data::Preload read_preload(const Node& node, const std::vector<Observable>& obse
 }  // namespace
 
 const std::vector<std::string>& rig_keys() {
-  static const std::vector<std::string> keys = {"skip_lines", "delimiter",   "decimal", "units",  "specimen",
-                                                "cycle",      "cycles_from", "branch",  "preload"};
+  static const std::vector<std::string> keys = {"skip_lines", "delimiter",   "decimal", "units",   "specimen",
+                                                "cycle",      "cycles_from", "branch",  "preload", "resample"};
   return keys;
 }
 
@@ -191,6 +192,10 @@ void read_rig_keys(const Node& block, const std::vector<Observable>& observables
     if (!data.cycle)
       node->fail("\"cycles_from\" names a column of cycles, and no \"cycle\" is chosen",
                  "Add \"cycle\": \"last\", \"all\", a number or a list.");
+  }
+  if (const auto node = block.find("resample")) {
+    data.resample = static_cast<std::size_t>(node->count("a number of points, from 5", 5));
+    if (*data.resample > 100000) node->fail_expected("at most 100000 points");
   }
   if (const auto node = block.find("branch"))
     data.branch = text::value_of(data::branch_names, node->one_of(names_in(data::branch_names), "branch")).value();

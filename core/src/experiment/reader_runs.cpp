@@ -171,9 +171,12 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
     run.objective = objective ? read_objective(*objective) : defaults.objective;
     run.constraints = constraints ? read_constraints(*constraints) : defaults.constraints;
     run.stop = stop ? read_stop(*stop) : defaults.stop;
-    const bool fitted = std::any_of(run.tests.begin(), run.tests.end(),
-                                    [&](const std::string& name) { return !experiment.test(name).hold_out.all; });
-    if (!fitted)
+    const auto any = [&](const auto& of_test) {
+      return std::any_of(run.tests.begin(), run.tests.end(),
+                         [&](const std::string& name) { return of_test(experiment.test(name)); });
+    };
+    const bool measured = any([](const TestEntry& test) { return test.measured; });
+    if (measured && !any([](const TestEntry& test) { return test.measured && !test.hold_out.all; }))
       entry.fail("every test of the run is held out, so there is nothing to fit",
                  "Set \"hold_out\" to false in at least one.");
     experiment.runs.push_back(std::move(run));

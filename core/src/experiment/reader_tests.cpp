@@ -99,6 +99,7 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   const auto channels = std::count_if(test.data.columns.begin(), test.data.columns.end(), [&](const auto& column) {
     return data::quantity_named(column.first, factory.observables)->observable->role == Role::channel;
   });
+  test.measured = channels > 0;
   test.weights = read_weights(entry, static_cast<std::size_t>(channels), owner);
   if (const auto node = entry.find("hold_out")) test.hold_out = read_hold_out(*node);
   return test;

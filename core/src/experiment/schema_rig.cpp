@@ -40,6 +40,10 @@ void define_rig_keys(Json& definitions) {
       Json::array({{{"enum", {"last", "all"}}}, number, {{"type", "array"}, {"items", number}, {"minItems", 1}}});
   definitions["cycles_from"] = column_schema(
       "Column whose first number is that of the cycle (default: cycles are found from the turning points).");
+  definitions["resample"] = {
+      {"description", "Points in place of each branch, by local regression; the scatter becomes the noise."},
+      {"type", "integer"},
+      {"minimum", 5}};
   definitions["branch"] = {{"description", "Only the loading, or the unloading, of the cycles (default both)."},
                            {"enum", names_in(data::branch_names)}};
   definitions["preload"] = quantity_schema(
@@ -56,7 +60,8 @@ Json specimen_schema(const std::vector<Observable>& observables) {
 }
 
 void add_rig_properties(Json& properties, const std::vector<Observable>& observables) {
-  for (const char* name : {"skip_lines", "delimiter", "decimal", "units", "cycle", "cycles_from", "branch", "preload"})
+  for (const char* name :
+       {"skip_lines", "delimiter", "decimal", "units", "cycle", "cycles_from", "branch", "preload", "resample"})
     properties[name] = reference(name);
   properties["specimen"] = specimen_schema(observables);
 }

@@ -210,6 +210,12 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     assembly.box().from_unit(end, mapped);
     found.parameters[j].upper = mapped[j];
   }
+  for (std::size_t j = 0; j < n; ++j)
+    if (found.parameters[j].identified) found.fixed_by_data.push_back(j);
+  const Matrix covariance = spectrum.V * spectrum.variance.asDiagonal() * spectrum.V.transpose();
+  for (const std::size_t i : found.fixed_by_data)
+    for (const std::size_t j : found.fixed_by_data)
+      found.covariance.push_back(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
   for (const Visibility seen : {Visibility::not_at_all, Visibility::weakly})
     add_valleys(assembly, free, spectrum, seen, found);
   add_valleys(assembly, free, hardly_seen(spectrum, found), Visibility::weakly, found);

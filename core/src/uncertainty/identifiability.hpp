@@ -44,6 +44,10 @@ struct Valley {
 struct Identifiability {
   std::vector<ParameterInterval> parameters;  ///< as Layout::parameters
   std::vector<double> singular_values;        ///< descending
+  /// Positions of the parameters that the data fix, and their covariance V S⁻² Vᵀ in the unit box, row after row: what
+  /// ci95 comes from. Empty where there is none.
+  std::vector<std::size_t> fixed_by_data;
+  std::vector<double> covariance;
   std::vector<Valley> valleys;
   std::string constrained;  ///< sentence on active constraints; empty = none
   /// Half widths of the 95 % intervals of the fitted curves, one a prediction, held-out rows included; empty where the

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data/csv.hpp"
+
+/// What the columns of a machine's file probably are, from their names, their units and what stands in them.
+namespace tunica::importing {
+
+struct ColumnGuess {
+  std::string name;                 ///< as "columns" takes it: the name, or "#3"
+  std::string quantity;             ///< "force", "displacement", "pressure", …; empty = nothing that is known
+  std::string direction;            ///< "circumferential", "axial" or empty
+  std::string unit;                 ///< as the file has it; empty = none
+  bool unit_from_name = false;      ///< "Force_N": the file does not say it in a way that the data block reads
+  bool numeric = false;             ///< nearly every cell is a number
+  std::vector<std::string> values;  ///< of a column that is not numeric: the different ones, at most 50
+};
+
+/// One guess a column of the table.
+std::vector<ColumnGuess> guess_columns(const data::Csv& csv);
+
+/// A column whose name says cycle, and whose cells hold numbers: "2", or "2-Stretch".
+bool counts_cycles(const ColumnGuess& column);
+
+/// The type of test whose quantities these are: a tube, a sheet, else a strip.
+std::string likely_test(const std::vector<ColumnGuess>& columns);
+
+/// Whether a unit measures what the base unit does; grams count as a force.
+bool measures(std::string_view unit, std::string_view base);
+
+}  // namespace tunica::importing

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/csv.hpp"
+
+/// Sizes of specimens: from a table with one row a specimen, and from the lengths in the file itself; its path.
+namespace tunica::importing {
+
+/// Sizes as quantities with a unit, "26.902 mm"; empty = not known.
+struct KnownSizes {
+  std::string width, thickness, gauge_length;
+  std::vector<std::string> sources;  ///< sentences: where each was found
+};
+
+/// The row of the table that has `specimen` in one of its cells; sizes without a unit are in mm. Throws InputError
+/// where the table has no such row, or a size in it is no number.
+KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string& specimen);
+
+/// Length less displacement, where most rows agree on it to the last digit that they have: the length at displacement
+/// 0.
+std::optional<double> length_at_rest(const data::Csv& csv, const std::string& length, const std::string& displacement,
+                                     const std::vector<const data::Csv::Row*>& rows);
+
+/// Whether a column returns towards `rest` at least once by more than half its way; none where it keeps its value.
+std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
+                                    const std::vector<const data::Csv::Row*>& rows, double rest);
+
+}  // namespace tunica::importing

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""import.py TUNICA SOURCES FOLDER: `tunica import` of a strip, a sheet and a tube of made-up machines; what it cannot
+know, and bad input, is refused with what to give; `tunica check --page` draws what was understood."""
+import json
+import os
+import pathlib
+import pty
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True  # nothing is left beside the sources
+import rig
+
+program, sources, out = sys.argv[1:4]
+folder = rig.fresh_folder(out)
+
+
+def words(text):
+    return " ".join(text.split())
+
+
+def imported(file, *options, code=0):
+    """The experiment that a file gives, and what was said."""
+    target = folder / (file.stem + ".json")
+    target.unlink(missing_ok=True)
+    printed, said = rig.tunica(program, "import", file, "-o", target, *options, code=code)
+    return (json.loads(target.read_text()) if code == 0 else target.exists()), words(printed + said)
+
+
+def table(name, lines):
+    file = folder / name
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return file
+
+
+# A strip: cycles, a row of units, a table of sizes.
+ways = [0, 2, 4, 2, 0, 2, 4, 2, 0, 1, 2, 3, 4]
+strip = table("strip.csv", ["Method;tension", "Operator;X", "", "Zeit;Weg;Kraft", "s;mm;N"] + [
+    f"{0.5 * k:.1f};{way:.1f};{0.3 * way:.2f}".replace(".", ",") for k, way in enumerate(ways)])
+sizes = table("sizes.csv", ["specimen,width [mm],thickness [um],gauge length", "strip,5,1500,20"])
+experiment, said = imported(strip, "--specimens", sizes)
+block = experiment["tests"]["strip"]["data"]
+assert block["columns"] == {"time": "Zeit", "displacement": "Weg", "force": "Kraft"}, block
+assert block["specimen"] == {"width": "5 mm", "thickness": "1500 um", "gauge_length": "20 mm"}, block
+assert (block["cycle"], block["branch"], block["stress_measure"]) == ("last", "loading", "first_piola_kirchhoff"), block
+assert "mm is assumed" in said and "last loading is taken" in said, said
+printed, _ = rig.tunica(program, "check", folder / "strip.json", "--page", folder / "data.html")
+assert "5 rows" in printed, printed
+page = (folder / "data.html").read_text(encoding="utf-8")
+assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page
+_, said = imported(strip, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "preload", "--preload", "0.5 N", code=2)
+assert "grip_distance" in said, said
+# Everything that is missing is asked for at once, and nothing is written.
+there, said = imported(strip, code=2)
+assert all(option in said for option in ("--width", "--thickness", "--gauge-length")) and not there, said
+
+# On a terminal it asks, and asks again where the answer makes no sense.
+asked = folder / "asked.json"
+terminal, other_end = pty.openpty()
+with subprocess.Popen([program, "import", strip, "-o", asked], stdin=other_end, stderr=other_end, stdout=subprocess.PIPE,
+                      text=True) as process:
+    os.write(terminal, b"5 kPa\n-5 mm\n5 mm\n1.5 mm\n20 mm\n")
+    printed = process.communicate(timeout=60)[0]
+assert process.returncode == 0, printed
+dialogue = words(os.read(terminal, 100000).decode())
+assert "Width of the specimen" in dialogue and "must be greater than zero" in dialogue, dialogue
+assert json.loads(asked.read_text())["tests"]["strip"]["data"]["specimen"] == {
+    "width": "5 mm", "thickness": "1.5 mm", "gauge_length": "20 mm"}
+
+# A long table: a test for each value of a column; a name that says nothing; numbers in place of names.
+long = table("long.csv", ["run,a,b", "slow,0,0", "slow,1,0.2", "slow,2,0.5", "fast,0,0", "fast,1,0.3", "fast,2,0.7"])
+given = ("--column", "displacement=a", "--column", "force=b", "--unit", "a=mm", "--unit", "b=N", "--each", "run",
+         "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "10 mm")
+experiment, said = imported(long, *given)
+assert list(experiment["tests"]) == ["slow", "fast"] and experiment["runs"][0]["tests"] == ["slow", "fast"]
+assert experiment["tests"]["fast"]["data"]["where"] == {"run": "fast"}
+rig.tunica(program, "check", folder / "long.json")
+bare = table("bare.csv", ["0 0", "1 0.2", "2 0.5"])
+experiment, said = imported(bare, "--column", "displacement=#1", "--column", "force=#2", "--unit", "#1=mm", "--unit", "#2=N",
+                            "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "10 mm")
+assert experiment["tests"]["bare"]["data"]["columns"] == {"displacement": 1, "force": 2}
+rig.tunica(program, "check", folder / "bare.json")
+
+# A tube in the units of its rig: mmHg, um, grams of a transducer, length.
+tube = table("tube.csv", ["Pressure (mmHg),Outer diameter (um),Transducer force (g),Length (mm)"] + [
+    f"{10 * k},{700 + 20 * k},{0.5 + 0.1 * k},6.0" for k in range(8)])
+experiment, said = imported(tube, "--thickness", "80 um", "--set", "outer_radius=0.34 mm", "--gauge-length", "5 mm")
+entry = experiment["tests"]["tube"]
+assert entry["type"] == "thick_wall_pressurisation" and entry["outer_radius"] == "0.34 mm", entry
+assert entry["data"]["columns"] == {"pressure": "Pressure", "outer_diameter": "Outer diameter",
+                                    "axial_force": "Transducer force", "axial_length": "Length"}, entry
+printed, _ = rig.tunica(program, "check", folder / "tube.json", "--json")
+channels = {one["observable"]: one["range"] for one in json.loads(printed)["problems"][0]["channels"]}
+assert abs(channels["axial_force"][0] - 0.5 * 9.80665) < 1e-12 and abs(channels["outer_diameter"][1] - 0.84) < 1e-12
+
+# A sheet: a width and a gauge length in each direction.
+sheet = table("sheet.csv", ["Force X [N],Force Y [N],Displacement X [mm],Displacement Y [mm]"] + [
+    f"{0.1 * k},{0.2 * k},{0.05 * k},{0.1 * k}" for k in range(6)])
+experiment, said = imported(sheet, "--thickness", "0.5 mm", "--width", "10 mm", "--gauge-length", "5 mm")
+entry = experiment["tests"]["sheet"]
+assert entry["type"] == "biaxial" and set(entry["data"]["columns"]) == {
+    "force_circumferential", "force_axial", "displacement_circumferential", "displacement_axial"}, entry
+entry["data"]["specimen"]["axial"] = {"width": "20 mm"}
+(folder / "sheet.json").write_text(json.dumps(experiment))
+printed, _ = rig.tunica(program, "check", folder / "sheet.json", "--json")
+channels = {one["observable"]: one["range"] for one in json.loads(printed)["problems"][0]["channels"]}
+assert abs(channels["stress_circumferential"][1] - 500 / 5) < 1e-9 and abs(channels["stress_axial"][1] - 1000 / 10) < 1e-9
+
+# The murine tubes of the examples as their authors published them.
+murine = pathlib.Path(sources) / "examples" / "murine_tube"
+example = json.loads("\n".join(line for line in (murine / "experiment.json").read_text().splitlines()
+                               if not line.strip().startswith("//")))
+for name, tests in (("inflation", ["test1", "test2", "test3"]), ("force_length", ["test1", "test2", "test3", "test4"])):
+    target = folder / f"murine_{name}.json"
+    rig.tunica(program, "import", murine / f"{name}.csv", "--each", "test", "--thickness", "769.85606 um",
+               "--set", "outer_radius=2301 um", "-o", target)
+    proposed = json.loads(target.read_text())["tests"]
+    assert list(proposed) == tests
+    # The columns of the hand-written example, and all rows.
+    by_hand = example["tests"]["in_vivo"]["data"]["columns"]
+    assert all(test["data"]["columns"] == by_hand and "cycle" not in test["data"] for test in proposed.values()), proposed
+    rig.tunica(program, "check", target)
+
+# Bad input: what and where, exit code 2.
+for file, options, expected in [
+        (strip, ("--column", "froce=Kraft"), "Did you mean 'force'?"),
+        (strip, ("--column", "force=Kruft"), "Did you mean 'Kraft'?"),
+        (strip, ("--test", "uniaxal"), "Did you mean 'uniaxial'?"),
+        (strip, ("--width", "5 mm", "--thickness", "-1 mm", "--gauge-length", "20 mm"), "the thickness is -1 mm"),
+        (strip, ("--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "0 mm"), "the gauge length is 0 mm"),
+        (strip, ("--specimens", table("other.csv", ["specimen,width", "x,5"])), "no row has the specimen 'strip'"),
+        (strip, ("--where", "Kraft"), "Write NAME=VALUE"),
+        (table("words.csv", ["a,b", "x,y"]), (), "no column is known to give 'stretch'"),
+        (folder / "missing.csv", (), "there is no such file")]:
+    there, said = imported(file, *options, code=2)
+    assert expected in said and not there, f"{options}: {said}"
+taken = folder / "taken.json"
+taken.write_text("{}")
+_, said = rig.tunica(program, "import", strip, "-o", taken, code=2)
+assert "there is such a file already" in words(said) and taken.read_text() == "{}"
+print("files of strips, sheets and tubes become experiments that check accepts")
