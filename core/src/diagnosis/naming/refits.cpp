@@ -16,7 +16,9 @@ namespace tunica::diagnosis {
 namespace {
 
 constexpr std::size_t quick_starts = 6, full_starts = 16;
-constexpr double next_to_nothing = 0.01;  ///< of the amplitude that the scores promise
+constexpr std::size_t quick_returns = 1, full_returns = 4;  ///< to the best minimum, after which no other is expected
+constexpr double same_minimum = 0.05;                       ///< of |r|²
+constexpr double next_to_nothing = 0.01;                    ///< of the amplitude that the scores promise
 
 /// The signature of an addition at the base fit, on the side of the amplitude; or null.
 const Hypothesis* hypothesis_of(const Hypotheses& hypotheses, const Addition& addition, double amplitude) {
@@ -133,8 +135,10 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
   const auto workspace = extended.assembly().evaluator().make_workspace();
   boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
-  for (std::size_t k = 0; k < (inquiry.request.quick ? quick_starts : full_starts); ++k) {
-    if (refit.fit.chi2 < enough) break;
+  const bool quick = inquiry.request.quick;
+  std::size_t returns = 0;
+  for (std::size_t k = 0; k < (quick ? quick_starts : full_starts); ++k) {
+    if (refit.fit.chi2 < enough || returns >= (quick ? quick_returns : full_returns)) break;
     std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
     for (double& x : unit) x = uniform(generator);
     evidence.base->box().from_unit(unit, base);
@@ -147,7 +151,12 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
     }
     Fit fit =
         least_squares(extended.assembly(), extended.variables(), start, *workspace, 60, {.wanted = refit.fit.chi2});
-    if (fit.status.ok() && fit.chi2 < refit.fit.chi2) refit.fit = std::move(fit);
+    if (!fit.status.ok()) continue;
+    if (fit.chi2 < refit.fit.chi2 - same_minimum)
+      returns = 0;
+    else if (fit.chi2 < refit.fit.chi2 + same_minimum)
+      ++returns;
+    if (fit.chi2 < refit.fit.chi2) refit.fit = std::move(fit);
   }
   return refit;
 }
