@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "card_name.hpp"
 #include "cards/card.hpp"
+#include "data/units.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "exporting/fitted_material.hpp"
@@ -18,36 +20,42 @@ namespace tunica::app {
 namespace {
 
 struct ExportOptions {
-  std::string result, target, run, model, name, units = "mm-N-MPa", file;
+  std::string result, target, run, model, name, units = "mm-N-MPa", density, subroutine, file;
   std::optional<double> bulk_ratio;
 };
 
-/// The model's name as a card can have it.
-std::string card_name(const std::string& model) {
-  std::string name;
-  for (const char c : model) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name.front()))) name = "M_" + name;
-  return name.substr(0, 40);
+double density_of(const std::string& text) {
+  try {
+    return data::parse_quantity(text, "kg/m3");
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("--density '{}': {}; give for example \"1000 kg/m3\"", text, problem.what()));
+  }
 }
 
 int export_card(const ExportOptions& options) {
   const cards::Target target = cards::target_of(options.target);
   const cards::UnitSystem units = cards::unit_system(options.units);
   const auto fitted = exporting::fitted_material({options.result, options.run, options.model});
+  std::optional<double> density;
+  if (!options.density.empty()) density = density_of(options.density);
+  for (const auto& [option, file] : {std::pair("-o", options.file), std::pair("--subroutine", options.subroutine)})
+    if (!file.empty() && std::filesystem::exists(file))
+      throw InputError(fmt::format("{} {}: is there already; name a new file", option, file));
   const std::string card = cards::write_card(target, fitted.material,
                                              {.name = options.name.empty() ? card_name(fitted.name) : options.name,
                                               .units = units,
                                               .bulk_ratio = options.bulk_ratio,
+                                              .density = density,
+                                              .subroutine = !options.subroutine.empty(),
                                               .remarks = fitted.remarks});
+  if (!options.subroutine.empty()) execution::write_atomically(options.subroutine, cards::uanisohyper_inv());
   if (options.file.empty()) {
     fmt::print("{}", card);
     return done;
   }
-  const std::filesystem::path file = options.file;
-  if (std::filesystem::exists(file))
-    throw InputError(fmt::format("-o {}: is there already; name a new file", file.string()));
-  execution::write_atomically(file, card);
-  fmt::print("{}\n", file.string());
+  execution::write_atomically(options.file, card);
+  fmt::print("{}\n", options.file);
+  if (!options.subroutine.empty()) fmt::print("{}\n", options.subroutine);
   return done;
 }
 
@@ -59,7 +67,7 @@ void add_export(CLI::App& app, GlobalOptions&, Action& action) {
   verb->add_option("result", options->result, "Folder that `tunica run` has written")->required()->type_name("RESULT");
   verb->add_option("--to", options->target, "The program that reads the card")
       ->required()
-      ->type_name("calculix|abaqus");
+      ->type_name("febio|abaqus|ansys|calculix|lsdyna");
   verb->add_option("--run", options->run, "A run of the result (default: the best-ranked one)")->type_name("RUN");
   verb->add_option("--model", options->model, "A model of the run, where layers have several")->type_name("M");
   verb->add_option("--units", options->units, "Consistent units of the card: length-force-stress")
@@ -67,13 +75,20 @@ void add_export(CLI::App& app, GlobalOptions&, Action& action) {
       ->type_name("UNITS");
   verb->add_option("--name", options->name, "Name of the material (default: the model's)")->type_name("NAME");
   verb->add_option("--bulk-ratio", options->bulk_ratio,
-                   "Bulk modulus over the stiffness at rest; 0 = incompressible (default: 0 for abaqus, else 10000)")
+                   "Bulk modulus over the stiffness at rest; 0 = incompressible (default: 0 for abaqus and ansys, 1000 "
+                   "for lsdyna, else 10000)")
       ->type_name("NUMBER");
+  verb->add_option("--density", options->density, "Mass density for febio and lsdyna, for example \"1000 kg/m3\"")
+      ->type_name("DENSITY");
+  verb->add_option("--subroutine", options->subroutine,
+                   "Abaqus: write the user subroutine UANISOHYPER_INV to this file, and the card that calls it")
+      ->type_name("FILE");
   verb->add_option("-o,--output", options->file, "New file for the card (default: stdout)")->type_name("FILE");
   verb->footer(
       "Examples:\n"
       "  tunica export results/a --to calculix\n"
-      "  tunica export results/a --to abaqus --run gho/lm --units mm-mN-kPa -o wall.inp\n\n"
+      "  tunica export results/a --to abaqus --run gho/lm --units mm-mN-kPa -o wall.inp\n"
+      "  tunica export results/a --to abaqus --subroutine wall.f -o wall.inp\n\n"
       "The card says where its numbers come from, over which range they were fitted, and\n"
       "how sure they are. What a program cannot express is refused with the reason.\n"
       "docs/export.md derives every number.");

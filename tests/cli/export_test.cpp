@@ -73,6 +73,27 @@ TEST_F(Export, SaysWhatItCannotUse) {
   EXPECT_THAT(refused({"empty", "--to", "abaqus"}), HasSubstr("there is no result.json"));
 }
 
+TEST_F(Export, WritesTheSubroutineBesideItsCard) {
+  fit({{"type", "holzapfel_2015"}, {"parameters", {{"A", {{"fixed", 0.2}}}, {"B", {{"fixed", 0.3}}}}}});
+  EXPECT_THAT(refused({"out", "--to", "abaqus"}), HasSubstr("--subroutine FILE.f"));
+  const auto ended = exported({"out", "--to", "abaqus", "--subroutine", "wall.f", "-o", "wall.inp"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, "wall.inp\nwall.f\n");
+  EXPECT_THAT(bench.text("wall.inp"), HasSubstr("LOCAL DIRECTIONS=3, PROPERTIES=11"));
+  EXPECT_THAT(bench.text("wall.f"), HasSubstr("subroutine uanisohyper_inv("));
+  EXPECT_THAT(refused({"out", "--to", "abaqus", "--subroutine", "wall.f"}),
+              HasSubstr("--subroutine wall.f: is there already"));
+}
+
+TEST_F(Export, TakesADensityWithItsUnit) {
+  fit({{"type", "neo_hooke"}});
+  EXPECT_THAT(refused({"out", "--to", "lsdyna"}), HasSubstr("give it, for example --density"));
+  EXPECT_THAT(refused({"out", "--to", "lsdyna", "--density", "1 kPa"}), HasSubstr("--density '1 kPa'"));
+  const auto ended = exported({"out", "--to", "febio", "--density", "1.1 g/cm3", "--units", "m-N-Pa"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("<density>1100</density>"));
+}
+
 TEST_F(Export, RefusesAModelThatAMechanismChanges) {
   fit({{"type", "neo_hooke"}, {"mechanisms", {{{"type", "chain_extensibility"}}}}});
   EXPECT_THAT(refused({"out", "--to", "abaqus"}),

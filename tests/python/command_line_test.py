@@ -67,6 +67,15 @@ class CommandLine(Case):
                 numpy.testing.assert_array_equal(values, written[column])
                 numpy.testing.assert_array_equal(values, by_run[test][column])
 
+    def test_a_card_is_that_of_the_program(self):
+        result = tunica.run(TRELOAR / "experiment.json", self.folder / "run")
+        for to in ("calculix", "abaqus"):
+            for run in ("yeoh/lm", "neo_hooke/lm"):
+                self.assertEqual(program("export", result.directory, "--to", to, "--run", run, "--units", "mm-mN-kPa"),
+                                 result.runs[run].card(to, units="mm-mN-kPa"))
+        with self.assertRaises(tunica.InputError):
+            result.best.card("nastran")
+
     def test_a_diagnosis_has_the_verdict_of_the_program(self):
         experiment = EXAMPLES / "treloar_cause" / "experiment.json"
         program("diagnose", experiment, "--quick", "-o", self.folder / "a", "--quiet")
@@ -90,6 +99,9 @@ class CommandLine(Case):
         stretch = fit["stretch"]
         numpy.testing.assert_allclose(fit["stress.predicted"], mu * (stretch - stretch**-2), rtol=1e-9)
         self.assertEqual(result.json["runs"][0]["evaluations"], result.evaluations.rows)
+        about = {"parameters": ["a", "b"], "values": [[4.0, 1.0], [1.0, 9.0]]}
+        names, matrix = tunica.Run(result, {"best": {"covariance": about}}).covariance
+        self.assertEqual((["a", "b"], (2, 2), 9.0), (names, matrix.shape, matrix[1, 1]))
         frame, table = result.frame(), fit.frame()
         self.assertEqual([("rubber/lm", "mu", float(mu))],
                          list(frame[["run", "parameter", "value"]].itertuples(index=False, name=None)))

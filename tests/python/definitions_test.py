@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Models written in Python take part like those of plugins."""
+import warnings
+
 import numpy
 
 import tunica
@@ -126,3 +128,25 @@ class Definitions(Case):
         loose = tunica.run(of_treloar({"type": "py_loose"}), self.folder / "loose", base=TRELOAR)
         self.assertFalse(loose.best.best["certificate"]["fresh_process"])
         self.assertIn("'py_loose' is defined in a notebook or a script", str(loose.best.best["certificate"]))
+
+    def test_what_is_not_finite_is_a_failed_evaluation_without_a_warning(self):
+        experiment = of_treloar({"type": "py_fibres", "parameters": {"k2": {"max": 1e6}}})
+        problem = tunica.Problem(experiment, base=TRELOAR)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            found = problem.evaluate(problem.vector({"k2": 1e5}), jacobian=True)
+        self.assertEqual("failed", found.status)
+        self.assertRegex(found.reason, "uniaxial")
+
+    def test_memory_comes_from_mechanisms_around_it(self):
+        entry = {"mechanisms": [{"type": "viscoelasticity"}]}
+        path = numpy.repeat([[1.1, 1 / 1.1, 1.0], [1.5, 1 / 1.5, 1.0]], 3, axis=0)
+        found = []
+        for kind, mu in (("py_neo_hooke", "mu"), ("neo_hooke", "mu")):
+            material = tunica.Material({"type": kind, **entry}, mu=30.0)
+            material.parameters.update(zip(list(material.parameters)[1:], (0.5, 2.0)))
+            found.append(material.stress(stretches=path, time_step=[0, 1, 1, 1, 1, 1]))
+        numpy.testing.assert_allclose(*found, rtol=1e-10, atol=1e-10)
+        self.assertFalse(numpy.allclose(found[0][0], found[0][1]), "nothing relaxes")
+        with self.assertRaises(tunica.InputError):
+            tunica.Material({"type": "py_neo_hooke", "mechanisms": [{"type": "matrix_stiffening"}]})

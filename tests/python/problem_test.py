@@ -82,3 +82,30 @@ class Problems(Case):
         step[j] = 1e-5 * max(abs(x[j]), 1e-2)
         column = (problem.constraints(x + step)[0] - problem.constraints(x - step)[0]) / (2 * step[j])
         numpy.testing.assert_allclose(jacobian[:, j], column, rtol=1e-5, atol=1e-6 * numpy.abs(column).max())
+
+    def test_a_sampler_finds_the_intervals_of_the_run(self):
+        # 20000 steps of a random walk in two parameters, of which about 1500 are independent: the standard deviation is
+        # known to 2 %, so that 10 % is five standard errors, a false alarm in a million seeds. Seed 11.
+        experiment = of_treloar({"type": "mooney_rivlin"})
+        tunica.simulate(experiment, "rubber", {"c10": 150.0, "c01": 12.0}, self.folder / "data", base=TRELOAR,
+                        noise=0.02, seed=5)
+        for test in experiment["tests"].values():
+            test["data"]["noise"] = {"relative": 0.02}
+        result = tunica.run(experiment, self.folder / "run", base=self.folder / "data")
+        self.assertEqual(1, result.best.best["interval_factor"])
+        problem = tunica.Problem(experiment, base=self.folder / "data")
+        at = problem.vector(result.parameters)
+        jacobian = problem.jacobian(at)
+        step = numpy.linalg.cholesky(numpy.linalg.inv(jacobian.T @ jacobian)) * 2.4 / numpy.sqrt(2)
+        generator = numpy.random.default_rng(11)
+        half, samples = problem.objective(at) / 2, []  # −log of the density: residuals are in units of the noise
+        for _ in range(20000):
+            proposed = at + step @ generator.normal(size=2)
+            other = problem.objective(proposed) / 2
+            if generator.uniform() < numpy.exp(min(0.0, half - other)):
+                at, half = proposed, other
+            samples.append(at)
+        spread = numpy.std(samples, axis=0)
+        for j, name in enumerate(problem.names):
+            low, high = result.parameters[name].ci95
+            self.assertAlmostEqual(1, (high - low) / 2 / (1.96 * spread[j]), delta=0.1)

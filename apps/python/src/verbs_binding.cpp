@@ -6,6 +6,8 @@
 #include "arrays.hpp"
 #include "calibration/calibrate.hpp"
 #include "calibration/overrides.hpp"
+#include "card_name.hpp"
+#include "cards/card.hpp"
 #include "check.hpp"
 #include "comparison/certify.hpp"
 #include "comparison/simulation_record.hpp"
@@ -14,6 +16,7 @@
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
+#include "exporting/fitted_material.hpp"
 #include "library.hpp"
 #include "module.hpp"
 #include "report/report.hpp"
@@ -191,6 +194,18 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
   return outcome;
 }
 
+/// What `tunica export` prints.
+std::string export_card(const std::string& result, const std::string& target, const std::string& run,
+                        const std::string& model, const std::string& units, const std::string& name,
+                        const std::optional<double>& bulk_ratio) {
+  const auto fitted = exporting::fitted_material({result, run, model});
+  return cards::write_card(cards::target_of(target), fitted.material,
+                           {.name = name.empty() ? app::card_name(fitted.name) : name,
+                            .units = cards::unit_system(units),
+                            .bulk_ratio = bulk_ratio,
+                            .remarks = fitted.remarks});
+}
+
 /// What `tunica certify FOLDER --best-points POINTS` prints.
 std::string certify(const Library& library, const std::string& folder, const std::string& points) {
   const auto loaded = library.read((std::filesystem::path(folder) / "input.json").string());
@@ -207,6 +222,7 @@ void add_verbs(py::module_& module) {
   module.def("simulate", &simulate);
   module.def("diagnose", &diagnose);
   module.def("certify", &certify);
+  module.def("export_card", &export_card);
   module.def("write_report", [](const std::string& folder) { return report::write_report(folder).string(); });
 }
 

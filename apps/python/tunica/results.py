@@ -8,6 +8,7 @@ import re
 
 import numpy
 
+from . import _core
 from .errors import InputError
 from .table import Table
 
@@ -141,6 +142,13 @@ class Run:
         return {name: Estimate(about["value"], about) for name, about in self.json["fixed"].items()}
 
     @property
+    def covariance(self):
+        """(names, matrix) of the parameters that the data fix, in the units of the parameters; None in results without
+        it."""
+        about = self.best.get("covariance")
+        return about and (about["parameters"], numpy.array(about["values"]))
+
+    @property
     def converged(self):
         return self.json["converged"]
 
@@ -153,6 +161,12 @@ class Run:
             table = self._result.table("fit_" + re.sub(r"[^A-Za-z0-9_-]", "-", test))
             tables[test] = table.where("run", self.name).filled()
         return tables
+
+    def card(self, to, *, model="", units="mm-N-MPa", name="", bulk_ratio=None):
+        """The material card for a finite-element program, as `tunica export` prints it: text. to: "calculix", "abaqus"
+        and others that docs/export.md lists. model: where layers have several. Raises InputError with the reason for
+        what the program cannot express."""
+        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio)
 
     def __repr__(self):
         if not self.found:

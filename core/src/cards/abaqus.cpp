@@ -17,38 +17,61 @@ namespace {
 
 std::string keyword_line(std::string_view form) { return fmt::format("*HYPERELASTIC, {}\n", form); }
 
-std::string orientation(const FibreEnergy& energy) {
+std::string orientation(const FibreEnergy& energy, bool normal) {
   std::string block = comment("**",
                               "Fibres: local direction 1 is the circumferential, 2 the axial, 3 the radial one. The "
                               "section needs an orientation with the directions of the families; this one has them for "
                               "a wall whose circumferential direction is x and whose axial one is y:");
   block += fmt::format("** *ORIENTATION, NAME=WALL, LOCAL DIRECTIONS={}\n** 1, 0, 0, 0, 1, 0\n** 3, 0\n",
-                       energy.families.size());
+                       energy.families.size() + normal);
   for (const auto& family : energy.families) {
     const double angle = family.angle * std::numbers::pi / 180;
     block += fmt::format("** {}, {}, 0\n", number(std::sin(angle)), number(std::cos(angle)));
   }
+  if (normal) block += "** 0, 0, 1\n";
   return block;
+}
+
+/// For uanisohyper_inv(): mu, D, the switch, and k1, k2, A, B of every family; the normal of the wall as the last local
+/// direction where an energy has it.
+std::string by_subroutine(const Draft& draft) {
+  const auto& material = draft.material;
+  const FibreEnergy energy = fibre_energy(material);
+  const double mode = material.fibre_switch == "strain" ? 0 : material.fibre_switch == "stretch" ? 1 : 2;
+  std::vector<double> properties = {draft.modulus("mu"), draft.d1(), mode};
+  bool normal = false;
+  for (const auto& family : energy.families) {
+    properties.insert(properties.end(), {draft.stress * family.k1, family.k2, family.A, family.B});
+    normal = normal || !family.without_normal();
+  }
+  return orientation(energy, normal) +
+         fmt::format(
+             "*MATERIAL, NAME={}\n*ANISOTROPIC HYPERELASTIC, USER, FORMULATION=INVARIANT, TYPE={},\n"
+             "LOCAL DIRECTIONS={}, PROPERTIES={}\n",
+             draft.settings.name, draft.bulk > 0 ? "COMPRESSIBLE" : "INCOMPRESSIBLE", energy.families.size() + normal,
+             properties.size()) +
+         data_lines(properties);
 }
 
 // U = C10 (Ī1 − 3) + 1/D [(J² − 1)/2 − ln J] + k1/(2 k2) Σ {exp[k2 ⟨Ē⟩²] − 1},  Ē = κ (Ī1 − 3) + (1 − 3κ) (Ī4 − 1).
 std::string holzapfel(const Draft& draft) {
   const auto& material = draft.material;
   const FibreEnergy energy = fibre_energy(material);
-  const char* const subroutine = "use the user subroutine UANISOHYPER_INV";
+  const char* const subroutine = "use the user subroutine, tunica export --subroutine FILE.f";
   if (material.type == "four_fibre")
-    refuse("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
+    cannot_express("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
   const FibreFamily& family = energy.families.front();
   if (!family.without_normal())
-    refuse("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall", subroutine);
+    cannot_express("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall",
+                   subroutine);
   if (material.fibre_switch == "none" || (material.fibre_switch == "stretch" && family.A > 0))
-    refuse("Abaqus", material,
-           fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
-                       material.fibre_switch),
-           subroutine);
+    cannot_express("Abaqus", material,
+                   fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
+                               material.fibre_switch),
+                   subroutine);
   const std::vector<double> constants = {0.5 * draft.modulus("mu"), draft.d1(), draft.stress * family.k1, family.k2,
                                          family.A};
-  return orientation(energy) +
+  return orientation(energy, false) +
          fmt::format(
              "*MATERIAL, NAME={}\n*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL "
              "DIRECTIONS={}\n",
@@ -72,9 +95,9 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
   if (material.type == "ogden") {
     const auto terms = ogden_terms(material);
     if (terms.size() > most_ogden_terms)
-      refuse(program, material,
-             fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
-             "fit fewer terms, or export for another program");
+      cannot_express(program, material,
+                     fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
+                     "fit fewer terms, or export for another program");
     std::vector<double> values;
     // U = Σ 2 μ_i/α_i² (λ̄1^α_i + λ̄2^α_i + λ̄3^α_i − 3) + Σ (J − 1)^2i/D_i: their μ_i is ½ μ_i α_i here
     for (const auto& term : terms) values.insert(values.end(), {0.5 * draft.stress * term.mu * term.alpha, term.alpha});
@@ -82,11 +105,12 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
     values.resize(3 * terms.size(), 0.0);
     return keyword_line(fmt::format("OGDEN, N={}", terms.size())) + data_lines(values);
   }
-  refuse(program, material, "it has no energy with a limit of extension of the chains",
-         "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+  cannot_express(program, material, "it has no energy with a limit of extension of the chains",
+                 "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
 }
 
 std::string abaqus_card(const Draft& draft) {
+  if (draft.settings.subroutine) return by_subroutine(draft);
   if (has_fibres(draft.material)) return holzapfel(draft);
   return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperelastic_keyword(draft, "Abaqus", 6));
 }

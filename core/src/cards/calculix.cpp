@@ -17,9 +17,12 @@ namespace {
 
 /// CalculiX takes a D1 below this for zero, and then Poisson's ratio 0.475 (CalculiX 2.20, seen in all its energies).
 constexpr double least_d1 = 1e-10;
-/// CalculiX makes the third component of a direction of the other two, and stops where their squares exceed 1. Twelve
-/// digits of a unit vector may; shortened by this factor they cannot, which changes I4 by 1e-11.
-constexpr double inside = 1 - 4e-12;
+/// A component of a direction with fifteen digits, towards zero. CalculiX makes the third component of the other two,
+/// and stops where their squares exceed 1, which rounding may do. This tilts the direction by less than 1e-7.
+std::string component(double value) {
+  constexpr double digits = 1e15;
+  return fmt::format("{:.15f}", std::trunc((1 - 2e-15) * value * digits) / digits);
+}
 
 void check_d1(const Draft& draft) {
   if (draft.d1() >= least_d1) return;
@@ -35,24 +38,25 @@ std::string elastic_fiber(const Draft& draft) {
   const auto& material = draft.material;
   const FibreEnergy energy = fibre_energy(material);
   if (material.fibre_switch == "none")
-    refuse("CalculiX", material, "its fibres carry no load where they are shortened, and fibre_switch is 'none'",
-           "fit with fibre_switch 'strain'");
+    cannot_express("CalculiX", material,
+                   "its fibres carry no load where they are shortened, and fibre_switch is 'none'",
+                   "fit with fibre_switch 'strain'");
   for (const auto& family : energy.families)
     if (family.A != 0 || !family.without_normal())
-      refuse("CalculiX", material, "its fibres have no dispersion (user material ELASTIC_FIBER)",
-             "fit 'hgo' or 'four_fibre', or export for FEBio or Abaqus");
-  std::vector<double> constants = {0.5 * draft.modulus("mu"), draft.d1()};
+      cannot_express("CalculiX", material, "its fibres have no dispersion (user material ELASTIC_FIBER)",
+                     "fit 'hgo' or 'four_fibre', or export for FEBio or Abaqus");
+  std::vector<std::string> constants = {number(0.5 * draft.modulus("mu")), number(draft.d1())};
   for (const auto& family : energy.families) {
     const double angle = family.angle * std::numbers::pi / 180;
-    constants.insert(constants.end(),
-                     {inside * std::sin(angle), inside * std::cos(angle), draft.stress * family.k1, family.k2});
+    constants.insert(constants.end(), {component(std::sin(angle)), component(std::cos(angle)),
+                                       number(draft.stress * family.k1), number(family.k2)});
   }
   std::string card = comment("**",
                              "Fibres: x is the circumferential direction, y the axial one, of the model or of an "
                              "*ORIENTATION in the *SOLID SECTION.");
   card += fmt::format("*MATERIAL, NAME=ELASTIC_FIBER_{}\n*USER MATERIAL, CONSTANTS={}\n", draft.settings.name,
                       constants.size());
-  return card + data_lines(constants);
+  return card + joined_lines(constants);
 }
 
 }  // namespace

@@ -27,14 +27,34 @@ void check_name(const std::string& name) {
                     data::excerpt(name)));
 }
 
+std::string_view program_of(Target target) {
+  switch (target) {
+    case Target::febio:
+      return "FEBio";
+    case Target::abaqus:
+      return "Abaqus";
+    case Target::ansys:
+      return "Ansys";
+    case Target::calculix:
+      return "CalculiX";
+    case Target::lsdyna:
+      return "LS-DYNA";
+  }
+  return "";
+}
+
+/// Whether the program has materials without change of volume.
+bool has_incompressible(Target target) { return target == Target::abaqus || target == Target::ansys; }
+
 double bulk_of(Target target, const Material& material, const CardSettings& settings) {
-  const double ratio = settings.bulk_ratio.value_or(target == Target::abaqus ? 0 : 1e4);
+  const double usual = has_incompressible(target) ? 0 : target == Target::lsdyna ? 1e3 : 1e4;
+  const double ratio = settings.bulk_ratio.value_or(usual);
   if (!std::isfinite(ratio) || ratio < 0 || (ratio > 0 && ratio < 10))
     throw InputError(
         fmt::format("bulk ratio: found {:g}, expected 0 (incompressible) or a number from 10 on; take 10000", ratio));
-  if (ratio == 0 && target == Target::calculix)
+  if (ratio == 0 && !has_incompressible(target))
     throw InputError(
-        "bulk ratio: found 0, and CalculiX then takes Poisson's ratio 0.475, far from incompressible; take 10000");
+        fmt::format("bulk ratio: found 0, and {} needs a bulk modulus; take {:g}", program_of(target), usual));
   return ratio * stiffness_at_rest(material);
 }
 
@@ -57,15 +77,30 @@ Target target_of(std::string_view name) {
 
 double Draft::modulus(const std::string& parameter) const { return stress * value_of(material, parameter); }
 
-void refuse(std::string_view program, const Material& material, std::string_view reason, std::string_view cure) {
+void cannot_express(std::string_view program, const Material& material, std::string_view reason,
+                    std::string_view cure) {
   throw InputError(fmt::format("{} cannot express the model '{}': {}; {}", program, material.type, reason, cure));
 }
 
-std::string data_lines(std::span<const double> values) {
+std::string joined_lines(std::span<const std::string> values) {
   std::string lines;
   for (std::size_t k = 0; k < values.size(); ++k)
-    lines += number(values[k]) + (k + 1 == values.size() || k % 8 == 7 ? "\n" : ", ");
+    lines += values[k] + (k + 1 == values.size() || k % 8 == 7 ? "\n" : ", ");
   return lines;
+}
+
+std::string data_lines(std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.insert(texts.end(), number(value));
+  return joined_lines(texts);
+}
+
+std::string Draft::density() const {
+  if (!settings.density) return "";
+  if (!std::isfinite(*settings.density) || *settings.density <= 0)
+    throw InputError(
+        fmt::format("density: found {:g} kg/m3, expected one above 0; give for example 1000", *settings.density));
+  return number(*settings.density * settings.units.density_per_kg_m3);
 }
 
 std::string write_card(Target target, const Material& material, const CardSettings& settings) {
@@ -76,14 +111,29 @@ std::string write_card(Target target, const Material& material, const CardSettin
   if (std::find(known.begin(), known.end(), material.type) == known.end())
     throw InputError(fmt::format("no card is known for the model '{}'. {}", data::excerpt(material.type),
                                  data::suggestion(material.type, known)));
+  if (settings.subroutine && (target != Target::abaqus || !has_fibres(material)))
+    throw InputError(
+        fmt::format("the user subroutine is for fibre models in Abaqus, and this is '{}' for {}; leave it out",
+                    material.type, program_of(target)));
   draft.bulk = draft.stress * bulk_of(target, material, settings);
-  const std::string card = target == Target::calculix ? calculix_card(draft) : abaqus_card(draft);
-  std::string head;
-  for (const auto& remark : settings.remarks) head += comment("**", remark);
-  head += comment(
-      "**", fmt::format("Units: {}, {}, {}, s.", settings.units.length, settings.units.force, settings.units.stress));
-  head += comment("**", paragraph_on_volume(draft));
-  return head + card;
+  std::vector<std::string> remarks = {fmt::format("Material card for {}.", program_of(target))};
+  remarks.insert(remarks.end(), settings.remarks.begin(), settings.remarks.end());
+  remarks.insert(remarks.end(), {fmt::format("Units: {}, {}, {}, s.", settings.units.length, settings.units.force,
+                                             settings.units.stress),
+                                 paragraph_on_volume(draft)});
+  switch (target) {
+    case Target::febio:
+      return xml_comment(remarks) + febio_card(draft);
+    case Target::abaqus:
+      return comments("**", remarks) + abaqus_card(draft);
+    case Target::ansys:
+      return comments("!", remarks) + ansys_card(draft);
+    case Target::calculix:
+      return comments("**", remarks) + calculix_card(draft);
+    case Target::lsdyna:
+      return comments("$", remarks) + lsdyna_card(draft);
+  }
+  return "";
 }
 
 }  // namespace tunica::cards

@@ -14,9 +14,13 @@
 /// docs/export.md derives every number of every card.
 namespace tunica::cards {
 
-enum class Target { calculix, abaqus };
+enum class Target { febio, abaqus, ansys, calculix, lsdyna };
 
-inline constexpr text::Codes<Target, 2> target_codes = {{{Target::calculix, "calculix"}, {Target::abaqus, "abaqus"}}};
+inline constexpr text::Codes<Target, 5> target_codes = {{{Target::febio, "febio"},
+                                                         {Target::abaqus, "abaqus"},
+                                                         {Target::ansys, "ansys"},
+                                                         {Target::calculix, "calculix"},
+                                                         {Target::lsdyna, "lsdyna"}}};
 
 /// Throws InputError with the nearest name.
 Target target_of(std::string_view name);
@@ -27,8 +31,13 @@ struct CardSettings {
   std::string name = "TISSUE";
   UnitSystem units = {};
   /// Bulk modulus over the stiffness at rest (stiffness_at_rest()); 0 = incompressible, for programs that can have it.
-  /// Nothing = the default of the program: 0 for Abaqus, 10000 for CalculiX.
+  /// Nothing = the default of the program: 0 for Abaqus and Ansys, 1000 for LS-DYNA, 10000 for
+  /// CalculiX and FEBio.
   std::optional<double> bulk_ratio = {};
+  /// Mass density, kg/m³. LS-DYNA's cards need one, FEBio's may have one, the others have it elsewhere.
+  std::optional<double> density = {};
+  /// Abaqus: fibres by the user subroutine of uanisohyper_inv() instead of the energies that it has itself.
+  bool subroutine = false;
   /// Put before the card as comments, one paragraph each: where the parameters come from, what they are good for.
   std::vector<std::string> remarks = {};
 };
@@ -39,5 +48,9 @@ struct CardSettings {
 ///     write_card(Target::calculix, {.type = "yeoh", .values = {{"c10", 180}, {"c20", -1.5}, {"c30", 0.05}}},
 ///                {.name = "RUBBER", .units = unit_system("mm-N-MPa")})
 std::string write_card(Target target, const Material& material, const CardSettings& settings = {});
+
+/// The Fortran source of Abaqus' user subroutine UANISOHYPER_INV for every fibre model and every fibre_switch. It reads
+/// the parameters from the card (CardSettings::subroutine).
+std::string uanisohyper_inv();
 
 }  // namespace tunica::cards

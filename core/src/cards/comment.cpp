@@ -54,6 +54,18 @@ std::string comment(std::string_view lead, std::string_view paragraph) {
   return lines;
 }
 
+std::string comments(std::string_view lead, std::span<const std::string> paragraphs) {
+  std::string lines;
+  for (const auto& paragraph : paragraphs) lines += comment(lead, paragraph);
+  return lines;
+}
+
+std::string xml_comment(std::span<const std::string> paragraphs) {
+  std::string lines = comments("", paragraphs);
+  for (std::size_t at = 0; (at = lines.find("--", at)) != std::string::npos;) lines.replace(at, 2, "- -");
+  return "<!--\n" + lines + "-->\n";
+}
+
 std::string number(double value) { return fmt::format("{:.12g}", value); }
 
 }  // namespace tunica::cards

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,12 @@ std::string ascii(std::string_view text);
 /// A paragraph as comment lines, each ended, of at most 78 columns: `lead` begins every line, further ones are
 /// indented.
 std::string comment(std::string_view lead, std::string_view paragraph);
+
+/// Several of them.
+std::string comments(std::string_view lead, std::span<const std::string> paragraphs);
+
+/// The same as one comment of XML, in which "--" may not stand.
+std::string xml_comment(std::span<const std::string> paragraphs);
 
 /// Twelve digits: at most 18 columns, of the 20 that CalculiX reads.
 std::string number(double value);

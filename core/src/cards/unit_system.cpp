@@ -34,14 +34,15 @@ UnitSystem unit_system(std::string_view text) {
                                  data::excerpt(text), examples));
   UnitSystem system{std::string(text.substr(0, first)), std::string(text.substr(first + 1, second - first - 1)),
                     std::string(text.substr(second + 1))};
-  const double square = std::pow(converted(text, 1, system.length, "m"), 2);
-  const double stress = converted(text, 1, system.force, "N") / square / converted(text, 1, system.stress, "Pa");
+  const double length = converted(text, 1, system.length, "m"), force = converted(text, 1, system.force, "N");
+  const double stress = force / (length * length) / converted(text, 1, system.stress, "Pa");
   if (!(std::abs(stress - 1) < 1e-6))
     throw InputError(
         fmt::format("units '{}': {} over the square of {} is {:.6g} {}, so they are not consistent; give for example "
                     "{}",
                     data::excerpt(text), system.force, system.length, stress, system.stress, examples));
   system.stress_per_kPa = converted(text, 1, "kPa", system.stress);
+  system.density_per_kg_m3 = std::pow(length, 4) / force;
   return system;
 }
 

@@ -9,7 +9,8 @@ namespace tunica::cards {
 /// A consistent system of units: the stress is the force over the square of the length. Time is in seconds.
 struct UnitSystem {
   std::string length = "mm", force = "N", stress = "MPa";
-  double stress_per_kPa = 1e-3;  ///< what 1 kPa is
+  double stress_per_kPa = 1e-3;      ///< what 1 kPa is
+  double density_per_kg_m3 = 1e-12;  ///< what 1 kg/m³ is, in force s²/length⁴
 
   [[nodiscard]] std::string name() const { return length + "-" + force + "-" + stress; }
 };

@@ -17,21 +17,27 @@ struct Draft {
   double bulk = 0;    ///< bulk modulus in the units of the card; 0 = incompressible
   /// Two over the bulk modulus, the coefficient D1 of (J − 1)²/D1; 0 = incompressible.
   [[nodiscard]] double d1() const { return bulk > 0 ? 2 / bulk : 0; }
+  /// In the units of the card; "" where none is given. Throws InputError where it is not positive.
+  [[nodiscard]] std::string density() const;
   /// A parameter of the dimension stress in the units of the card.
   [[nodiscard]] double modulus(const std::string& parameter) const;
 };
 
 /// Throws the refusal of a model, with the reason and what to do.
-[[noreturn]] void refuse(std::string_view program, const Material& material, std::string_view reason,
-                         std::string_view cure);
+[[noreturn]] void cannot_express(std::string_view program, const Material& material, std::string_view reason,
+                                 std::string_view cure);
 
 /// Values with commas, eight a line, each line ended.
 std::string data_lines(std::span<const double> values);
+std::string joined_lines(std::span<const std::string> values);
 
 /// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
 std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms);
 
 std::string calculix_card(const Draft& draft);
 std::string abaqus_card(const Draft& draft);
+std::string febio_card(const Draft& draft);
+std::string ansys_card(const Draft& draft);
+std::string lsdyna_card(const Draft& draft);
 
 }  // namespace tunica::cards

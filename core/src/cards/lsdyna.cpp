@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// LS-DYNA Keyword User's Manual, volume II: *MAT_HYPERELASTIC_RUBBER (077_H), *MAT_OGDEN_RUBBER (077_O), N = 0: the
+// constants are given. The bulk modulus follows from Poisson's ratio.
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cards/writers.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::cards {
+
+namespace {
+
+/// As many digits as ten columns hold: at least five.
+std::string field(double value) {
+  for (int digits = 10; digits > 1; --digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    for (const char* const zero : {"e-0", "e+0"})  // 1e-05 is 1e-5
+      if (const auto at = text.find(zero); at != std::string::npos) text.erase(at + 2, 1);
+    if (text.size() <= 10) return fmt::format("{:>10}", text);
+  }
+  return fmt::format("{:>10.2e}", value);
+}
+
+std::string line(std::span<const double> values) {
+  std::string fields;
+  for (const double value : values) fields += field(value);
+  return fields + '\n';
+}
+
+/// The title, then MID, RO, PR, N = 0 and no viscosity.
+std::string head(const Draft& draft, std::string_view keyword) {
+  const std::string density = draft.density();
+  if (density.empty())
+    throw InputError(
+        "a card of LS-DYNA has a density, and a calibration knows none; give it, for example --density \"1000 kg/m3\"");
+  const double shear = draft.stress * stiffness_at_rest(draft.material), bulk = draft.bulk;
+  // ν = (3K − 2G)/(6K + 2G)
+  const double poisson = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
+  return fmt::format("*MAT_{}_TITLE\n{}\n$      mid        ro        pr         n\n{:>10}{}{}{:>10}\n", keyword,
+                     draft.settings.name, 1, field(*draft.settings.density * draft.settings.units.density_per_kg_m3),
+                     field(poisson), 0);
+}
+
+// W = Σ C_pq (Ī1 − 3)^p (Ī2 − 3)^q + W_H(J)
+std::string polynomial(const Draft& draft, double c10, double c01, double c20, double c30) {
+  return head(draft, "HYPERELASTIC_RUBBER") + "$      c10       c01       c11       c20       c02       c30\n" +
+         line(std::array{c10, c01, 0.0, c20, 0.0, c30});
+}
+
+}  // namespace
+
+std::string lsdyna_card(const Draft& draft) {
+  const auto& material = draft.material;
+  if (has_fibres(material))
+    cannot_express("LS-DYNA", material,
+                   "tunica writes no card of its anisotropic energies (*MAT_295), which nobody here could check",
+                   "export for FEBio or Abaqus");
+  if (material.type == "gent")
+    cannot_express("LS-DYNA", material, "it has no energy with a limit of extension of the chains",
+                   "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+  if (material.type == "neo_hooke") return polynomial(draft, 0.5 * draft.modulus("mu"), 0, 0, 0);
+  if (material.type == "mooney_rivlin") return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), 0, 0);
+  if (material.type == "yeoh")
+    return polynomial(draft, draft.modulus("c10"), 0, draft.modulus("c20"), draft.modulus("c30"));
+  // W = Σ μ_j/α_j (λ̄1^α_j + λ̄2^α_j + λ̄3^α_j − 3)
+  std::vector<double> mu, alpha;
+  for (const auto& term : ogden_terms(material)) {
+    mu.insert(mu.end(), draft.stress * term.mu);
+    alpha.insert(alpha.end(), term.alpha);
+  }
+  return head(draft, "OGDEN_RUBBER") + "$ mu of the terms, then alpha\n" + line(mu) + line(alpha);
+}
+
+}  // namespace tunica::cards
