@@ -66,6 +66,9 @@ lines = (folder / "sim" / "unseen.csv").read_text().splitlines()
 assert lines[0] == "stretch [-],stress [kPa]", lines[0]
 assert np.allclose([float(line.split(",")[1]) for line in lines[1:]], predicted, rtol=1e-9)
 
+# A diagnosis looks at what was measured.
+rig.tunica(program, "diagnose", file, "-o", folder / "diagnosed", "--mechanisms", "force_offset")
+
 # Nothing but predictions: check and simulate work, run says why it does not.
 experiment["tests"] = {"unseen": unseen}
 file.write_text(json.dumps(experiment))
@@ -74,5 +77,6 @@ rig.tunica(program, "check", file, "--json")
 rig.tunica(program, "simulate", file, "--model", "mr", "-o", folder / "sim2")
 _, message = rig.tunica(program, "run", file, "-o", folder / "none", code=2)
 assert "no test has measured values" in " ".join(message.split()), message
+rig.tunica(program, "diagnose", file, "-o", folder / "none", code=2)
 assert not (folder / "none").exists()
 print("covariance and predictions are those of numpy")

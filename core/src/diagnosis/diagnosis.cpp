@@ -65,7 +65,8 @@ std::vector<Warning> Diagnosis::warnings() const {
 
 Diagnosis diagnose(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const Progress& progress) {
-  const Inquiry inquiry{experiment, request, catalogue, progress};
+  const experiment::Experiment measured = experiment::measured_only(experiment);
+  const Inquiry inquiry{measured, request, catalogue, progress};
   Explained found = explained(inquiry);
   Explanation explanation = with_refitted_intervals(inquiry, found.analysis, std::move(found.explanation));
   Prospects prospects = prospects_of(inquiry, found.analysis, explanation);

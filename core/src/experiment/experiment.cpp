@@ -37,6 +37,18 @@ std::vector<std::string> Experiment::models_of(const RunEntry& run) const {
   return names;
 }
 
+Experiment measured_only(Experiment experiment) {
+  for (RunEntry& run : experiment.runs)
+    std::erase_if(run.tests, [&](const std::string& name) { return !experiment.test(name).measured; });
+  std::erase_if(experiment.runs, [](const RunEntry& run) { return run.tests.empty(); });
+  std::erase_if(experiment.tests, [](const TestEntry& test) { return !test.measured; });
+  if (experiment.tests.empty())
+    throw InputError(
+        "no test has measured values, so there is nothing to diagnose. Map a measured quantity in "
+        "\"columns\"");
+  return experiment;
+}
+
 std::string Experiment::model_name(const RunEntry& run) const {
   return run.model.empty() ? fmt::format("{}", fmt::join(models_of(run), "+")) : run.model;
 }

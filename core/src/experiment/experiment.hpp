@@ -178,6 +178,9 @@ struct Experiment {
   [[nodiscard]] std::string model_name(const RunEntry& run) const;
 };
 
+/// Without the tests that have no measured value, and the runs that are left without a test.
+Experiment measured_only(Experiment experiment);
+
 /// Parses, validates and types an experiment file. Throws InputError: each message quotes what was found, names JSON
 /// pointer and line, and says what is expected; unknown names list the nearest valid one.
 Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue);

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/memory.hpp"
+#include "data/quantities.hpp"
 #include "diagnosis/evidence/gross_rows.hpp"
 #include "tunica/error.hpp"
 
@@ -59,8 +60,8 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
   for (auto& test : experiment.tests) {
     const std::vector<double> weights = std::exchange(test.weights, {});
     if (!contains(tests, test.name) || std::find(weights.begin(), weights.end(), 0.0) == weights.end()) continue;
-    const auto channels =
-        data::read_dataset(test.data, catalogue.tests().find(test.type)->second.factory.observables).channels;
+    const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    const auto channels = data::read_dataset(test.data, observables).channels;
     std::vector<std::string> silent;
     for (std::size_t k = 0; k < weights.size(); ++k)
       if (weights[k] == 0) silent.push_back(channels[k].observable);
@@ -71,9 +72,10 @@ Weightless without_weights(experiment::Experiment experiment, const std::vector<
       test.hold_out.all = true;
       continue;
     }
-    const auto is_silent = [&](const auto& entry) { return contains(silent, entry.first); };
-    std::erase_if(test.data.columns, is_silent);
-    std::erase_if(test.data.noise, is_silent);
+    std::erase_if(test.data.columns, [&](const auto& entry) {
+      return contains(silent, data::quantity_named(entry.first, observables)->observable->name);
+    });
+    std::erase_if(test.data.noise, [&](const auto& entry) { return contains(silent, entry.first); });
   }
   return {std::move(experiment), std::move(warnings)};
 }
