@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cpack -G DEB: tunica (the program and its plugins) and tunica-dev (what plugins are built with).
+# cpack -G DEB: tunica (the program and its plugins), tunica-dev (what plugins are built with) and, where it was built,
+# python3-tunica (the Python package).
 # cpack --config CPackSourceConfig.cmake: the sources.
 set(CPACK_PACKAGE_NAME tunica)
 set(CPACK_PACKAGE_VENDOR "tunica developers")
@@ -20,6 +21,14 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # A plugin is built for one API number: both packages go together.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "tunica (= ${PROJECT_VERSION}), libeigen3-dev, nlohmann-json3-dev, libceres-dev, g++, cmake (>= 3.25)")
+if(TARGET tunica_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tunica)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  # The plugins come with the program; what is loaded and what loads them are of one build.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tunica (= ${PROJECT_VERSION}), ${TUNICA_PYTHON_DEPENDS}, python3-numpy")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python package of tunica: runs, diagnoses, problems for scipy, own models")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, CMake package and pkg-config file for plugins of tunica")
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_PACKAGE_FILE_NAME tunica-${PROJECT_VERSION})

@@ -19,14 +19,16 @@ ROOT = HERE.parent
 
 # The first folder or file that fits decides; the order is that of the page.
 SUBJECTS = [
+    ("Python", "Raised as `tunica.InputError`, beside the messages of the command line.", ["apps/python/"]),
     ("Command line", "What stands behind `tunica`, and where results go.",
-     ["apps/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
+     ["apps/", "core/src/exporting/", "core/src/comparison/snapshots", "core/src/comparison/simulation",
       "core/src/comparison/parameter_file", "core/src/comparison/certify"]),
     ("JSON", "The experiment file as text. Each message names file, line and column.",
      ["core/src/experiment/json_document"]),
     ("Experiment file", "Each message names the file, the JSON pointer, line and column.", ["core/src/experiment/"]),
     ("Units", "", ["core/src/data/units"]),
     ("Data files", "Each message names the file, and the line and column where there is one.", ["core/src/data/"]),
+    ("Material cards", "What `tunica export` refuses.", ["core/src/cards/"]),
     ("Setting up a calibration", "Found when models, tests and data are put together, before anything is evaluated.",
      ["core/src/assembly/binding", "core/src/assembly/builder", "core/src/assembly/channels",
       "core/src/assembly/composition", "core/src/assembly/constraint.", "core/src/assembly/noise",

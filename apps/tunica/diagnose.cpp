@@ -19,7 +19,7 @@
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
-#include "execution/files.hpp"
+#include "diagnosis_folder.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
@@ -63,16 +63,6 @@ diagnosis::Request request_of(const experiment::Experiment& experiment, const Se
   return request;
 }
 
-/// Everything that a diagnosis leaves behind, the verdict last.
-void write_outputs(const std::filesystem::path& directory, const diagnosis::Diagnosis& found,
-                   const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  execution::write_atomically(directory / "input.json", experiment.input_json);
-  if (const std::string text = diagnosis::extended_experiment(found, catalogue); !text.empty())
-    execution::write_atomically(directory / "extended.json", text);
-  diagnosis::write_tables(directory, found);
-  execution::write_atomically(directory / "result.json", diagnosis::result_document(found, experiment, catalogue));
-}
-
 /// The answer to Ctrl-C.
 std::string interruption_message() {
   return fmt::format(
@@ -108,7 +98,7 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
-  write_outputs(directory.path(), found, experiment, session.catalogue());
+  write_diagnosis(directory.path(), found, experiment, session.catalogue());
   const std::vector<diagnosis::Warning> warnings = found.warnings();
   for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) fmt::print("\n");
@@ -146,7 +136,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
             diagnosis::diagnose(experiment, request_of(experiment, session, options), session.catalogue());
         const std::filesystem::path directory = into / cases[k].filename();
         std::filesystem::create_directories(directory);
-        write_outputs(directory, found, experiment, session.catalogue());
+        write_diagnosis(directory, found, experiment, session.catalogue());
       } catch (const std::exception& problem) {
         ++failures;
         say_error(fmt::format("{}: {}", cases[k].string(), problem.what()));

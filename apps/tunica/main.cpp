@@ -63,9 +63,12 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(examples);
-  for (const auto add : {add_run, add_diagnose, add_report, add_certify, add_check, add_simulate, add_stability,
-                         add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
+  for (const auto add : {add_run, add_diagnose, add_report, add_export, add_certify, add_check, add_simulate,
+                         add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
     add(app, global, action);
+#ifdef TUNICA_SERVES
+  add_serve(app, global, action);
+#endif
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -24,9 +24,11 @@ inline CLI::Validator seed_number() {
 void add_run(CLI::App& app, GlobalOptions& global, Action& action);
 void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action);
 void add_report(CLI::App& app, GlobalOptions& global, Action& action);
+void add_export(CLI::App& app, GlobalOptions& global, Action& action);
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action);
 void add_check(CLI::App& app, GlobalOptions& global, Action& action);
 void add_simulate(CLI::App& app, GlobalOptions& global, Action& action);
+void add_serve(CLI::App& app, GlobalOptions& global, Action& action);
 void add_stability(CLI::App& app, GlobalOptions& global, Action& action);
 void add_list(CLI::App& app, GlobalOptions& global, Action& action);
 void add_describe(CLI::App& app, GlobalOptions& global, Action& action);

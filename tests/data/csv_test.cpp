@@ -145,7 +145,8 @@ TEST(Csv, ExplainsDecimalCommas) {
 TEST(Csv, AnswersAMissingColumnWithTheNearest) {
   EXPECT_EQ(strip_refusal("stretch,strss [kPa]\n1,0\n"),
             "strip.csv, line 1: there is no column 'stress'. Did you mean 'strss'? Known: stretch, strss.");
-  EXPECT_NE(strip_refusal("stretch,stress (kPa)\n1,0\n").find("Did you mean 'stress (kPa)'?"), std::string::npos);
+  EXPECT_NE(strip_refusal("stretch,stress (true)\n1,0\n").find("Did you mean 'stress (true)'?"), std::string::npos)
+      << "what stands in the brackets is no unit";
 }
 
 TEST(Csv, RefusesAmbiguousColumns) {

@@ -47,7 +47,7 @@ TEST(Fuzz, DamagedDataFilesAreRefusedOrConsistent) {
     const std::string text = mutate(i % 3 == 0 ? comma : i % 3 == 1 ? semicolon : blank);
     DataRequest request;
     if (i % 2 == 0) request.where = {{"specimen", "A"}};
-    if (i % 5 == 0) request.rows = {static_cast<std::size_t>(i % 3), {}, 2};
+    if (i % 5 == 0) request.rows = {i % 3, {}, 2};
     testing::Mapping columns = {{"stretch", "stretch"}, {"stress", "stress"}};
     if (i % 4 == 0)
       columns.emplace_back("time", "time");

@@ -54,8 +54,9 @@ Analysis analysed(const Measured& measured) {
 /// A bend that no parameter of the wall follows, 20 σ high.
 double bend(const Strip& strip, double stretch) { return strip.name == "axial" ? 6 * std::sin(9 * stretch) : 0; }
 
-// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5. A part
-// that grows with the value is seen by chance in 2.3 % of data sets; more than 5 of 40: 3e-4.
+// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5. Where the
+// noise is white, half of it at the largest value is taken for growing where the likelihood gains about 2 ln 2, one-sided
+// 12 % of the data sets, and 5 % more for one observable; more than 15 of 40: 5e-4.
 TEST(EncompassingNoise, IsUnbiasedBesideAMisfitOfManyTimesTheNoise) {
   double sum = 0, freedom = 0;
   int growing = 0;
@@ -66,13 +67,14 @@ TEST(EncompassingNoise, IsUnbiasedBesideAMisfitOfManyTimesTheNoise) {
     EXPECT_TRUE(found.alarm.raised) << seed;
     const Eigen::VectorXd sd = whitened_deviations(found.evidence);
     sum += (sd / 0.3).squaredNorm() / static_cast<double>(sd.size()) / 40;
-    growing += found.evidence.noise.front().noise.relative > 0;
+    const auto first = sd.head(45);
+    growing += first.maxCoeff() > std::sqrt(2.0) * first.minCoeff();
     for (const NoiseSource& source : found.evidence.noise) {
       ASSERT_EQ(source.kind, NoiseSource::Kind::encompassing);
       freedom += source.freedom / 80;
     }
   }
-  EXPECT_LE(growing, 5);
+  EXPECT_LE(growing, 15);
   EXPECT_GT(freedom, 15);
   EXPECT_NEAR(sum, 1, 4 * std::sqrt(2 / (freedom * 80)));
 }
@@ -94,7 +96,7 @@ TEST(EncompassingNoise, PutsItsOwnUncertaintyIntoEveryDraw) {
   const SilentStrips measured;
   measured.measure(1);
   const Evidence evidence = analysed(measured).evidence;
-  const Eigen::MatrixXf draws = noise_draws(evidence, 4000, 1);
+  const Eigen::MatrixXf draws = noise_draws(evidence, 4000, 1).residuals;
   for (const Curve& curve : evidence.curves) {
     // What lies in the span says nothing of σ̂: the mean of the curve does.
     const double mean_square =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "assembly/growing_noise.hpp"
 #include "assembly/restricted_variance.hpp"
 
 #include <cmath>
@@ -86,17 +87,18 @@ TEST(RestrictedVariance, LeavesKnownVarianceAndTheLeastAlone) {
   EXPECT_TRUE(found.at_least[0]);
 }
 
-// Seed 3: σ from 1 to √(1 + 9) over three curves of 40 rows: a likelihood gain of about 60. And white noise, 400 times
-// by two families: a gain above 4 by chance is one-sided 2.3 % each; with six grid points no more. Bound: four standard
-// deviations above 800 · 0.023, false alarm 3e-5.
-TEST(RestrictedShares, SeeNoiseThatGrowsWithTheValueAndNoMore) {
+// Seed 3: σ from 1 to √(1 + 9) over three curves of 40 rows: a likelihood gain of about 60. And white noise, 400 times:
+// with no share as likely before as any, half a variance is taken for relative where the likelihood gains 2 · ln 2 or
+// so, one-sided 14 %; families of their own ask for a gain of 4, 2.3 % each. Bound: four standard deviations above 400
+// · 0.19.
+TEST(GrowingNoise, IsSeenWhereItIsAndSeldomElsewhere) {
   std::mt19937_64 generator(3);
   VarianceProblem problem = polynomials({40, 40, 40}, 3);
   const Eigen::VectorXd level = problem.columns.col(1) + problem.columns.col(5) + problem.columns.col(9);
   const Eigen::VectorXd growing = (1 + 9 * level.array().square()).sqrt();
   problem.residuals = white(120, generator).cwiseProduct(growing);
   VarianceProblem fitted = problem;
-  const std::vector<double> shares = restricted_shares(fitted, {0, 0, 0}, level);
+  const std::vector<double> shares = growing_noise(fitted, {0, 0, 0}, level).share;
   ASSERT_EQ(shares.size(), 1u);
   EXPECT_GE(shares[0], 4);
   EXPECT_LE(shares[0], 30);
@@ -105,9 +107,10 @@ TEST(RestrictedShares, SeeNoiseThatGrowsWithTheValueAndNoMore) {
   for (int k = 0; k < 400; ++k) {
     fitted = problem;
     fitted.residuals = white(120, generator);
-    for (const double share : restricted_shares(fitted, {0, 1, 1}, level)) claimed += share > 0;
+    const std::vector<double> none = growing_noise(fitted, {0, 1, 1}, level).share;
+    claimed += std::max(none[0], none[1]) >= 1;
   }
-  EXPECT_LE(claimed, 800 * 0.023 + 4 * std::sqrt(800 * 0.023));
+  EXPECT_LE(claimed, 400 * 0.19 + 4 * std::sqrt(400 * 0.19));
 }
 
 TEST(ValueStep, IsFoundWhereValuesAreRounded) {

@@ -157,8 +157,8 @@ TEST_F(Messages, CheckTheMappingOfColumns) {
                 "no column is mapped to 'stretch', which test 'circumferential_strip' needs");
   expect_within(refusal(columns, R"({"stretch": "stretch"})"),
                 "no measured quantity of test 'circumferential_strip' is mapped");
-  expect_within(refusal(columns, R"({"stretch": 1, "stress": "stress"})"),
-                "found the number 1 where the name of a column is expected");
+  expect_within(refusal(columns, R"({"stretch": true, "stress": "stress"})"),
+                "found true where the name of a column, or its number is expected");
 }
 
 TEST_F(Messages, CheckWeights) {
@@ -174,19 +174,20 @@ TEST_F(Messages, CheckRowRanges) {
   EXPECT_EQ(refusal(R"("hold_out": false)", R"("hold_out": "200-240")"),
             "experiment.json: '200-240' is not a row range: '200-240' is not a row number "
             "(/tests/circumferential_strip/hold_out, line 26, column 7). "
-            "Expected \"first:last\" or \"first:last:step\" as in \"0:240:6\": rows count from 0, last is not "
-            "included, and each number may be left out.");
+            "Expected \"first:last\" or \"first:last:step\" as in \"0:240:6\": rows count from 0, negative "
+            "numbers from the end, last is not included, and each number may be left out.");
   expect_within(refusal(R"("hold_out": false)", R"("hold_out": 3)"),
                 "found the number 3 where true, false or a row range such as \"200:240\" is expected");
   expect_within(refusal("0:240:6", "5"), "'5' is not a row range: it has 1 part");
   expect_within(refusal("0:240:6", "0:240:6:1"), "it has 4 parts");
   expect_within(refusal("0:240:6", "0:240:0"), "the step is 0");
   expect_within(refusal("0:240:6", "240:0"), "it ends before it begins");
-  expect_within(refusal("0:240:6", "-5:"), "'-5' is not a row number");
+  expect_within(refusal("0:240:6", "0:240:-6"), "the step is negative");
+  expect_within(refusal("0:240:6", "-5:-8"), "it ends before it begins");
+  expect_within(refusal("0:240:6", "1.5:"), "'1.5' is not a row number");
   EXPECT_TRUE(read(with(R"("hold_out": false)", R"("hold_out": true)")).test("circumferential_strip").hold_out.all);
   EXPECT_EQ(
-      read(with(R"("hold_out": false)", R"("hold_out": ":20")")).test("circumferential_strip").hold_out.rows->last,
-      20u);
+      read(with(R"("hold_out": false)", R"("hold_out": ":20")")).test("circumferential_strip").hold_out.rows->last, 20);
   expect_within(
       refusal(
           R"({"model": "gho", "optimizer": "lm"}

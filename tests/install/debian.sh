@@ -50,4 +50,10 @@ chroot "$root" bash -euc 'export DEBIAN_FRONTEND=noninteractive
     ctest --test-dir "my_$kind/build" --no-tests=error | tail -3
     ls "out_$kind/result.json"
   done'
+say "with python3-tunica"
+chroot "$root" bash -euc 'export DEBIAN_FRONTEND=noninteractive
+  apt-get -q install -y --no-install-recommends /tmp/python3-tunica_*.deb >/tmp/apt.log 2>&1 || { cat /tmp/apt.log; exit 1; }
+  cd /root/try && python3 -c "
+import tunica
+print(tunica.__version__, len(tunica.names()[\"models\"]), \"models\", tunica.Material(\"neo_hooke\", mu=10.0))"'
 say "done"

@@ -16,6 +16,7 @@ ask.add_argument("--build", type=pathlib.Path, required=True)
 ask.add_argument("--source", type=pathlib.Path, required=True)
 ask.add_argument("--work", type=pathlib.Path, required=True)
 ask.add_argument("--launcher", help="compiler launcher, for example ccache")
+ask.add_argument("--python", help="the Python that the package was built for")
 ask.add_argument("part")
 told = ask.parse_args()
 prefix = told.work / "moved/tunica"
@@ -51,7 +52,7 @@ def install():
     run("cmake", "--install", told.build, "--prefix", here)
     here.parent.rename(prefix.parent)  # where it was installed to exists no more
     expect(program.exists(), f"{program} was not installed")
-    libraries = [path for path in prefix.rglob("*.so*") if "plugins" not in path.parts]
+    libraries = [path for path in prefix.rglob("*.so*") if not {"plugins", "dist-packages"} & {*path.parts}]
     expect(not libraries, f"libraries without a place in the policy: {libraries}")
     shown = run(program, "list", "models")
     expect("gho" in shown, f"the moved program does not find its plugins:\n{shown}")
@@ -116,6 +117,25 @@ def pkg_config():
     source = told.source / "examples/plugins/demiray/demiray.cpp"
     run("g++", "-O2", source, *flags, "-o", folder / "demiray.so")
     expect("demiray" in run(program, "--plugin-path", folder / "demiray.so", "describe", "demiray"), "is not described")
+
+
+def python():
+    """The package finds the plugins beside it, wherever both have been moved."""
+    package = prefix / "lib/python3/dist-packages"
+    here = fresh("python")
+    (here / "use.py").write_text(
+        "import json, sys, tunica\n"
+        "result = tunica.run(sys.argv[1], 'out', certificate=True)\n"
+        "certified = result.best.best['certificate']['fresh_process']\n"
+        "print(json.dumps([tunica.__file__, certified, len(tunica.names()['models'])]))\n")
+    shown = run("env", f"PYTHONPATH={package}", told.python, "-B", "use.py",
+                told.source / "examples/treloar/experiment.json", cwd=here)
+    file, certified, models = json.loads(shown.splitlines()[-1])
+    expect(pathlib.Path(file).is_relative_to(prefix), f"the package was loaded from {file}")
+    expect(certified, "the fresh process did not find the package")
+    expect(models == len(run(program, "list", "models", "--names").split()), f"{models} models")
+    expect(not [path for path in (package / "tunica").iterdir() if path.is_symlink()], "links into the sources")
+    expect((package / "tunica/py.typed").exists(), "no py.typed")
 
 
 def paths():
@@ -204,6 +224,7 @@ def refusals():
 
 parts = {"prefix": install, "new_refuses": new_refuses, "pkg_config": pkg_config, "shelves": shelves,
          "beside_built_ins": beside_built_ins, "refusals": refusals}
+parts["python"] = python
 parts.update({f"new_{kind}": lambda kind=kind: new(kind) for kind in ("model", "test", "optimizer", "mechanism")})
 parts.update({name: lambda name=name: example(name) for name in examples})
 parts[told.part]()

@@ -43,13 +43,13 @@ std::vector<bool> fitted_rows(const experiment::TestEntry& entry, const data::Da
   std::vector<bool> fitted(count, !entry.hold_out.all);
   if (entry.hold_out.all || !entry.hold_out.rows) return fitted;
   const data::RowRange& range = *entry.hold_out.rows;
-  if (range.first >= count) {
+  const auto [first, last] = range.among(count);
+  if (first >= count) {
     throw InputError(
         fmt::format("test '{}': hold_out starts at row {}, but only rows 0 … {} are used; choose rows among them",
                     entry.name, range.first, static_cast<std::ptrdiff_t>(count) - 1));
   }
-  const std::size_t last = std::min(range.last.value_or(count), count);
-  for (std::size_t row = range.first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
+  for (std::size_t row = first; row < last; row += std::max<std::size_t>(range.step, 1)) fitted[row] = false;
   if (dataset.file_rows.empty()) return fitted;
   std::vector<bool> sorted;
   for (const std::size_t row : dataset.file_rows) sorted.push_back(fitted[row]);

@@ -12,18 +12,6 @@ namespace {
 constexpr double settled = 1e-5;  ///< of ln s_g
 constexpr double next_to_none = 1e-9;
 
-/// Largest |level| of the rows of each family.
-std::vector<double> largest_levels(const VarianceProblem& problem, const std::vector<std::size_t>& family_of_group,
-                                   const Eigen::VectorXd& level, std::size_t families) {
-  std::vector<double> largest(families, 0);
-  for (std::size_t i = 0; i < problem.group.size(); ++i)
-    if (problem.group[i] != known_variance) {
-      double& most = largest[family_of_group[problem.group[i]]];
-      most = std::max(most, std::abs(level[static_cast<Eigen::Index>(i)]));
-    }
-  return largest;
-}
-
 }  // namespace
 
 RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size_t steps) {
@@ -92,56 +80,6 @@ RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size
     if (moved < settled) break;
   }
   return found;
-}
-
-std::vector<double> restricted_shares(VarianceProblem& problem, const std::vector<std::size_t>& family_of_group,
-                                      const Eigen::VectorXd& level, double price) {
-  std::size_t families = 0;
-  for (const std::size_t family : family_of_group) families = std::max(families, family + 1);
-  std::vector<double> shares(families, 0);
-  if (families == 0) return shares;
-  const std::vector<double> largest = largest_levels(problem, family_of_group, level, families);
-  const auto family_at = [&](Eigen::Index i) {
-    const std::size_t g = problem.group[static_cast<std::size_t>(i)];
-    return g == known_variance ? known_variance : family_of_group[g];
-  };
-  const auto shape_with = [&](std::size_t family, double share) {
-    Eigen::VectorXd shape = problem.shape;
-    for (Eigen::Index i = 0; i < shape.size(); ++i)
-      if (family_at(i) == family) shape[i] *= 1 + share * std::pow(level[i] / largest[family], 2);
-    return shape;
-  };
-  RestrictedVariance now = restricted_variance(problem);
-  for (std::size_t family = 0; family < families; ++family) {
-    if (!(largest[family] > 0)) continue;
-    // The slope of the likelihood at a share of 0, groups apart: only where large rows err more is there one to look
-    // for.
-    std::vector<double> mean(now.variance.size(), 0);
-    for (Eigen::Index i = 0; i < level.size(); ++i)
-      if (family_at(i) == family) {
-        const std::size_t g = problem.group[static_cast<std::size_t>(i)];
-        mean[g] += (1 - now.leverage[i]) * level[i] * level[i] / std::max(now.freedom[g], next_to_none);
-      }
-    double slope = 0;
-    for (Eigen::Index i = 0; i < level.size(); ++i)
-      if (family_at(i) == family)
-        slope += (now.remainder[i] * now.remainder[i] - (1 - now.leverage[i])) *
-                 (level[i] * level[i] - mean[problem.group[static_cast<std::size_t>(i)]]);
-    if (!(slope > 0)) continue;
-    VarianceProblem trial = problem;
-    double best = now.misfit - price;
-    for (const double share : {0.5, 1.5, 4.0, 10.0, 30.0, 100.0}) {
-      trial.shape = shape_with(family, share);
-      const RestrictedVariance with = restricted_variance(trial, 6);
-      if (with.misfit >= best) continue;
-      best = with.misfit;
-      shares[family] = share;
-    }
-    if (shares[family] == 0) continue;
-    problem.shape = shape_with(family, shares[family]);
-    now = restricted_variance(problem);
-  }
-  return shares;
 }
 
 double value_step(std::span<const double> values) {

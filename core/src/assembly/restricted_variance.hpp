@@ -37,12 +37,6 @@ struct RestrictedVariance {
 };
 RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size_t steps = 40);
 
-/// Whether the variance of some groups grows with the level of their rows: σ² ∝ 1 + share · (level/largest level)². One
-/// share for all groups of a family; it has to lower the misfit by more than `price`. Returns the share by family, 0
-/// where the data do not ask for one; `problem.shape` of their rows is multiplied accordingly.
-std::vector<double> restricted_shares(VarianceProblem& problem, const std::vector<std::size_t>& family_of_group,
-                                      const Eigen::VectorXd& level, double price = 4);
-
 /// The step that all values are multiples of, to within their own digits; 0 where there is none that is coarse enough
 /// to be seen: at least one value in four occurs twice. Rounding to a step q is an error of q/√12.
 double value_step(std::span<const double> values);

@@ -33,6 +33,7 @@ execution::Execution search(const execution::Plan& plan, const std::filesystem::
   settings.threads = options.threads;
   settings.resume = options.resume;
   settings.progress = options.progress;
+  settings.told = options.told;
   return execution::execute(plan, settings);
 }
 

@@ -32,7 +32,8 @@ struct Options {
   bool resume = false;
   unsigned threads = 1;
   execution::Progress::Style progress = execution::Progress::Style::none;
-  std::vector<std::string> refusals = {};  ///< of plugins, for the warnings
+  std::function<void(double share, const std::string& text)> told = {};  ///< see execution::RunSettings
+  std::vector<std::string> refusals = {};                                ///< of plugins, for the warnings
   /// Asks a fresh process about the best points that stand in the file of the folder.
   std::function<Certified(const std::filesystem::path& directory, const std::filesystem::path& points)> certify = {};
   std::function<void(const Start&)> started = {};  ///< called before the first evaluation

@@ -11,25 +11,26 @@
 #include <fmt/format.h>
 
 #include "data/nearest.hpp"
+#include "data/table_place.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::data {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// Cuts a text into lines (LF, CRLF or CR) and lines into fields, keeping count of lines.
 class Cutter {
  public:
-  Cutter(const std::filesystem::path& file, std::string_view text) : file_(file), text_(text) {}
+  Cutter(const std::filesystem::path& file, std::string_view text) : file_(&file), text_(text) {}
 
   [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
   [[nodiscard]] std::size_t line() const { return line_; }
+
+  void skip_to_line(std::size_t line) {
+    while (!at_end() && line_ < line) {
+      at_ += rest_of_line().size();
+      end_line();
+    }
+  }
 
   /// Skips blank and comment lines.
   void skip_comments() {
@@ -101,7 +102,7 @@ class Cutter {
     }
     if (at_end())
       throw InputError(fmt::format("{}, line {}: a quoted field opens here and never closes. Close it with \".",
-                                   file_.string(), opened));
+                                   file_->string(), opened));
     ++at_;
     while (!at_end() && text_[at_] != '\r' && text_[at_] != '\n' && !is_delimiter(text_[at_], delimiter))
       cell += text_[at_++];
@@ -115,7 +116,7 @@ class Cutter {
     ++line_;
   }
 
-  const std::filesystem::path& file_;
+  const std::filesystem::path* file_;
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
 };
@@ -137,12 +138,15 @@ char sniff_delimiter(std::string_view header) {
   return tabs > 0 ? '\t' : semicolons > 0 ? ';' : commas > 0 ? ',' : ' ';
 }
 
+/// "stress [kPa]"; in round brackets only what is a unit: "stress (kPa)", not "stress (true)".
 Csv::Column header_cell(const std::string& text) {
-  const std::size_t open = text.rfind('[');
-  if (open == std::string::npos || text.back() != ']') return {text, text, std::nullopt};
+  const bool round = text.ends_with(')');
+  const std::size_t open = text.rfind(round ? '(' : '[');
+  if (open == std::string::npos || !(round || text.back() == ']')) return {text, text, std::nullopt};
   const std::string_view view = text;
-  return {text, std::string(trimmed(view.substr(0, open))),
-          std::string(trimmed(view.substr(open + 1, text.size() - open - 2)))};
+  std::string name(trimmed(view.substr(0, open)));
+  if (round && (name.empty() || !stated_unit(view.substr(open)))) return {text, text, std::nullopt};
+  return {text, std::move(name), std::string(trimmed(view.substr(open + 1, text.size() - open - 2)))};
 }
 
 // In a file delimited by white space the unit has become a cell of its own: "stress [kPa]", or two, "stress [N / m]".
@@ -158,12 +162,6 @@ std::vector<std::string> join_units(const std::vector<std::string>& cells) {
   return joined;
 }
 
-bool is_number(const std::string& cell) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size();
-}
-
 void refuse_encodings(const std::filesystem::path& file, std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw InputError(fmt::format("{}, line 1: the file is UTF-16. Save it as UTF-8 text.", file.string()));
@@ -173,6 +171,53 @@ void refuse_encodings(const std::filesystem::path& file, std::string_view text) 
         "{}, line {}: found a zero byte, so this is not a text file. Expected CSV: a header line "
         "`name [unit]` and rows of numbers.",
         file.string(), 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n')));
+}
+
+/// A row of units under the names: every cell that is not empty is a unit, so that no cell is a number.
+void read_unit_row(Cutter& cutter, Csv& csv) {
+  cutter.skip_comments();
+  if (cutter.at_end()) return;
+  Cutter below = cutter;
+  const std::vector<std::string> cells = below.fields(csv.delimiter);
+  bool any = false;
+  for (const std::string& cell : cells) {
+    if (!cell.empty() && !stated_unit(cell)) return;
+    any = any || !cell.empty();
+  }
+  if (!any || cells.size() > csv.columns.size()) return;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (!cells[k].empty()) csv.columns[k].unit = stated_unit(cells[k]);
+  cutter = below;
+}
+
+std::size_t first_line(const std::filesystem::path& file, std::string_view text) {
+  Cutter cutter(file, text);
+  cutter.skip_comments();
+  return cutter.line();
+}
+
+/// Names and units of the columns. Where nothing is asked for by name, they may be missing.
+void read_header(Cutter& cutter, const TableLayout& layout, Csv& csv) {
+  const auto number = [&](const std::string& cell) { return looks_like_number(cell, csv.delimiter != ','); };
+  Cutter below = cutter;
+  std::vector<std::string> header = below.fields(csv.delimiter);
+  if (csv.delimiter == ' ') header = join_units(header);
+  const bool nameless = std::all_of(header.begin(), header.end(), number);
+  if (nameless && !layout.by_position)
+    throw InputError(
+        fmt::format("{}, line {}, column 1: found the number {} where the header is expected. Write a line "
+                    "`name [unit]` with one name per column above the rows, or give columns by their number.",
+                    csv.file.string(), csv.header_line, excerpt(header.front())));
+  while (header.size() > 1 && header.back().empty()) header.pop_back();
+  if (nameless) {
+    for (std::size_t k = 0; k < header.size(); ++k)
+      csv.columns.push_back({fmt::format("#{}", k + 1), fmt::format("#{}", k + 1), std::nullopt});
+  } else {
+    for (const std::string& cell : header) csv.columns.push_back(header_cell(cell));
+    cutter = below;
+    read_unit_row(cutter, csv);
+  }
+  for (const auto& [name, unit] : layout.units) csv.columns[csv.column(name)].unit = unit;
 }
 
 }  // namespace
@@ -195,28 +240,33 @@ std::string read_bytes(const std::filesystem::path& file) {
   return std::move(bytes).str();
 }
 
-Csv parse_csv(const std::filesystem::path& file, std::string_view text) {
+Csv parse_csv(const std::filesystem::path& file, std::string_view text, const TableLayout& layout) {
   refuse_encodings(file, text);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   Csv csv;
   csv.file = file;
+  csv.stated_decimal = layout.decimal;
   Cutter cutter(file, text);
+  const std::optional<TablePlace> place = layout.skip_lines ? std::nullopt : find_table(text, layout.delimiter);
+  const bool nameless = place && !place->header && layout.by_position;
+  if (layout.skip_lines)
+    cutter.skip_to_line(*layout.skip_lines + 1);
+  else if (place && (place->header || nameless))
+    cutter.skip_to_line(nameless ? place->first_row : *place->header);
   cutter.skip_comments();
+  if (cutter.at_end() && layout.skip_lines)
+    throw InputError(fmt::format("{}: \"skip_lines\" is {}, and no table follows. The file has {} lines; correct it.",
+                                 file.string(), *layout.skip_lines, cutter.line() - 1));
   if (cutter.at_end())
     throw InputError(
         fmt::format("{}, line 1: the file is empty{}. Expected a header line `name [unit]` and rows of numbers.",
                     file.string(), text.empty() ? "" : " but for comments"));
   csv.header_line = cutter.line();
-  csv.delimiter = sniff_delimiter(cutter.rest_of_line());
-  std::vector<std::string> header = cutter.fields(csv.delimiter);
-  if (csv.delimiter == ' ') header = join_units(header);
-  if (std::all_of(header.begin(), header.end(), is_number))
-    throw InputError(
-        fmt::format("{}, line {}, column 1: found the number {} where the header is expected. Write a line "
-                    "`name [unit]` with one name per column above the rows.",
-                    file.string(), csv.header_line, excerpt(header.front())));
-  while (header.size() > 1 && header.back().empty()) header.pop_back();
-  for (const std::string& cell : header) csv.columns.push_back(header_cell(cell));
+  const bool moved = place && csv.header_line > first_line(file, text);
+  csv.delimiter = layout.delimiter    ? *layout.delimiter
+                  : moved || nameless ? place->delimiter
+                                      : sniff_delimiter(cutter.rest_of_line());
+  read_header(cutter, layout, csv);
   for (cutter.skip_comments(); !cutter.at_end(); cutter.skip_comments()) {
     Csv::Row row{cutter.line(), cutter.fields(csv.delimiter)};
     const auto surplus = row.cells.size() > csv.columns.size()
@@ -237,6 +287,13 @@ Csv parse_csv(const std::filesystem::path& file, std::string_view text) {
   return csv;
 }
 
+std::optional<std::size_t> column_position(std::string_view name) {
+  std::size_t position = 0;
+  if (!name.starts_with('#')) return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), position);
+  return error == std::errc() && end == name.data() + name.size() ? std::optional(position) : std::nullopt;
+}
+
 std::size_t Csv::column(std::string_view name) const {
   const auto called = [&](const Column& column) { return column.name == name; };
   const auto written = [&](const Column& column) { return column.text == name; };
@@ -251,6 +308,11 @@ std::size_t Csv::column(std::string_view name) const {
   }
   found = std::find_if(columns.begin(), columns.end(), written);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
+  if (const auto position = column_position(name)) {
+    if (*position >= 1 && *position <= columns.size()) return *position - 1;
+    throw InputError(fmt::format("{}, line {}: there is no column {}, the table has {}. Give a number that is there.",
+                                 file.string(), header_line, *position, columns.size()));
+  }
   std::vector<std::string> names;
   for (const Column& column : columns) names.push_back(excerpt(column.name));
   throw InputError(fmt::format("{}, line {}: there is no column '{}'. {}", file.string(), header_line, excerpt(name),
@@ -262,6 +324,7 @@ std::string Csv::place(std::size_t line, std::size_t column) const {
 }
 
 char Csv::decimal_mark(const std::vector<std::size_t>& of_columns) const {
+  if (stated_decimal) return *stated_decimal;
   bool comma = false;
   for (const Row& row : rows)
     for (const std::size_t column : of_columns) {

@@ -7,10 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "data/rig_request.hpp"
+
 namespace tunica::data {
 
 /// A data file cut into cells, nothing read as a number yet: header `name [unit]`, `#` comment lines, delimiter sniffed
 /// from the header (tab, semicolon, comma, else white space), quoted fields as in RFC 4180, BOM and CRLF accepted.
+/// Lines above the header and a row of units below it are found, unless the layout says where the table begins.
 ///
 /// The one CSV library Debian packages (libcsv) knows neither comments nor sniffing nor where a cell stands, and the
 /// place of a cell is what messages are made of; hence this reader.
@@ -27,11 +30,12 @@ struct Csv {
   std::filesystem::path file;
   std::size_t header_line = 0;
   char delimiter = ',';
+  std::optional<char> stated_decimal;  ///< as the layout says
   std::vector<Column> columns;
   std::vector<Row> rows;
 
-  /// The index of the column of that name (or that whole header cell). Throws InputError with the nearest name when
-  /// there is none, or two.
+  /// The index of the column of that name, that whole header cell, or "#3", the third. Throws InputError with the
+  /// nearest name when there is none, or two.
   [[nodiscard]] std::size_t column(std::string_view name) const;
   /// "circ.csv, line 7, column 2 ('stress')", for messages.
   [[nodiscard]] std::string place(std::size_t line, std::size_t column) const;
@@ -44,7 +48,8 @@ struct Csv {
 /// The bytes of a file. Throws InputError saying why it cannot be read.
 std::string read_bytes(const std::filesystem::path& file);
 
-/// Throws InputError on an empty file, a file without rows, a file without header, an open quote, surplus fields.
-Csv parse_csv(const std::filesystem::path& file, std::string_view text);
+/// Throws InputError on an empty file, a file without rows, a file without header (unless the layout names columns by
+/// position), an open quote, surplus fields.
+Csv parse_csv(const std::filesystem::path& file, std::string_view text, const TableLayout& layout = {});
 
 }  // namespace tunica::data

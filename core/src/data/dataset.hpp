@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/rig_request.hpp"
 #include "text/codes.hpp"
 #include "tunica/test.hpp"
 
@@ -21,11 +22,14 @@ struct Noise {
   std::vector<std::size_t> gross = {};
 };
 
-/// first:last:step over the rows left after `where`, last exclusive, as in Python.
+/// first:last:step over the rows left after `where`, last exclusive, negative numbers from the end, as in Python.
 struct RowRange {
-  std::size_t first = 0;
-  std::optional<std::size_t> last;
+  std::ptrdiff_t first = 0;
+  std::optional<std::ptrdiff_t> last;
   std::size_t step = 1;
+
+  /// First and last (exclusive) of `count` rows; first may lie beyond them.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> among(std::size_t count) const;
 };
 
 /// What the order of the rows stands for.
@@ -37,14 +41,22 @@ inline constexpr text::Codes<Order, 2> order_names{{{Order::unknown, "unknown"},
 
 /// What the experiment file says about the data of one test ("data": {…}).
 struct DataRequest {
-  std::vector<std::filesystem::path> files;                  ///< several: replicates
-  std::vector<std::pair<std::string, std::string>> columns;  ///< observable → column, in file order
+  std::vector<std::filesystem::path> files;  ///< several: replicates
+  /// Observable, or what it follows from (quantities.hpp) → column, in file order.
+  std::vector<std::pair<std::string, std::string>> columns;
   std::string stress_measure = "cauchy";
   RowRange rows;
-  std::vector<std::pair<std::string, std::string>> where;  ///< column → value, all must match
-  std::optional<double> time_rate;                         ///< abscissa per second, from `time_from`
-  std::vector<std::pair<std::string, Noise>> noise;        ///< by channel; absent = estimated
-  Order order = Order::unknown;                            ///< time says it too
+  /// Column → value; rows have to match every column, and one of the values that a column is given.
+  std::vector<std::pair<std::string, std::string>> where;
+  std::optional<double> time_rate;                   ///< abscissa per second, from `time_from`
+  std::vector<std::pair<std::string, Noise>> noise;  ///< by channel; absent = estimated
+  Order order = Order::unknown;                      ///< time says it too
+  TableLayout layout;
+  Specimen specimen;
+  std::optional<CycleChoice> cycle;  ///< absent: nobody says
+  std::string cycles_from;           ///< column that counts cycles; empty: from the turning points
+  BranchChoice branch = BranchChoice::both;
+  std::optional<Preload> preload;
   bool sorted = false;  ///< rows by their values, whatever their order in the file; for a diagnosis
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,15 @@ struct Series {
     std::size_t index;           ///< of the column in the file, from 0
     std::string name, unit;      ///< as the header has them; unit "" where it has none
     std::vector<double> values;  ///< one per row
+    bool derived = false;        ///< from another quantity in the column, with the sizes of the specimen
   };
   std::filesystem::path file;
   std::string sha256;
   std::size_t header_line = 0;
-  std::vector<Column> columns;     ///< in the order of the request
-  std::vector<std::size_t> lines;  ///< one per row
-  std::vector<double> time;        ///< from `time_from`; empty = none
+  std::vector<Column> columns;              ///< in the order of the request
+  std::vector<std::size_t> lines;           ///< one per row
+  std::vector<double> time;                 ///< from `time_from`; empty = none
+  std::optional<double> gauge_length = {};  ///< mm, where it was taken at the preload
 
   /// "circ.csv, line 7, column 2 ('stress')".
   [[nodiscard]] std::string place(std::size_t row, const Column& column) const;

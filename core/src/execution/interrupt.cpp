@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/interrupt.hpp"
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -13,27 +14,40 @@ namespace {
 std::atomic<bool> raised = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
+/// A signal, and what the process did with it before: a program ends, an interpreter has a handler of its own.
+struct Watched {
+  int number;
+  struct sigaction before;
+};
+std::array<Watched, 3> watched{{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}}};
+
+void restore(const Watched& signal) { ::sigaction(signal.number, &signal.before, nullptr); }
+
 void on_signal(int number) {
   raised.store(true, std::memory_order_relaxed);
-  std::signal(number, SIG_DFL);
+  for (const Watched& signal : watched)
+    if (signal.number == number) restore(signal);
 }
 
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
   raised = false;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  std::signal(SIGXFSZ, SIG_IGN);
+  for (Watched& signal : watched) {
+    struct sigaction now = {};
+    now.sa_handler = signal.number == SIGXFSZ ? SIG_IGN : on_signal;
+    now.sa_flags = SA_RESTART;
+    ::sigaction(signal.number, &now, &signal.before);
+  }
 }
 
 InterruptWatch::~InterruptWatch() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  std::signal(SIGXFSZ, SIG_DFL);
+  for (const Watched& signal : watched) restore(signal);
 }
 
 bool InterruptWatch::interrupted() { return raised.load(std::memory_order_relaxed); }
+
+void InterruptWatch::interrupt() { raised.store(true, std::memory_order_relaxed); }
 
 InterruptLimit::InterruptLimit(std::function<void()> leave) {
   if (!leave) return;

@@ -9,8 +9,8 @@
 namespace tunica::execution {
 
 /// Ctrl-C (SIGINT) and SIGTERM while this object lives: the first one raises a flag, so that the run can save and
-/// leave; a second one ends the process at once, as it would have without us. A file-size limit is reported as a
-/// failed write instead of killing the process. One object at a time.
+/// leave; a second one does what it would have done without us, and ends the process. A file-size limit is reported as
+/// a failed write instead of killing the process. Afterwards signals do what they did before. One object at a time.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -19,6 +19,8 @@ class InterruptWatch {
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
   [[nodiscard]] static bool interrupted();
+  /// Raises the flag as Ctrl-C does, for whoever is asked between two signals.
+  static void interrupt();
 };
 
 /// While this object lives: where something takes longer than half a second to stop after Ctrl-C, such as a simulation

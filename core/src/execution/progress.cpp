@@ -41,25 +41,39 @@ Progress::Style Progress::style_of_stderr() {
 Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters)
     : style_(style), line_(text::Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}
 
+void Progress::Spent::add(const Meter& meter, std::uint64_t most) {
+  const auto done = meter.evaluations.load(std::memory_order_relaxed);
+  evaluations += done;
+  budget += meter.finished.load(std::memory_order_relaxed) ? done : std::max(done, most);
+}
+
+double Progress::share() const {
+  Spent spent;
+  for (std::size_t task = 0; task < meters_.size(); ++task)
+    spent.add(meters_[task], plan_.runs[plan_.tasks[task].run].entry->stop.max_evaluations);
+  return spent.share();
+}
+
+double Progress::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
 std::string Progress::text(double seconds, std::size_t columns) const {
-  std::uint64_t evaluations = 0, budget = 0;
+  Spent spent;
   std::size_t finished = 0, current = meters_.size();
   std::vector<double> best(plan_.runs.size(), std::numeric_limits<double>::infinity());
   for (std::size_t task = 0; task < meters_.size(); ++task) {
     const auto& meter = meters_[task];
-    const auto done = meter.evaluations.load(std::memory_order_relaxed);
     const bool over = meter.finished.load(std::memory_order_relaxed);
     const std::size_t run = plan_.tasks[task].run;
-    evaluations += done;
-    budget += over ? done : std::max(done, plan_.runs[run].entry->stop.max_evaluations);
+    spent.add(meter, plan_.runs[run].entry->stop.max_evaluations);
     finished += over;
     best[run] = std::min(best[run], meter.best.load(std::memory_order_relaxed));
     if (current == meters_.size() && !over && meter.running.load(std::memory_order_relaxed)) current = task;
   }
-  const double rate = seconds > 0 ? static_cast<double>(evaluations) / seconds : 0;
-  const double share = budget > 0 ? static_cast<double>(evaluations) / static_cast<double>(budget) : 1;
+  const double rate = seconds > 0 ? static_cast<double>(spent.evaluations) / seconds : 0;
   const std::string head =
-      fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * share, finished, meters_.size(), rate_text(rate));
+      fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * spent.share(), finished, meters_.size(), rate_text(rate));
   std::string label, value, left;
   if (current < meters_.size()) {
     const auto run = plan_.tasks[current].run;
@@ -67,7 +81,8 @@ std::string Progress::text(double seconds, std::size_t columns) const {
     value = std::isfinite(best[run]) ? fmt::format("best {:.6g}", best[run]) : "no success yet";
   }
   // The budget is an upper bound, for a search may converge before it is spent; so is the time.
-  if (rate > 0) left = fmt::format("  max {} left", text::clock_text(static_cast<double>(budget - evaluations) / rate));
+  if (rate > 0)
+    left = fmt::format("  max {} left", text::clock_text(static_cast<double>(spent.budget - spent.evaluations) / rate));
   if (value.empty()) return head + left;
   // The name of the run gives way to the figures.
   constexpr std::size_t shortest_label = 4;
@@ -79,17 +94,17 @@ std::string Progress::text(double seconds, std::size_t columns) const {
 
 void Progress::draw(bool last) {
   if (style_ == Style::none) return;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  const double now = seconds();
   if (style_ == Style::lines) {
-    if (last || seconds - drawn_ < line_interval) return;
-    drawn_ = seconds;
-    fmt::print(stderr, "{}\n", text(seconds));
+    if (last || now - drawn_ < line_interval) return;
+    drawn_ = now;
+    fmt::print(stderr, "{}\n", text(now));
     return;
   }
   if (last) return line_.clear();
-  if (seconds - drawn_ < bar_interval) return;
-  drawn_ = seconds;
-  const std::string line = text(seconds, line_.room());
+  if (now - drawn_ < bar_interval) return;
+  drawn_ = now;
+  const std::string line = text(now, line_.room());
   line_.draw(line, std::strtod(line.c_str(), nullptr) / 100);
 }
 

@@ -35,8 +35,19 @@ class Progress {
   /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left. Where it
   /// would be wider than `columns`, the name of the run is shortened.
   [[nodiscard]] std::string text(double seconds, std::size_t columns = 1000) const;
+  /// The share of the budget that is spent, from 0 to 1.
+  [[nodiscard]] double share() const;
+  /// Since the beginning, s.
+  [[nodiscard]] double seconds() const;
 
  private:
+  struct Spent {
+    std::uint64_t evaluations = 0, budget = 0;
+    [[nodiscard]] double share() const {
+      return budget > 0 ? static_cast<double>(evaluations) / static_cast<double>(budget) : 1;
+    }
+    void add(const Meter& meter, std::uint64_t most);
+  };
   Style style_;
   text::StatusLine line_;
   const Plan& plan_;

@@ -189,6 +189,7 @@ Execution Run::execute() {
     for (std::unique_lock lock(waiting); !wake.wait_for(lock, heartbeat, [&] { return over; });) {
       journal_->flush();
       progress.draw();
+      if (settings_.told) settings_.told(progress.share(), progress.text(progress.seconds()));
     }
   });
   std::exception_ptr thrown;

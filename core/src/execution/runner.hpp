@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct RunSettings {
   unsigned threads = 1;             ///< the one budget for realisations and population members together
   bool resume = false;
   Progress::Style progress = Progress::Style::none;
+  /// Told ten times a second by a thread of its own: the share of the budget that is spent, and the line of Progress.
+  std::function<void(double share, const std::string& text)> told = {};
 };
 
 struct Execution {

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "data/csv.hpp"
+#include "experiment/parse.hpp"
 #include "experiment/reader.hpp"
 #include "tunica/error.hpp"
 
@@ -41,7 +42,11 @@ std::string Experiment::model_name(const RunEntry& run) const {
 }
 
 Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
-  const JsonDocument document(file, data::read_bytes(file));
+  return parse_experiment(data::read_bytes(file), file, catalogue);
+}
+
+Experiment parse_experiment(std::string text, const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
+  const JsonDocument document(file, std::move(text));
   const Node root(document);
   if (!root.is_object()) root.fail_expected("an experiment, { \"format\": 1, … },");
   // The version first: where it differs, other messages would mislead.

@@ -64,8 +64,22 @@ std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::s
 TestEntry read_test(const std::string& name, const Node& entry, const std::filesystem::path& folder,
                     const std::vector<std::string>& models, const plugins::Catalogue& catalogue,
                     std::vector<SharedParameter>& shared);
-/// "0:240:6".
+
+// reader_data.cpp
+/// The block "data" of a test; relative names of files begin at `folder`.
+data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
+                            const std::filesystem::path& folder);
+/// "0:240:6", "-50:".
 data::RowRange read_row_range(const Node& node);
+
+// reader_rig.cpp
+/// The keys of "data" for files as a testing machine writes them, and how to read them; after "columns".
+const std::vector<std::string>& rig_keys();
+void read_rig_keys(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
+                   data::DataRequest& data);
+/// A name, or the number of a column as data::column_position has it.
+std::string read_column_name(const Node& node);
+void read_where(const Node& node, data::DataRequest& data);
 
 // reader_optimizers.cpp
 /// `default_evaluations`: the limit where the block names none.

@@ -57,13 +57,17 @@ void define_parameter(Json& definitions) {
 void define_data(Json& definitions) {
   definitions["stress_measure"] =
       choice_schema("Which stress the data give (default cauchy).", data::stress_measures());
-  definitions["row_range"] = {{"description", "first:last:step, counted from 0, last not included."},
-                              {"type", "string"},
-                              {"pattern", "^[0-9]*:[0-9]*(:[0-9]*)?$"}};
+  definitions["row_range"] = {
+      {"description", "first:last:step, counted from 0, negative numbers from the end, last not included."},
+      {"type", "string"},
+      {"pattern", "^-?[0-9]*:-?[0-9]*(:[0-9]*)?$"}};
   definitions["rows"] = reference("row_range", "The rows to use, of those that match `where`.");
-  definitions["where"] = {{"description", "Column → value: only rows that match all."},
+  Json value = {{"type", {"string", "number"}}};
+  Json condition = Json::object();
+  condition["anyOf"] = Json::array({value, list_schema("Any of several.", value)});
+  definitions["where"] = {{"description", "Column → value, or a list of values: only rows that match every column."},
                           {"type", "object"},
-                          {"additionalProperties", {{"type", {"string", "number"}}}}};
+                          {"additionalProperties", std::move(condition)}};
   definitions["order"] =
       choice_schema("Whether rows stand in the order in which they were measured (default unknown; time says it too).",
                     names_in(data::order_names));
@@ -217,6 +221,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   Json definitions = Json::object();
   define_parameter(definitions);
   define_data(definitions);
+  define_rig_keys(definitions);
   define_search(definitions, catalogue);
   definitions["test"] = by_type("test", names_of(catalogue.tests()), "A test and its data.");
   define_plugins(definitions, catalogue);

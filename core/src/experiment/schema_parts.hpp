@@ -27,6 +27,11 @@ Json parameters_schema(const std::vector<Parameter>& parameters);
 /// the one that is meant, not about all.
 Json by_type(std::string_view prefix, const std::vector<std::string>& types, std::string_view description);
 
+/// The keys of "data" for files as a testing machine writes them: definitions, what a block has of them, and "columns".
+void define_rig_keys(Json& definitions);
+void add_rig_properties(Json& properties, const std::vector<Observable>& observables);
+Json columns_schema(const std::vector<Observable>& observables);
+
 /// Definitions model_*, test_*, optimizer_*, mechanism_* of everything in the catalogue.
 void define_plugins(Json& definitions, const plugins::Catalogue& catalogue);
 

@@ -92,24 +92,6 @@ Json layers_schema() {
           {"minItems", 1}};
 }
 
-Json columns_schema(const std::vector<Observable>& observables) {
-  Json properties = Json::object();
-  std::vector<std::string> required;
-  for (const Observable& observable : observables) {
-    const char* role = observable.role == Role::abscissa ? "prescribed"
-                       : observable.role == Role::time   ? "clock"
-                                                         : "measured and fitted";
-    properties[observable.name] = {
-        {"description", fmt::format("{} ({})", with_unit(observable.doc, observable.unit), role)},
-        {"type", "string"},
-        {"minLength", 1}};
-    if (observable.required) required.push_back(observable.name);
-  }
-  Json schema = object_schema("Observable of the test → name of the column.", std::move(properties), required);
-  schema["minProperties"] = 1;
-  return schema;
-}
-
 Json data_schema(const TestFactory& factory) {
   Json properties = Json::object();
   properties["file"] = {{"description", "The data file, relative to the experiment file."}, {"type", "string"}};
@@ -119,6 +101,7 @@ Json data_schema(const TestFactory& factory) {
                          {"minItems", 1}};
   properties["columns"] = columns_schema(factory.observables);
   for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
+  add_rig_properties(properties, factory.observables);
   Json per_channel = Json::object();
   for (const Observable& observable : factory.observables)
     if (observable.role == Role::channel) per_channel[observable.name] = reference("noise");

@@ -43,6 +43,54 @@ std::string to_json(const data::RowRange& range) {
   return fmt::format("{}:{}:{}", range.first, range.last ? fmt::format("{}", *range.last) : "", range.step);
 }
 
+Json column_name(const std::string& name) {
+  const auto position = data::column_position(name);
+  return position ? Json(*position) : Json(name);
+}
+
+/// One value stands alone, several in a list.
+void add_condition(Json& json, const std::string& value) {
+  if (json.is_null())
+    json = value;
+  else if (json.is_array())
+    json.push_back(value);
+  else
+    json = Json::array({json, value});
+}
+
+void add_sizes(Json& json, const data::Sizes& sizes) {
+  if (sizes.width) json["width"] = *sizes.width;
+  if (sizes.gauge_length) json["gauge_length"] = *sizes.gauge_length;
+  if (sizes.grip_distance) json["grip_distance"] = *sizes.grip_distance;
+}
+
+std::string delimiter_name(char delimiter) {
+  return delimiter == '\t' ? "tab" : delimiter == ' ' ? "space" : std::string(1, delimiter);
+}
+
+void add_rig_keys(Json& json, const data::DataRequest& data) {
+  const data::TableLayout& layout = data.layout;
+  if (layout.skip_lines) json["skip_lines"] = *layout.skip_lines;
+  if (layout.delimiter) json["delimiter"] = delimiter_name(*layout.delimiter);
+  if (layout.decimal) json["decimal"] = std::string(1, *layout.decimal);
+  for (const auto& [column, unit] : layout.units) json["units"][column] = unit;
+  const data::Specimen& specimen = data.specimen;
+  Json sizes = Json::object();
+  if (specimen.thickness) sizes["thickness"] = *specimen.thickness;
+  if (specimen.area) sizes["area"] = *specimen.area;
+  add_sizes(sizes, specimen.all);
+  if (specimen.gauge_at_preload) sizes["gauge_length"] = "preload";
+  for (const auto& [direction, own] : specimen.directions) add_sizes(sizes[direction], own);
+  if (!sizes.empty()) json["specimen"] = std::move(sizes);
+  if (data.cycle) {
+    json["cycle"] = data.cycle->last ? Json("last") : Json("all");
+    if (!data.cycle->numbers.empty()) json["cycle"] = data.cycle->numbers;
+  }
+  if (!data.cycles_from.empty()) json["cycles_from"] = column_name(data.cycles_from);
+  if (data.branch != data::BranchChoice::both) json["branch"] = text::code_of(data::branch_names, data.branch);
+  if (data.preload) json["preload"] = data.preload->value;
+}
+
 Json to_json(const data::DataRequest& data) {
   Json json = Json::object();
   std::vector<std::string> files;
@@ -51,15 +99,16 @@ Json to_json(const data::DataRequest& data) {
     json["file"] = files.front();
   else
     json["files"] = files;
-  for (const auto& [observable, column] : data.columns) json["columns"][observable] = column;
+  for (const auto& [observable, column] : data.columns) json["columns"][observable] = column_name(column);
   json["stress_measure"] = data.stress_measure;
   json["rows"] = to_json(data.rows);
-  for (const auto& [column, value] : data.where) json["where"][column] = value;
+  for (const auto& [column, value] : data.where) add_condition(json["where"][column], value);
   if (data.order != data::Order::unknown) json["order"] = text::code_of(data::order_names, data.order);
   if (data.time_rate) json["time_from"] = {{"rate", *data.time_rate}};
   for (const auto& [channel, noise] : data.noise)
     json["noise"][channel] = {
         {"absolute", noise.absolute}, {"relative", noise.relative}, {"correlation", noise.correlation}};
+  add_rig_keys(json, data);
   return json;
 }
 

@@ -75,8 +75,11 @@ std::string refuse_folder(const fs::path& folder) {
 
 }  // namespace
 
-SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
-  SearchPath path{from_command_line};
+namespace {
+
+/// What the user named, then TUNICA_PLUGIN_PATH.
+SearchPath named_path(const std::vector<fs::path>& named) {
+  SearchPath path{named};
   if (const char* variable = std::getenv("TUNICA_PLUGIN_PATH")) {
     std::string_view rest = variable;
     while (!rest.empty()) {
@@ -85,17 +88,29 @@ SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
       rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
     }
   }
-  // Nobody asked for the install folder by name, so its absence is no error; but without any there is nothing to do.
+  return path;
+}
+
+}  // namespace
+
+SearchPath search_path(const std::vector<fs::path>& named, const fs::path& installed) {
+  SearchPath path = named_path(named);
+  // Nobody asked for the install folder by name, so its absence is no error.
+  if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
+  return path;
+}
+
+SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
+  // Without any folder there is nothing to do.
   boost::dll::fs::error_code unknown;
   const fs::path program = boost::dll::program_location(unknown).string();
-  if (unknown && path.folders.empty())
+  if (!unknown) return search_path(from_command_line, program.parent_path() / TUNICA_PLUGINS_FROM_BIN);
+  SearchPath path = named_path(from_command_line);
+  if (path.folders.empty())
     throw InputError(fmt::format(
         "cannot find out where this program is ({}), and so not where its plugins are; mount /proc, or name "
         "their folder in TUNICA_PLUGIN_PATH or with --plugin-path",
         unknown.message()));
-  if (unknown) return path;
-  const fs::path installed = program.parent_path() / TUNICA_PLUGINS_FROM_BIN;
-  if (std::error_code error; fs::is_directory(installed, error)) path.folders.push_back(fs::canonical(installed));
   return path;
 }
 

@@ -33,6 +33,8 @@ struct LoadReport {
 /// --plugin-path folders, then TUNICA_PLUGIN_PATH (colon-separated), then the folder beside the executable
 /// (../<libdir>/tunica/plugins, as built and as installed).
 SearchPath default_search_path(const std::vector<std::filesystem::path>& from_command_line);
+/// The same with a folder of a library that is no part of that executable, in place of the last one.
+SearchPath search_path(const std::vector<std::filesystem::path>& named, const std::filesystem::path& installed);
 
 /// Loads every plugin of the path, in path order and by file name within a folder; a bad one is refused with its
 /// reason while the others load. Libraries stay mapped for the life of the process.

@@ -12,7 +12,7 @@ namespace tunica::diagnosis {
 /// Whether anything is wrong with the base fit, and what that is tested with.
 struct Alarm {
   Shapes shapes;
-  Eigen::MatrixXf draws;                     ///< noise_draws()
+  Draws draws;
   std::shared_ptr<const Detector> detector;  ///< of what the base fit leaves
   Detection detection;
   std::optional<double> p_refits;  ///< from full refits; none where it is quick

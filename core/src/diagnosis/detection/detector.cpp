@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "assembly/restricted_variance.hpp"
 #include "numerics/distributions.hpp"
 
 namespace tunica::diagnosis {
@@ -38,7 +39,7 @@ Number likelihood(Side side, Number t) {
 }  // namespace
 
 Detector::Detector(const Projection& projection, std::vector<Direction> directions, std::size_t candidate_count,
-                   const Shapes& shapes, const Eigen::MatrixXf& draws)
+                   const Shapes& shapes, const Draws& draws)
     : directions_(std::move(directions)), candidates_(candidate_count), multiplicity_(candidate_count, 1.0) {
   const Eigen::MatrixXd projected = projection.off(shapes.columns);
   // What a refit absorbs to less than a per cent is no shape that residuals can have.
@@ -54,16 +55,11 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
     smooth_by_curve_.push_back(basis(projected(Eigen::all, own), 1e-3));
   }
 
-  // Only what the columns of Q and the directions see matters, and both are orthogonal to J: draws need no projection.
-  const Eigen::Index B = draws.cols();
-  Eigen::MatrixXf units(draws.rows(), static_cast<Eigen::Index>(directions_.size()));
-  std::vector<char> seen(candidates_, 0);
-  for (std::size_t k = 0; k < directions_.size(); ++k) {
-    units.col(static_cast<Eigen::Index>(k)) = directions_[k].unit.cast<float>();
-    seen[directions_[k].candidate] = 1;
-  }
-  visible_ = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 1));
-  const Eigen::MatrixXf t = draws.transpose() * units;  // a column a direction
+  const Eigen::Index B = draws.residuals.cols();
+  std::vector<char> has_direction(candidates_, 0);
+  for (const Direction& direction : directions_) has_direction[direction.candidate] = 1;
+  visible_ = static_cast<std::size_t>(std::count(has_direction.begin(), has_direction.end(), 1));
+  const auto [Q, t] = seen_of(projection, draws);
   Eigen::MatrixXf largest = Eigen::MatrixXf::Zero(B, static_cast<Eigen::Index>(candidates_));
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(B);
   for (std::size_t k = 0; k < directions_.size(); ++k) {
@@ -94,7 +90,6 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
     }
     multiplicity_[c] = points > 0 ? std::exp(log_sum / points) : 1;
   }
-  const Eigen::VectorXf Q = (smooth_.cast<float>().transpose() * draws).colwise().squaredNorm().transpose();
   if (smooth_.cols() > 0) smooth_scale_ = static_cast<double>(Q.mean()) / static_cast<double>(smooth_.cols());
   for (Eigen::Index b = 0; b < B; ++b)
     likelihoods_.push_back(visible_ == 0 ? 0.0F : std::log(sum[b] / static_cast<float>(visible_)));
@@ -105,6 +100,42 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
         static_cast<float>(std::min(mechanisms_p(static_cast<double>(of_draws[b])),
                                     smooth_price * smooth_p(static_cast<double>(Q[static_cast<Eigen::Index>(b)])))));
   std::sort(smallest_.begin(), smallest_.end());
+}
+
+Detector::Seen Detector::seen_of(const Projection& projection, const Draws& draws) const {
+  const Eigen::MatrixXf smooth = smooth_.cast<float>();
+  const Eigen::MatrixXf& residuals = draws.residuals;
+  Eigen::MatrixXf units(residuals.rows(), static_cast<Eigen::Index>(directions_.size()));
+  for (std::size_t k = 0; k < directions_.size(); ++k)
+    units.col(static_cast<Eigen::Index>(k)) = directions_[k].unit.cast<float>();
+  // Only what the columns of Q and the directions see matters, and both are orthogonal to J: draws need no projection.
+  if (draws.precision.rows() == 0)
+    return {(smooth.transpose() * residuals).colwise().squaredNorm().transpose(), residuals.transpose() * units};
+
+  // Weighed by σ̂ of its own, a draw is not orthogonal to J any more: it is projected before.
+  const Eigen::Index groups = draws.precision.rows();
+  Eigen::MatrixXf squares = Eigen::MatrixXf::Zero(groups + 1, units.cols());  // Σ u² by group, the rest last
+  for (Eigen::Index i = 0; i < units.rows(); ++i) {
+    const std::size_t g = draws.group[static_cast<std::size_t>(i)];
+    squares.row(g == assembly::known_variance ? groups : static_cast<Eigen::Index>(g)) += units.row(i).cwiseAbs2();
+  }
+  Seen seen{Eigen::VectorXf(residuals.cols()), Eigen::MatrixXf(residuals.cols(), units.cols())};
+  constexpr Eigen::Index at_once = 500;  // draws
+  for (Eigen::Index first = 0; first < residuals.cols(); first += at_once) {
+    const Eigen::Index count = std::min(at_once, residuals.cols() - first);
+    Eigen::MatrixXf scale = Eigen::MatrixXf::Ones(residuals.rows(), count);  // σ/σ̂
+    for (Eigen::Index i = 0; i < scale.rows(); ++i)
+      if (const std::size_t g = draws.group[static_cast<std::size_t>(i)]; g != assembly::known_variance)
+        scale.row(i) = draws.precision.row(static_cast<Eigen::Index>(g)).segment(first, count).cwiseSqrt();
+    const Eigen::MatrixXd unit_noise = residuals.middleCols(first, count).cwiseQuotient(scale).cast<double>();
+    const Eigen::MatrixXf whitened = projection.off(unit_noise).cast<float>().cwiseProduct(scale);
+    seen.Q.segment(first, count) = (smooth.transpose() * whitened).colwise().squaredNorm().transpose();
+    Eigen::MatrixXf precision = Eigen::MatrixXf::Ones(groups + 1, count);
+    precision.topRows(groups) = draws.precision.middleCols(first, count);
+    seen.t.middleRows(first, count) =
+        (whitened.cwiseProduct(scale).transpose() * units).cwiseQuotient((precision.transpose() * squares).cwiseSqrt());
+  }
+  return seen;
 }
 
 double Detector::candidate_p(std::size_t candidate, double T) const {
@@ -126,14 +157,22 @@ double Detector::mechanisms_p(double B) const {
   return static_cast<double>(above) / static_cast<double>(n);
 }
 
-Detection Detector::test(const Eigen::VectorXd& residuals) const {
+Detection Detector::test(const Eigen::VectorXd& given, const Eigen::VectorXd& precision) const {
+  const bool weighed = precision.size() > 0;
+  const Eigen::VectorXd residuals = weighed ? Eigen::VectorXd(given.cwiseProduct(precision.cwiseSqrt())) : given;
+  const auto score_of = [&](const Direction& direction) {
+    if (!weighed) return score(direction, residuals).T;
+    const double t =
+        direction.unit.cwiseProduct(precision).dot(given) / std::sqrt(direction.unit.cwiseAbs2().dot(precision));
+    return direction.side != Side::both && t < 0 ? 0.0 : t * t;
+  };
   Detection detection;
   detection.by_candidate.assign(candidates_, 1.0);
   detection.direction.assign(candidates_, directions_.size());
   std::vector<double> best(candidates_, -1), logs;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const Direction& direction = directions_[k];
-    const double T = score(direction, residuals).T;
+    const double T = score_of(direction);
     const std::size_t c = direction.candidate;
     if (T > best[c]) {
       best[c] = T;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "diagnosis/detection/noise_draws.hpp"
 #include "diagnosis/detection/shapes.hpp"
 #include "diagnosis/hypotheses/directions.hpp"
 
@@ -34,9 +35,15 @@ class Detector {
  public:
   /// `draws` from noise_draws.
   Detector(const Projection& projection, std::vector<Direction> directions, std::size_t candidate_count,
-           const Shapes& shapes, const Eigen::MatrixXf& draws);
+           const Shapes& shapes, const Draws& draws);
 
-  [[nodiscard]] Detection test(const Eigen::VectorXd& residuals) const;
+  /// `precision`: of residuals simulated with σ = 1 in rows whose σ was then estimated as σ̂, (σ/σ̂)² by row. The scores
+  /// are those of rows weighed by it,
+  ///
+  ///   t = Σ u w r / √(Σ u² w),
+  ///
+  /// to first order in w − 1 what a fit and signatures whitened by σ̂ would give.
+  [[nodiscard]] Detection test(const Eigen::VectorXd& given, const Eigen::VectorXd& precision = {}) const;
   /// The score at which a candidate alone raises an alarm of this level.
   [[nodiscard]] double threshold(std::size_t candidate, double alpha) const;
   /// P-value of the largest score of one candidate where there is nothing to find.
@@ -45,6 +52,12 @@ class Detector {
   [[nodiscard]] double gain_of_nothing() const { return gain_of_nothing_; }
 
  private:
+  /// What the smooth shapes and the directions (a column each) see of draws.
+  struct Seen {
+    Eigen::VectorXf Q;
+    Eigen::MatrixXf t;
+  };
+  [[nodiscard]] Seen seen_of(const Projection& projection, const Draws& draws) const;
   [[nodiscard]] double smooth_p(double Q) const;
   [[nodiscard]] double mechanisms_p(double B) const;
 

@@ -15,16 +15,19 @@ double p_from_refits(const Inquiry& inquiry, const Evidence& evidence, const Det
                      const Detection& measured, std::size_t draws) {
   const assembly::Assembly& base = *evidence.base;
   const Fit& fit = evidence.fit;
-  const Eigen::MatrixXf noise = noise_draws(evidence, draws, derive_seed(inquiry.request.seed, "refits under nothing"));
+  const Draws noise = noise_draws(evidence, draws, derive_seed(inquiry.request.seed, "refits under nothing"));
   const std::vector<Variable> variables = all_variables(base);
   std::vector<char> worse(draws, 0);
   std::atomic<std::size_t> finished = 0;
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t b) {
     const auto workspace = base.evaluator().make_workspace();
     // Residuals of data simulated at the fit: those of the measured data drop out, the noise takes their place.
-    const Eigen::VectorXd added = noise.col(static_cast<Eigen::Index>(b)).cast<double>() - fit.residuals;
+    Eigen::VectorXd simulated = noise.residuals.col(static_cast<Eigen::Index>(b)).cast<double>();
+    const Eigen::VectorXd precision = noise.precision_of_rows(static_cast<Eigen::Index>(b));
+    if (precision.size() > 0) simulated = simulated.cwiseQuotient(precision.cwiseSqrt()).eval();
+    const Eigen::VectorXd added = simulated - fit.residuals;
     const Fit refit = least_squares(base, variables, fit.free, *workspace, 60, {&added, nullptr});
-    worse[b] = !refit.status.ok() || detector.test(-refit.residuals).p <= measured.p;
+    worse[b] = !refit.status.ok() || detector.test(-refit.residuals, precision).p <= measured.p;
     const double share = static_cast<double>(++finished) / static_cast<double>(draws);
     inquiry.report("refits of simulated data", 0.2 + 0.2 * share);
   });

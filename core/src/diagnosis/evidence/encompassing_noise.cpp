@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "assembly/growing_noise.hpp"
 #include "assembly/restricted_variance.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/evidence/gross_rows.hpp"
@@ -24,7 +25,7 @@ using assembly::VarianceProblem;
 
 constexpr Eigen::Index most_signatures = 60;
 constexpr double covered = 0.25;           ///< of a projected signature may stay outside the span
-constexpr double few = 4, too_few = 1.5;   ///< degrees of freedom of a channel, of what is pooled
+constexpr double few = 4;                  ///< degrees of freedom of a channel that is pooled with others
 constexpr double apart = 1e-4;             ///< chance of a single row, all rows together
 constexpr Eigen::Index one_alone_in = 30;  ///< may stand apart
 
@@ -212,13 +213,11 @@ NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
   std::vector<std::size_t> observable_of_group(problem.least.size(), 0);
   for (std::size_t k = 0; k < open.curve.size(); ++k) observable_of_group[group_of[k]] = open.observable[k];
   const Eigen::VectorXd level = levels(evidence, fit, sd);
-  const std::vector<double> shares = restricted_shares(problem, observable_of_group, level);
-  std::vector<double> largest(open.unit.size(), 0);  // level, as restricted_shares takes it
+  assembly::GrowingNoise growing = growing_noise(problem, observable_of_group, level);
+  std::vector<double> largest(problem.least.size(), 0);  // level of each group, as growing_noise takes it
   for (std::size_t i = 0; i < problem.group.size(); ++i)
-    if (problem.group[i] != known_variance) {
-      double& most = largest[observable_of_group[problem.group[i]]];
-      most = std::max(most, std::abs(level[static_cast<Eigen::Index>(i)]));
-    }
+    if (const std::size_t g = problem.group[i]; g != known_variance)
+      largest[g] = std::max(largest[g], std::abs(level[static_cast<Eigen::Index>(i)]));
   found = restricted_variance(problem);
 
   // Mean variances of the groups as shares of the squared ranges of their curves.
@@ -233,18 +232,19 @@ NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
     }
   std::vector<double> ratios, freedom;
   for (std::size_t g = 0; g < rows.size(); ++g) {
-    if (!(found.freedom[g] > too_few) || found.at_least[g] || !(reference[g] > 0)) continue;
+    if (!(found.freedom[g] > least_freedom) || found.at_least[g] || !(reference[g] > 0)) continue;
     ratios.push_back(found.variance[g] * mean_shape[g] / rows[g] / (reference[g] * reference[g]));
     freedom.push_back(found.freedom[g]);
   }
   const Moderation others = moderation_of(ratios, freedom);
 
   NoiseEstimate estimate{evidence.noise,
-                         {scale.cwiseInverse().asDiagonal() * problem.columns, problem.group, others.freedom}};
+                         {scale.cwiseInverse().asDiagonal() * problem.columns, problem.group, others.freedom,
+                          std::move(growing.probability), std::move(growing.variance)}};
   for (std::size_t k = 0; k < open.curve.size(); ++k) {
     const Curve& curve = evidence.curves[open.curve[k]];
     const std::size_t g = group_of[k], observable = open.observable[k];
-    const bool learned = found.freedom[g] > too_few;  // else it stays as it was
+    const bool learned = found.freedom[g] > least_freedom;  // else it stays as it was
     if (!learned || found.at_least[g])
       for (Eigen::Index i = 0; i < curve.count; ++i)
         estimate.from.group[static_cast<std::size_t>(curve.first + i)] = known_variance;
@@ -258,7 +258,7 @@ NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
       if (source.test != curve.test || source.channel != curve.channel) continue;
       source.kind = NoiseSource::Kind::encompassing;
       source.noise = {std::sqrt(variance),
-                      std::sqrt(variance * shares[observable]) / std::max(largest[observable], 1e-300), 0};
+                      std::sqrt(variance * growing.share[observable]) / std::max(largest[g], 1e-300), 0};
       source.noise.absolute = std::max(source.noise.absolute, source.resolution);
       source.freedom = found.at_least[g] ? 0 : nu + d;
     }

@@ -15,9 +15,11 @@ namespace tunica::diagnosis {
 
 /// What the noise of some channels was estimated from: the rest of their whitened rows, outside a span.
 struct EstimatedNoise {
-  Eigen::MatrixXd span;            ///< orthonormal; no columns where nothing was estimated
-  std::vector<std::size_t> group;  ///< by row: the variance that it has a share in; assembly::known_variance
-  double moderation = 0;           ///< degrees of freedom that the other channels add to each (moderation.hpp)
+  Eigen::MatrixXd span;                  ///< orthonormal; no columns where nothing was estimated
+  std::vector<std::size_t> group;        ///< by row: the variance that it has a share in; assembly::known_variance
+  double moderation = 0;                 ///< degrees of freedom that the other channels add to each (moderation.hpp)
+  std::vector<double> probability = {};  ///< of other ways in which the noise may grow with the level
+  Eigen::MatrixXd variance = {};         ///< of a row (rows) if it grows so (columns), over what was taken
 };
 
 /// What the data say of the base model: noise stated for every channel, gross rows silenced, the model fitted.

@@ -16,7 +16,7 @@ constexpr double least_scatter = 0.15;  ///< of ln σ²: no two instruments are 
 /// x with ψ′(x) = y, by bisection of ln x.
 double trigamma_inverse(double y) {
   double low = std::log(1e-3), high = std::log(1e6);
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < 45; ++i) {
     const double middle = (low + high) / 2;
     (boost::math::trigamma(std::exp(middle)) > y ? low : high) = middle;
   }

@@ -11,6 +11,8 @@ struct Moderation {
   double ratio = 1;    ///< variance over the square of the reference that they speak for
 };
 
+constexpr double least_freedom = 1.5;  ///< of a variance that is learned from residuals at all
+
 /// Empirical Bayes (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3:3, 2004): with ratios s²/reference² of ν degrees of
 /// freedom each, and their true values scattered as d/χ²_d about one ratio,
 ///

@@ -19,7 +19,7 @@ constexpr std::size_t interval_draws = 199, interval_least = 100;
 std::vector<std::vector<double>> simulated_refits(const Inquiry& inquiry, const Evidence& evidence,
                                                   const Refit& refit) {
   const Eigen::MatrixXf noise =
-      noise_draws(evidence, interval_draws, derive_seed(inquiry.request.seed, "refits of the extension"));
+      noise_draws(evidence, interval_draws, derive_seed(inquiry.request.seed, "refits of the extension")).residuals;
   const std::vector<Variable> variables = refit.extension->variables();
   std::vector<std::vector<double>> found(interval_draws);
   tbb::parallel_for(std::size_t{0}, interval_draws, [&](std::size_t b) {

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+#include <pybind11/stl.h>
+#include <tbb/global_control.h>
+
+#include "arrays.hpp"
+#include "calibration/calibrate.hpp"
+#include "calibration/overrides.hpp"
+#include "check.hpp"
+#include "comparison/certify.hpp"
+#include "comparison/simulation_record.hpp"
+#include "data/nearest.hpp"
+#include "diagnosis_folder.hpp"
+#include "execution/files.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/run_directory.hpp"
+#include "library.hpp"
+#include "module.hpp"
+#include "report/report.hpp"
+#include "tunica/error.hpp"
+#include "watching.hpp"
+
+namespace tunica::python {
+
+namespace {
+
+using Folder = std::optional<std::string>;
+
+/// A fresh process is what a Python function answers: the text that certify() printed there, or why there is none.
+calibration::Certified ask(const py::object& certify, const std::filesystem::path& directory,
+                           const std::filesystem::path& points) {
+  const py::gil_scoped_acquire lock;
+  try {
+    const auto [answer, missing] =
+        certify(directory.string(), points.string()).cast<std::pair<std::string, std::string>>();
+    return {answer, missing};
+  } catch (const std::exception& problem) {
+    return {"", problem.what()};
+  }
+}
+
+py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigned threads,
+             const std::optional<std::uint64_t>& seed, const std::vector<std::string>& profiles,
+             const std::optional<std::uint64_t>& bootstrap, const py::object& progress, const py::object& certify) {
+  const OneAtATime alone;
+  Told told(progress);
+  experiment::Experiment experiment = loaded.experiment;
+  calibration::apply({seed, profiles, bootstrap}, experiment);
+  calibration::Options options;
+  if (directory) options.directory = *directory;
+  options.resume = resume;
+  options.threads = threads;
+  options.refusals = loaded.refusals;
+  options.told = told.function();
+  if (!certify.is_none())
+    options.certify = [&certify](const std::filesystem::path& folder, const std::filesystem::path& points) {
+      return ask(certify, folder, points);
+    };
+  calibration::Outcome outcome;
+  {
+    const py::gil_scoped_release free;
+    outcome = calibration::calibrate(experiment, *loaded.catalogue, options);
+  }
+  told.finish();
+  using Ending = calibration::Outcome::Ending;
+  py::dict found;
+  found["directory"] = outcome.directory.string();
+  found["ending"] = outcome.ending == Ending::finished      ? "finished"
+                    : outcome.ending == Ending::interrupted ? "interrupted"
+                                                            : "write_failure";
+  found["write_failure"] = outcome.write_failure;
+  found["sound"] = outcome.ending == Ending::finished && outcome.sound();
+  return found;
+}
+
+std::string check(const Loaded& loaded) {
+  const py::gil_scoped_release free;
+  const auto checked = calibration::examine(loaded.experiment, *loaded.catalogue);
+  return app::check_json(checked).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+py::dict simulate(const Loaded& loaded, const std::string& model, const Folder& parameters, const std::string& run,
+                  double noise, const std::optional<std::uint64_t>& seed, const std::vector<std::string>& fields,
+                  const Folder& directory) {
+  comparison::SimulationRequest request;
+  request.model = model;
+  if (parameters) request.parameters = *parameters;
+  request.run = run;
+  request.noise = noise;
+  request.seed = seed.value_or(loaded.experiment.seed);
+  comparison::Simulation simulation;
+  comparison::Subject subject;
+  py::dict found;
+  {
+    const py::gil_scoped_release free;
+    subject = comparison::subject_of(loaded.experiment, *loaded.catalogue, request);
+    simulation = comparison::simulate_with_fields(loaded.experiment, *loaded.catalogue, request, subject, fields);
+    if (directory) {
+      const auto folder = execution::RunDirectory::create(std::filesystem::path(*directory), loaded.experiment.name);
+      comparison::write_simulation(folder.path(), loaded.experiment, request, subject, simulation);
+      report::write_report(folder.path());
+    }
+  }
+  py::dict tables;
+  for (const auto& table : simulation.tables) {
+    py::dict columns;
+    for (std::size_t k = 0; k < table.headers.size(); ++k)
+      columns[table.headers[k].c_str()] = array_of(table.columns[k]);
+    tables[table.test.c_str()] = columns;
+  }
+  py::dict values;
+  const auto& free = subject.assembly->layout().parameters;
+  for (std::size_t j = 0; j < free.size(); ++j) values[free[j].name.c_str()] = subject.free[j];
+  for (const auto& fixed : subject.assembly->layout().fixed_parameters) values[fixed.name.c_str()] = fixed.value;
+  found["model"] = subject.model;
+  found["tables"] = tables;
+  found["parameters"] = values;
+  found["warnings"] = subject.warnings;
+  return found;
+}
+
+diagnosis::Request request_of(const Loaded& loaded, const std::optional<std::uint64_t>& seed,
+                              const std::optional<double>& alpha, const std::vector<std::string>& mechanisms,
+                              bool quick) {
+  diagnosis::Request request = diagnosis::request_of(loaded.experiment);
+  if (seed) request.seed = *seed;
+  if (alpha) request.alpha = *alpha;
+  request.quick = quick;
+  std::vector<std::string> known;
+  for (const auto& [id, entry] : loaded.catalogue->mechanisms()) known.push_back(id);
+  for (const std::string& id : mechanisms)
+    if (!loaded.catalogue->mechanisms().contains(id))
+      throw InputError(
+          fmt::format("mechanisms: no loaded plugin provides the mechanism '{}'. {}", id, data::suggestion(id, known)));
+  if (!mechanisms.empty()) request.mechanisms = mechanisms;
+  return request;
+}
+
+/// Ends a diagnosis between two of its steps.
+struct Stopped {};
+
+/// A new folder, which is taken away again unless something was written to it.
+class NewFolder {
+ public:
+  NewFolder(const Folder& requested, const std::string& name)
+      : results_were_there_(requested || std::filesystem::exists("results")),
+        folder_(execution::RunDirectory::create(
+            requested ? std::optional<std::filesystem::path>(*requested) : std::nullopt, name)) {}
+  ~NewFolder() {
+    std::error_code full;
+    std::filesystem::remove(path(), full);
+    if (!results_were_there_) std::filesystem::remove(path().parent_path(), full);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  bool results_were_there_;
+  execution::RunDirectory folder_;
+};
+
+py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned threads,
+                  const std::optional<std::uint64_t>& seed, const std::optional<double>& alpha,
+                  const std::vector<std::string>& mechanisms, bool quick, const py::object& progress) {
+  const OneAtATime alone;
+  Told told(progress);
+  const auto request = request_of(loaded, seed, alpha, mechanisms, quick);
+  const auto catalogue = interruptible(*loaded.catalogue);
+  const auto listener = told.function();
+  const NewFolder folder(directory, loaded.experiment.name);
+  const execution::InterruptWatch watch;
+  py::dict outcome;
+  outcome["directory"] = folder.path().string();
+  outcome["ending"] = "finished";
+  try {
+    const py::gil_scoped_release free;
+    const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
+    const auto found =
+        diagnosis::diagnose(loaded.experiment, request, catalogue, [&](const std::string& stage, double share) {
+          if (listener) listener(share, stage);
+          if (execution::InterruptWatch::interrupted()) throw Stopped{};
+        });
+    app::write_diagnosis(folder.path(), found, loaded.experiment, *loaded.catalogue);
+    report::write_report(folder.path());
+  } catch (...) {
+    if (!execution::InterruptWatch::interrupted()) throw;  // what failed because of Ctrl-C is no failure
+    outcome["ending"] = "interrupted";
+  }
+  told.finish();
+  return outcome;
+}
+
+/// What `tunica certify FOLDER --best-points POINTS` prints.
+std::string certify(const Library& library, const std::string& folder, const std::string& points) {
+  const auto loaded = library.read((std::filesystem::path(folder) / "input.json").string());
+  const py::gil_scoped_release free;
+  const auto plan = execution::make_plan(loaded->experiment, *loaded->catalogue);
+  return comparison::certify(plan, execution::read_text(points));
+}
+
+}  // namespace
+
+void add_verbs(py::module_& module) {
+  module.def("run", &run);
+  module.def("check", &check);
+  module.def("simulate", &simulate);
+  module.def("diagnose", &diagnose);
+  module.def("certify", &certify);
+  module.def("write_report", [](const std::string& folder) { return report::write_report(folder).string(); });
+}
+
+}  // namespace tunica::python

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Material parameters from mechanical tests of soft tissue and rubber: docs/python.md.
+
+    import tunica
+    result = tunica.run("experiment.json")
+    print(result.parameters)
+"""
+from ._core import version as __version__
+from .declarations import Observable, Parameter, forget
+from .energies import Energy, Strain, model
+from .errors import (EvaluationError, InputError, Interrupted, PluginFailure, StopSearch, TunicaError, WriteFailure)
+from .library import Experiment, describe, names, read, schema, use_plugins
+from .material import Material
+from .mechanisms import mechanism
+from .problem import Evaluation, Problem
+from .results import Check, Diagnosis, Estimate, Result, Run, Simulation
+from .results import open_results as open
+from .rows import Rows, test
+from .searches import Search, optimizer
+from .table import Table
+from .verbs import check, diagnose, run, simulate
+
+__all__ = ["Check", "Diagnosis", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "InputError",
+           "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
+           "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "describe",
+           "diagnose", "forget", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
+           "simulate", "test", "use_plugins", "__version__"]

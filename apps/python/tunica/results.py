@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results, read from the folder that the core has written: the files are those of the command line."""
+import functools
+import html
+import json
+import pathlib
+import re
+
+import numpy
+
+from .errors import InputError
+from .table import Table
+
+
+def _once(method):
+    """Reads a file when it is first asked for, and keeps what it says."""
+    @functools.wraps(method)
+    def kept(self):
+        name = "_" + method.__name__
+        if name not in self.__dict__:
+            self.__dict__[name] = method(self)
+        return self.__dict__[name]
+    return kept
+
+
+class Estimate(float):
+    """A parameter: its value, a number to calculate with, and what is known of it. All in `unit`."""
+
+    def __new__(cls, value, about):
+        estimate = super().__new__(cls, value)
+        estimate.about = about
+        return estimate
+
+    @property
+    def unit(self):
+        return self.about["unit"]
+
+    @property
+    def ci95(self):
+        """The 95 % interval, or None where the data do not fix the parameter."""
+        return self.about.get("ci95") and tuple(self.about["ci95"])
+
+    @property
+    def at_bound(self):
+        """"min" or "max" where the value lies at a bound, else None."""
+        return self.about.get("at_bound")
+
+    def __repr__(self):
+        interval = f" ({self.ci95[0]:.6g} … {self.ci95[1]:.6g})" if self.ci95 else ""
+        return f"{float(self):.6g}{'' if self.unit == '1' else ' ' + self.unit}{interval}"
+
+    def __reduce__(self):
+        return Estimate, (float(self), self.about)
+
+
+def _framed(report, name):
+    """The report with its charts. Scripts run in a frame of their own, which reaches nothing outside of it."""
+    page = html.escape(report.read_text(encoding="utf-8"), quote=True)
+    return ('<iframe sandbox="allow-scripts allow-downloads" style="width: 100%; height: 45em; border: 1px solid" '
+            f'title="Report of {html.escape(name, quote=True)}" srcdoc="{page}"></iframe>')
+
+
+class Folder:
+    """What a folder of results holds. It is as good when it is opened years later: tunica.open(folder)."""
+
+    def __init__(self, directory):
+        self.directory = pathlib.Path(directory)
+        #: result.json as it stands; docs/results.md lists its keys
+        self.json = json.loads((self.directory / "result.json").read_text(encoding="utf-8"))
+
+    @property
+    def name(self):
+        return self.json["name"]
+
+    @property
+    def warnings(self):
+        """Sentences. Codes to decide on stand in json["warning_details"]."""
+        return self.json["warnings"]
+
+    @property
+    def report(self):
+        """The path of the report, one HTML file."""
+        return self.directory / "report.html"
+
+    def table(self, name):
+        """A table of the folder by the name of its file, for example "ranking" or "fit_strip"."""
+        file = self.directory / f"{name}.csv"
+        if not file.exists():
+            known = ", ".join(sorted(path.stem for path in self.directory.glob("*.csv")))
+            raise InputError(f"{self.directory}: there is no table '{name}'; there are: {known}")
+        return Table.read(file)
+
+    def _repr_html_(self):
+        return _framed(self.report, self.name)
+
+
+class Run:
+    """One entry of "runs": a model, an optimiser, and the best point that was found."""
+
+    def __init__(self, result, about):
+        self._result = result
+        #: its entry of result.json
+        self.json = about
+
+    @property
+    def name(self):
+        return self.json["run"]
+
+    @property
+    def model(self):
+        return self.json["model"]
+
+    @property
+    def optimizer(self):
+        return self.json["optimizer"]
+
+    @property
+    def found(self):
+        """Whether there is a best point: some evaluation succeeded."""
+        return self.json["best"] is not None
+
+    @property
+    def best(self):
+        """The best point as result.json has it."""
+        if not self.found:
+            raise InputError(f"the run '{self.name}' has no result; the first failure: {self.json['first_failure']}")
+        return self.json["best"]
+
+    @property
+    def objective(self):
+        return self.best["objective"]
+
+    @property
+    def parameters(self):
+        """{name: Estimate} of what was searched for."""
+        return {name: Estimate(about["value"], about) for name, about in self.best["parameters"].items()}
+
+    @property
+    def fixed(self):
+        """{name: Estimate} of what was held."""
+        return {name: Estimate(about["value"], about) for name, about in self.json["fixed"].items()}
+
+    @property
+    def converged(self):
+        return self.json["converged"]
+
+    @property
+    @_once
+    def fit(self):
+        """{test: Table}: measured and predicted, row by row."""
+        tables = {}
+        for test in self.json["tests"]:
+            table = self._result.table("fit_" + re.sub(r"[^A-Za-z0-9_-]", "-", test))
+            tables[test] = table.where("run", self.name).filled()
+        return tables
+
+    def __repr__(self):
+        if not self.found:
+            return f"<tunica.Run '{self.name}', no result>"
+        values = ", ".join(f"{name} = {value!r}" for name, value in self.parameters.items())
+        return f"<tunica.Run '{self.name}', objective {self.objective:.6g}: {values}>"
+
+
+class Result(Folder):
+    """What tunica.run() found."""
+
+    @property
+    @_once
+    def runs(self):
+        """{name: Run}, in the order of the experiment."""
+        return {about["run"]: Run(self, about) for about in self.json["runs"]}
+
+    @property
+    def best(self):
+        """The run that is ranked first. Ranks hold within a group of runs with the same tests and objective."""
+        for entry in self.json["ranking"]:
+            if entry["rank"] is not None:
+                return self.runs[entry["run"]]
+        raise InputError(f"{self.directory}: no run has a result; the first failure: "
+                         f"{self.json['runs'][0]['first_failure']}")
+
+    @property
+    def parameters(self):
+        """Those of the best run."""
+        return self.best.parameters
+
+    @property
+    @_once
+    def ranking(self):
+        return self.table("ranking")
+
+    @property
+    @_once
+    def evaluations(self):
+        """Every evaluation, in the order of evaluations.csv."""
+        return self.table("evaluations")
+
+    def frame(self):
+        """Run, parameter, value, unit and interval as a pandas.DataFrame, where pandas is there."""
+        import pandas
+        rows = [(run.name, name, float(value), value.unit, *(value.ci95 or (numpy.nan, numpy.nan)))
+                for run in self.runs.values() if run.found for name, value in run.parameters.items()]
+        return pandas.DataFrame(rows, columns=["run", "parameter", "value", "unit", "low", "high"])
+
+    def __repr__(self):
+        return "\n".join([f"<tunica.Result '{self.name}' in {self.directory}>",
+                          *(f"  {run!r}" for run in self.runs.values())])
+
+
+class Diagnosis(Folder):
+    """What tunica.diagnose() found."""
+
+    @property
+    def verdict(self):
+        """The code of the verdict, for example "clean", "named" or "unknown"; docs/diagnosis.md lists them."""
+        return self.json["diagnosis"]["verdict"]
+
+    @property
+    def reasons(self):
+        """Why, in sentences."""
+        return self.json["diagnosis"]["reasons"]
+
+    @property
+    def causes(self):
+        """The causes that are named, each a dictionary with id, probability and amplitude."""
+        return self.json["diagnosis"]["causes"]
+
+    @property
+    def extended(self):
+        """The path of the experiment with the causes added, which run() takes, or None."""
+        file = self.directory / "extended.json"
+        return file if file.exists() else None
+
+    @property
+    @_once
+    def residuals(self):
+        return self.table("residuals")
+
+    def __repr__(self):
+        causes = ", ".join(cause["id"] for cause in self.causes) or "none named"
+        return f"<tunica.Diagnosis '{self.name}' in {self.directory}: {self.verdict}; causes: {causes}>"
+
+
+class Simulation:
+    """What tunica.simulate() predicted."""
+
+    def __init__(self, found, directory):
+        self.model = found["model"]
+        #: {test: Table}, with the columns of the data
+        self.tables = {test: Table(columns) for test, columns in found["tables"].items()}
+        #: {name: value} in base units, fixed ones included
+        self.parameters = dict(found["parameters"])
+        self.warnings = list(found["warnings"])
+        self.directory = pathlib.Path(directory) if directory is not None else None
+
+    def __getitem__(self, test):
+        return self.tables[test]
+
+    def _repr_html_(self):
+        if self.directory is not None:
+            return _framed(self.directory / "report.html", self.model)
+        return "".join(f"<h4>{html.escape(test)}</h4>{table._repr_html_()}" for test, table in self.tables.items())
+
+    def __repr__(self):
+        return f"<tunica.Simulation of {', '.join(self.tables)} with '{self.model}'>"
+
+
+class Check(dict):
+    """What tunica.check() found, as `tunica check --json` prints it."""
+
+    @property
+    def in_order(self):
+        return self["in_order"]
+
+    @property
+    def warnings(self):
+        return self["warnings"]
+
+
+def open_results(directory):
+    """Results that were written before, by Python or by the command line."""
+    directory = pathlib.Path(directory)
+    if not (directory / "result.json").exists():
+        raise InputError(f"{directory}: there is no result.json; name the folder of a finished run or diagnosis")
+    with open(directory / "result.json", encoding="utf-8") as stream:
+        diagnosed = "diagnosis" in json.load(stream)
+    return Diagnosis(directory) if diagnosed else Result(directory)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the command line does, as functions: run, check, simulate, diagnose."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from . import _core
+from .declarations import modules
+from .errors import Interrupted, WriteFailure
+from .library import library, read
+from .results import Check, Diagnosis, Result, Simulation
+
+
+def _threads(threads):
+    return len(os.sched_getaffinity(0)) if threads is None else int(threads)
+
+
+class _Line:
+    """Progress as one line on stderr that is written again and again, in a notebook below the cell."""
+
+    def __init__(self):
+        self._written = 0
+
+    def __call__(self, share, text):
+        text = text.strip()[:110]
+        if not text.split(" ", 1)[0].isdigit():  # the stages of a diagnosis come without their share
+            text = f"{100 * share:.0f} %  {text}"
+        sys.stderr.write("\r" + text.ljust(self._written))
+        sys.stderr.flush()
+        self._written = len(text)
+
+    def clear(self):
+        if self._written:
+            sys.stderr.write("\r" + " " * self._written + "\r")
+            sys.stderr.flush()
+
+
+def _listener(progress):
+    return _Line() if progress is True else progress or None
+
+
+def _types(value):
+    """Every text under a key "type"."""
+    if isinstance(value, list):
+        return set().union(*map(_types, value))
+    if not isinstance(value, dict):
+        return set()
+    found = set().union(*map(_types, value.values()))
+    return found | {value["type"]} if isinstance(value.get("type"), str) else found
+
+
+def _certify(folder, points):
+    """The best points, evaluated by a Python process that has seen nothing of the search. Returns its answer, or why
+    there is none."""
+    used = _types(json.loads((pathlib.Path(folder) / "input.json").read_text(encoding="utf-8"))) & set(modules)
+    loose = sorted(name for name in used if modules[name] == "__main__")
+    if loose:
+        return "", (f"'{loose[0]}' is defined in a notebook or a script, which a fresh process does not have; define "
+                    "it in a module, and import that")
+    package = str(pathlib.Path(_core.__file__).absolute().parent.parent)
+    paths = [package] + [path or os.getcwd() for path in sys.path]
+    answer = subprocess.run([sys.executable, "-m", "tunica.certify", folder, points, *sorted({modules[name]
+                                                                                              for name in used})],
+                            capture_output=True, text=True, check=False,
+                            env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)})
+    if answer.returncode:
+        last = answer.stderr.strip().splitlines()
+        return "", f"it ended with code {answer.returncode}" + (f": {last[-1]}" if last else "")
+    return answer.stdout, ""
+
+
+def run(experiment, directory=None, *, base=".", threads=None, seed=None, profiles=(), bootstrap=None, resume=False,
+        certificate=True, progress=None):
+    """Calibrates every entry of "runs" and compares them, as `tunica run` does; returns a Result.
+
+    experiment: the path of a file, a dictionary, or an Experiment. directory: a new folder for the results; without
+    it results/<name>-<n>. threads: all of the machine unless given; results do not depend on it. progress: True for a
+    line on stderr, or a function that is called with the share that is done and a line of text.
+
+    Ctrl-C raises Interrupted. Everything so far is saved, and the same call with its `directory` and resume=True goes
+    on to the identical result. Raises InputError for whatever does not fit, before anything is evaluated.
+    """
+    found_experiment = read(experiment, base)
+    listener = _listener(progress)
+    names = ["all"] if profiles == "all" else list(profiles)
+    try:
+        found = _core.run(found_experiment._loaded, None if directory is None else str(directory), resume,
+                          _threads(threads), seed, names, bootstrap, listener, _certify if certificate else None)
+    finally:
+        if isinstance(listener, _Line):
+            listener.clear()
+    if found["ending"] == "interrupted":
+        raise Interrupted(f"interrupted; everything so far is saved. Go on with "
+                          f"run(…, directory={found['directory']!r}, resume=True)", found["directory"])
+    if found["ending"] == "write_failure":
+        raise WriteFailure(f"{found['write_failure']}. Then go on with run(…, directory={found['directory']!r}, "
+                           "resume=True)")
+    return Result(found["directory"])
+
+
+def check(experiment, *, base="."):
+    """A dry run, as `tunica check` does it: names, units, data, bounds, the initial point and identifiability. Returns
+    a Check, a dictionary; its `in_order` says whether all is well. Writes nothing."""
+    return Check(json.loads(_core.check(read(experiment, base)._loaded)))
+
+
+def simulate(experiment, model="", parameters=None, directory=None, *, base=".", run="", noise=0.0, seed=None,
+             fields=()):
+    """Predicts every test, as `tunica simulate` does; returns a Simulation.
+
+    model: a model of the experiment; the only one unless given. parameters: a Result, a Run, the path of a
+    result.json, or a dictionary {name: value or "value unit"}; the initial values unless given. directory: where to
+    write the tables; nothing is written without it. noise: relative, for synthetic data.
+    """
+    found_experiment = read(experiment, base)
+    if not model and len(found_experiment.input["models"]) == 1 and not isinstance(parameters, Result):
+        model = next(iter(found_experiment.input["models"]))
+    with tempfile.TemporaryDirectory() as scratch:
+        if hasattr(parameters, "json") and hasattr(parameters, "optimizer"):
+            model, parameters = model or parameters.model, {**parameters.parameters}
+        if isinstance(parameters, Result):
+            model = model or parameters.best.model
+            parameters = parameters.directory / "result.json"
+        if isinstance(parameters, dict):
+            file = pathlib.Path(scratch) / "parameters.json"
+            file.write_text(json.dumps({name: value if isinstance(value, str) else float(value)
+                                        for name, value in parameters.items()}))
+            parameters = file
+        found = _core.simulate(found_experiment._loaded, model, None if parameters is None else str(parameters), run,
+                               noise, seed, list(fields), None if directory is None else str(directory))
+    return Simulation(found, directory)
+
+
+def diagnose(experiment, directory=None, *, base=".", threads=None, seed=None, alpha=None, mechanisms=(), quick=False,
+             progress=None):
+    """Shows what the simulation gets wrong and names the cause, as `tunica diagnose` does; returns a Diagnosis.
+
+    Arguments as run() has them; alpha: the share of false alarms that is accepted; mechanisms: only these causes;
+    quick: a first answer. Ctrl-C raises Interrupted, and leaves nothing behind.
+    """
+    found_experiment = read(experiment, base)
+    listener = _listener(progress)
+    try:
+        found = _core.diagnose(found_experiment._loaded, None if directory is None else str(directory),
+                               _threads(threads), seed, alpha, list(mechanisms), quick, listener)
+    finally:
+        if isinstance(listener, _Line):
+            listener.clear()
+    if found["ending"] == "interrupted":
+        raise Interrupted("interrupted; an unfinished diagnosis leaves nothing behind. Start it again, or with "
+                          "quick=True for a first answer")
+    return Diagnosis(found["directory"])
+
+
+def certify(folder, points):
+    """What `tunica certify` prints; for the process that run() starts."""
+    return _core.certify(library(), str(folder), str(points))

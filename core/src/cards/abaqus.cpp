@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Abaqus Keywords Guide: *HYPERELASTIC, *ANISOTROPIC HYPERELASTIC; Materials Guide: "Hyperelastic behavior of
+// rubberlike materials", "Anisotropic hyperelastic behavior".
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cards/comment.hpp"
+#include "cards/writers.hpp"
+
+namespace tunica::cards {
+
+namespace {
+
+std::string keyword_line(std::string_view form) { return fmt::format("*HYPERELASTIC, {}\n", form); }
+
+std::string orientation(const FibreEnergy& energy) {
+  std::string block = comment("**",
+                              "Fibres: local direction 1 is the circumferential, 2 the axial, 3 the radial one. The "
+                              "section needs an orientation with the directions of the families; this one has them for "
+                              "a wall whose circumferential direction is x and whose axial one is y:");
+  block += fmt::format("** *ORIENTATION, NAME=WALL, LOCAL DIRECTIONS={}\n** 1, 0, 0, 0, 1, 0\n** 3, 0\n",
+                       energy.families.size());
+  for (const auto& family : energy.families) {
+    const double angle = family.angle * std::numbers::pi / 180;
+    block += fmt::format("** {}, {}, 0\n", number(std::sin(angle)), number(std::cos(angle)));
+  }
+  return block;
+}
+
+// U = C10 (Ī1 − 3) + 1/D [(J² − 1)/2 − ln J] + k1/(2 k2) Σ {exp[k2 ⟨Ē⟩²] − 1},  Ē = κ (Ī1 − 3) + (1 − 3κ) (Ī4 − 1).
+std::string holzapfel(const Draft& draft) {
+  const auto& material = draft.material;
+  const FibreEnergy energy = fibre_energy(material);
+  const char* const subroutine = "use the user subroutine UANISOHYPER_INV";
+  if (material.type == "four_fibre")
+    refuse("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
+  const FibreFamily& family = energy.families.front();
+  if (!family.without_normal())
+    refuse("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall", subroutine);
+  if (material.fibre_switch == "none" || (material.fibre_switch == "stretch" && family.A > 0))
+    refuse("Abaqus", material,
+           fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
+                       material.fibre_switch),
+           subroutine);
+  const std::vector<double> constants = {0.5 * draft.modulus("mu"), draft.d1(), draft.stress * family.k1, family.k2,
+                                         family.A};
+  return orientation(energy) +
+         fmt::format(
+             "*MATERIAL, NAME={}\n*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL "
+             "DIRECTIONS={}\n",
+             draft.settings.name, energy.families.size()) +
+         data_lines(constants);
+}
+
+}  // namespace
+
+std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms) {
+  const auto& material = draft.material;
+  const double d1 = draft.d1();
+  // U = C10 (Ī1 − 3) + (J − 1)²/D1,  C10 = μ/2
+  if (material.type == "neo_hooke")
+    return keyword_line("NEO HOOKE") + data_lines(std::vector{0.5 * draft.modulus("mu"), d1});
+  if (material.type == "mooney_rivlin")
+    return keyword_line("MOONEY-RIVLIN") + data_lines(std::vector{draft.modulus("c10"), draft.modulus("c01"), d1});
+  if (material.type == "yeoh")
+    return keyword_line("YEOH") +
+           data_lines(std::vector{draft.modulus("c10"), draft.modulus("c20"), draft.modulus("c30"), d1, 0.0, 0.0});
+  if (material.type == "ogden") {
+    const auto terms = ogden_terms(material);
+    if (terms.size() > most_ogden_terms)
+      refuse(program, material,
+             fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
+             "fit fewer terms, or export for another program");
+    std::vector<double> values;
+    // U = Σ 2 μ_i/α_i² (λ̄1^α_i + λ̄2^α_i + λ̄3^α_i − 3) + Σ (J − 1)^2i/D_i: their μ_i is ½ μ_i α_i here
+    for (const auto& term : terms) values.insert(values.end(), {0.5 * draft.stress * term.mu * term.alpha, term.alpha});
+    values.insert(values.end(), d1);
+    values.resize(3 * terms.size(), 0.0);
+    return keyword_line(fmt::format("OGDEN, N={}", terms.size())) + data_lines(values);
+  }
+  refuse(program, material, "it has no energy with a limit of extension of the chains",
+         "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+}
+
+std::string abaqus_card(const Draft& draft) {
+  if (has_fibres(draft.material)) return holzapfel(draft);
+  return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperelastic_keyword(draft, "Abaqus", 6));
+}
+
+}  // namespace tunica::cards

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "cards/card.hpp"
+
+/// The writers behind write_card(), one a program, and what they share.
+namespace tunica::cards {
+
+/// What a writer works with: numbers in the units of the card.
+struct Draft {
+  const Material& material;
+  const CardSettings& settings;
+  double stress = 1;  ///< factor from kPa
+  double bulk = 0;    ///< bulk modulus in the units of the card; 0 = incompressible
+  /// Two over the bulk modulus, the coefficient D1 of (J − 1)²/D1; 0 = incompressible.
+  [[nodiscard]] double d1() const { return bulk > 0 ? 2 / bulk : 0; }
+  /// A parameter of the dimension stress in the units of the card.
+  [[nodiscard]] double modulus(const std::string& parameter) const;
+};
+
+/// Throws the refusal of a model, with the reason and what to do.
+[[noreturn]] void refuse(std::string_view program, const Material& material, std::string_view reason,
+                         std::string_view cure);
+
+/// Values with commas, eight a line, each line ended.
+std::string data_lines(std::span<const double> values);
+
+/// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
+std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms);
+
+std::string calculix_card(const Draft& draft);
+std::string abaqus_card(const Draft& draft);
+
+}  // namespace tunica::cards

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data/series.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "data/csv.hpp"
+#include "data/curves.hpp"
+#include "data/nearest.hpp"
+#include "data/quantities.hpp"
+#include "data/row_choice.hpp"
+#include "data/sha256.hpp"
+#include "data/units.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::data {
+namespace {
+
+using Role = Observable::Role;
+using From = Quantity::Kind;
+
+/// A balance says gram where it means the weight of one.
+std::string weight_unit(std::string_view unit, std::string_view base) {
+  const bool mass = unit == "g" || unit == "kg" || unit == "mg";
+  return std::string(unit) + (mass && base == "mN" ? "f" : "");
+}
+
+/// Time on a path run at constant rate: t_i = t_{i−1} + |x_i − x_{i−1}|/rate, from rest (stretch 1, else 0) at t = 0.
+/// The path is that of all rows left after `where`, so that thinning them out with `rows` does not shorten cycles.
+std::vector<double> time_along(const std::vector<double>& path, double rest, double rate) {
+  std::vector<double> time;
+  double now = 0, last = rest;
+  for (const double x : path) {
+    now += std::abs(x - last) / rate;
+    time.push_back(now);
+    last = x;
+  }
+  return time;
+}
+
+/// One file on its way to a series.
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, const std::string& bytes, const DataRequest& request,
+         const std::vector<Observable>& observables, std::vector<std::string>& warnings)
+      : request_(request),
+        observables_(observables),
+        warnings_(warnings),
+        csv_(parse_csv(file, bytes, request.layout)) {
+    series_.file = file;
+    series_.sha256 = sha256(bytes);
+    series_.header_line = csv_.header_line;
+  }
+
+  Series read() {
+    map_columns();
+    rows_ = rows_where(csv_, request_);
+    const std::vector<std::size_t> chosen = cycles();
+    std::vector<std::size_t> selected = rows_in_range(csv_, request_.rows, chosen.size(), warnings_);
+    for (std::size_t& row : selected) row = chosen[row];
+    for (const std::size_t row : selected) series_.lines.push_back(rows_[row]->line);
+    for (std::size_t k = 0; k < series_.columns.size(); ++k)
+      for (const std::size_t row : selected) series_.columns[k].values.push_back(value(k, *rows_[row]));
+    take_time(selected);
+    derive_stretches();
+    derive_stresses();
+    return std::move(series_);
+  }
+
+ private:
+  void map_columns() {
+    std::vector<std::size_t> indices;
+    for (const auto& [name, column] : request_.columns) {
+      const std::size_t index = csv_.column(column);
+      indices.push_back(index);
+      const Csv::Column& header = csv_.columns[index];
+      quantities_.push_back(*quantity_named(name, observables_));
+      const Quantity& quantity = quantities_.back();
+      series_.columns.push_back({quantity.observable,
+                                 index,
+                                 header.name,
+                                 weight_unit(header.unit.value_or(""), quantity.unit),
+                                 {},
+                                 quantity.kind != From::own});
+      in_base_unit(quantities_.size() - 1, 1);  // a wrong unit is reported before the first wrong cell
+      if (series_.columns.back().unit.empty() && quantity.unit != "1")
+        warnings_.push_back(fmt::format("{}: the header gives no unit; {} is assumed. Write '{} [{}]'.",
+                                        series_.header_place(series_.columns.back()), quantity.unit, header.name,
+                                        quantity.unit));
+    }
+    decimal_ = csv_.decimal_mark(indices);
+  }
+
+  // The factor is asked for once a cell: units like degrees Celsius have an offset.
+  double in_base_unit(std::size_t k, double value) const {
+    const Series::Column& column = series_.columns[k];
+    const Quantity& quantity = quantities_[k];
+    try {
+      return convert(value, column.unit.empty() ? quantity.unit : column.unit, quantity.unit);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format(
+          "{}: {}. The {} '{}' is in {}: correct the unit in the header.", series_.header_place(column), error.what(),
+          quantity.kind == From::own ? "observable" : "quantity", request_.columns[k].first, quantity.unit));
+    }
+  }
+
+  double value(std::size_t k, const Csv::Row& row) const {
+    return in_base_unit(k, csv_.number(row, series_.columns[k].index, decimal_));
+  }
+
+  RawColumn all_rows_of(std::size_t k) const {
+    RawColumn column{series_.header_place(series_.columns[k]), {}};
+    column.values.reserve(rows_.size());
+    for (const Csv::Row* row : rows_) column.values.push_back(value(k, *row));
+    return column;
+  }
+
+  double rest_of(std::size_t k) const {
+    const Quantity& quantity = quantities_[k];
+    if (quantity.kind == From::length) {
+      const auto gauge = sizes_along(request_.specimen, quantity.observable->name).gauge_length;
+      return gauge ? *gauge : value(k, *rows_.front());
+    }
+    return quantity.kind == From::own && quantity.observable->kind == Observable::Kind::stretch ? 1 : 0;
+  }
+
+  /// The prescribed column that goes through its range most straightly; a held one shows noise only.
+  std::size_t path_column() const {
+    std::vector<Prescribed> prescribed;
+    std::vector<std::size_t> columns;
+    for (std::size_t k = 0; k < quantities_.size(); ++k)
+      if (quantities_[k].observable->role == Role::abscissa) {
+        prescribed.push_back({request_.columns[k].first, "", all_rows_of(k).values});
+        columns.push_back(k);
+      }
+    if (prescribed.empty())
+      throw InputError(
+          fmt::format("{}: cycles, branches and a preload need a prescribed quantity, and none is mapped. "
+                      "Map one in \"columns\".",
+                      csv_.file.string()));
+    return columns[abscissa_of(prescribed, "").column];
+  }
+
+  std::size_t load_column() const {
+    for (std::size_t k = 0; k < quantities_.size(); ++k) {
+      const bool force = quantities_[k].unit == "mN", stress = quantities_[k].unit == "kPa";
+      if (quantities_[k].observable->role == Role::channel && (request_.preload->is_force ? force : stress)) return k;
+    }
+    throw InputError(fmt::format("{}: the preload is a {}, and no such column is mapped. Map one in \"columns\".",
+                                 csv_.file.string(), request_.preload->is_force ? "force" : "stress"));
+  }
+
+  std::optional<std::size_t> length_column() const {
+    if (!request_.specimen.gauge_at_preload) return std::nullopt;
+    for (std::size_t k = 0; k < quantities_.size(); ++k)
+      if (quantities_[k].kind == From::length || quantities_[k].kind == From::displacement) return k;
+    throw InputError(
+        fmt::format("{}: the gauge length is that at the preload, and no column is a length or a "
+                    "displacement. Map one in \"columns\".",
+                    csv_.file.string()));
+  }
+
+  std::vector<std::size_t> cycle_numbers() const {
+    std::vector<std::size_t> numbers;
+    if (request_.cycles_from.empty()) return numbers;
+    const std::size_t column = csv_.column(request_.cycles_from);
+    for (const Csv::Row* row : rows_) {
+      const auto number = first_number(row->cells[column]);
+      if (!number)
+        throw InputError(
+            fmt::format("{}: found '{}' where the number of a cycle is expected. Leave the row out with "
+                        "\"where\", or name another column in \"cycles_from\".",
+                        csv_.place(row->line, column), excerpt(row->cells[column])));
+      numbers.push_back(*number);
+    }
+    return numbers;
+  }
+
+  /// Positions among the rows left after "where".
+  std::vector<std::size_t> cycles() {
+    const bool all = request_.branch == BranchChoice::both && !request_.preload &&
+                     (!request_.cycle || (!request_.cycle->last && request_.cycle->numbers.empty()));
+    if (all) {
+      std::vector<std::size_t> rows(rows_.size());
+      for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;
+      return rows;
+    }
+    const std::size_t column = path_column();
+    RawColumn load, length;
+    RawPath path{all_rows_of(column), rest_of(column), nullptr, nullptr, cycle_numbers()};
+    if (request_.preload) {
+      load = all_rows_of(load_column());
+      path.load = &load;
+    }
+    const auto measured_along = length_column();
+    if (measured_along) {
+      length = all_rows_of(*measured_along);
+      path.length = &length;
+    }
+    ChosenRows chosen = choose_rows(path, request_);
+    parted_ = true;
+    if (chosen.length_at_preload) gauge_at_preload(*measured_along, *chosen.length_at_preload);
+    return std::move(chosen.rows);
+  }
+
+  void gauge_at_preload(std::size_t k, double at_preload) {
+    series_.gauge_length = at_preload;
+    if (quantities_[k].kind != From::displacement) return;
+    offset_ = at_preload;
+    *series_.gauge_length += grip_distance(k);
+  }
+
+  double grip_distance(std::size_t k) const {
+    const auto grips = sizes_along(request_.specimen, quantities_[k].observable->name).grip_distance;
+    if (grips) return *grips;
+    throw InputError(
+        fmt::format("{}: the gauge length at the preload needs the length at displacement 0. Add "
+                    "\"grip_distance\" to \"specimen\".",
+                    series_.header_place(series_.columns[k])));
+  }
+
+  /// Of a part of a test, time begins with the part.
+  void take_time(const std::vector<std::size_t>& selected) {
+    const auto path = std::find_if(series_.columns.begin(), series_.columns.end(), [](const Series::Column& column) {
+      return column.observable->role == Role::abscissa;
+    });
+    for (Series::Column& column : series_.columns)
+      if (column.observable->role == Role::time && parted_)
+        for (double begin = column.values.front(); double& time : column.values) time -= begin;
+    if (!request_.time_rate || path == series_.columns.end()) return;
+    const auto k = static_cast<std::size_t>(path - series_.columns.begin());
+    const RawColumn all = all_rows_of(k);
+    const std::vector<double> time = time_along(all.values, rest_of(k), *request_.time_rate);
+    for (const std::size_t row : selected) series_.time.push_back(time[row]);
+  }
+
+  double required_size(std::optional<double> size, std::size_t k, std::string_view key) const {
+    if (size) return *size;
+    throw InputError(fmt::format("{}: '{}' needs the size \"{}\" of the specimen. Add it to \"specimen\".",
+                                 series_.header_place(series_.columns[k]), request_.columns[k].first, key));
+  }
+
+  /// λ = 1 + ΔL/L, ℓ/L or 1 + ε, with the gauge length L.
+  void derive_stretches() {
+    for (std::size_t k = 0; k < series_.columns.size(); ++k) {
+      const From kind = quantities_[k].kind;
+      if (kind != From::displacement && kind != From::length && kind != From::strain) continue;
+      double gauge = 1, shift = 0;
+      if (kind != From::strain) {
+        const auto given = sizes_along(request_.specimen, quantities_[k].observable->name).gauge_length;
+        gauge = series_.gauge_length ? *series_.gauge_length : required_size(given, k, "gauge_length");
+        if (series_.gauge_length && kind == From::displacement) shift = offset_;
+      }
+      for (double& value : series_.columns[k].values)
+        value = kind == From::length ? value / gauge : 1 + (value - shift) / gauge;
+    }
+  }
+
+  /// The nominal stress is P = F/(width·thickness); in an incompressible specimen σ = Pλ and S = P/λ.
+  void derive_stresses() {
+    for (std::size_t k = 0; k < series_.columns.size(); ++k) {
+      if (quantities_[k].kind != From::force) continue;
+      const Observable& stress = *quantities_[k].observable;
+      const Specimen& specimen = request_.specimen;
+      const double area = specimen.area ? *specimen.area
+                                        : required_size(sizes_along(specimen, stress.name).width, k, "width") *
+                                              required_size(specimen.thickness, k, "thickness");
+      for (double& value : series_.columns[k].values) value /= area;
+      if (request_.stress_measure == "first_piola_kirchhoff") continue;
+      const Series::Column& stretch = stretch_of(k, stress);
+      for (std::size_t row = 0; row < stretch.values.size(); ++row)
+        series_.columns[k].values[row] *=
+            request_.stress_measure == "cauchy" ? stretch.values[row] : 1 / stretch.values[row];
+    }
+  }
+
+  const Series::Column& stretch_of(std::size_t k, const Observable& stress) const {
+    const Observable* wanted = stretch_beside(stress, observables_);
+    for (const Series::Column& column : series_.columns)
+      if (column.observable == wanted) return column;
+    throw InputError(fmt::format(
+        "{}: '{}' from a force needs the stretch along it, unless \"stress_measure\" is "
+        "\"first_piola_kirchhoff\". Map {}, or give that measure.",
+        series_.header_place(series_.columns[k]), stress.name, wanted ? "'" + wanted->name + "'" : "the stretch"));
+  }
+
+  const DataRequest& request_;
+  const std::vector<Observable>& observables_;
+  std::vector<std::string>& warnings_;
+  Csv csv_;
+  Series series_;
+  std::vector<Quantity> quantities_;  ///< by column of the series
+  std::vector<const Csv::Row*> rows_;
+  char decimal_ = '.';
+  bool parted_ = false;  ///< rows are a part of those that match "where"
+  double offset_ = 0;    ///< displacement at the preload
+};
+
+}  // namespace
+
+std::string Series::place(std::size_t row, const Column& column) const {
+  return fmt::format("{}, line {}, column {} ('{}')", file.string(), lines[row], column.index + 1,
+                     excerpt(column.name));
+}
+
+std::string Series::header_place(const Column& column) const {
+  return fmt::format("{}, line {}, column {} ('{}')", file.string(), header_line, column.index + 1,
+                     excerpt(column.name));
+}
+
+Series read_series(const std::filesystem::path& file, const DataRequest& request,
+                   const std::vector<Observable>& observables, std::vector<std::string>& warnings) {
+  const std::string bytes = read_bytes(file);
+  return Reader(file, bytes, request, observables, warnings).read();
+}
+
+}  // namespace tunica::data

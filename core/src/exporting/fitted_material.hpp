@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cards/material.hpp"
+
+/// From a result folder to what a material card says.
+namespace tunica::exporting {
+
+/// Which parameters of which result.
+struct ExportRequest {
+  std::filesystem::path result;  ///< a folder that `tunica run` has written, or the result.json in it
+  std::string run = {};          ///< a run of it; empty = the best-ranked one with a result
+  std::string model = {};        ///< a model of the experiment: needed where a run has several (layers)
+};
+
+/// A model with the parameters that a run found.
+struct FittedMaterial {
+  cards::Material material;
+  std::string name;  ///< of the model in the experiment
+  std::string run;
+  /// For the card: provenance, parameters with their intervals, fitted range, stability, warnings. One paragraph each,
+  /// without a date.
+  std::vector<std::string> remarks;
+};
+
+/// Throws InputError where there is no such result, run or model, and where mechanisms change the model, because no
+/// card has them.
+FittedMaterial fitted_material(const ExportRequest& request);
+
+}  // namespace tunica::exporting

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a result folder to a material card, and what is refused on the way.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace {
+/// The comments without their line breaks.
+std::string unwrapped(std::string card) {
+  for (std::size_t at; (at = card.find("\n**   ")) != std::string::npos;) card.replace(at, 6, " ");
+  return card;
+}
+}  // namespace
+
+/// Two strips fitted with one model, which the folder "out" then holds.
+class Export : public ::testing::Test {
+ protected:
+  void fit(const nlohmann::json& model) {
+    bench.experiment["models"] = {{"wall", model}};
+    bench.experiment["runs"] = {{{"model", "wall"}, {"optimizer", "lm"}}};
+    const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+  }
+  [[nodiscard]] trial::Ended exported(std::vector<std::string> words) const {
+    words.insert(words.begin(), "export");
+    return bench.tunica(std::move(words));
+  }
+  [[nodiscard]] std::string refused(std::vector<std::string> words) const {
+    const auto ended = exported(std::move(words));
+    EXPECT_EQ(ended.code, 2) << ended.out;
+    EXPECT_EQ(ended.out, "");
+    return ended.err;
+  }
+  trial::Bench bench;
+};
+
+TEST_F(Export, WritesACardWithProvenanceRangeStabilityAndUncertaintyButNoDate) {
+  fit({{"type", "neo_hooke"}});
+  const auto ended = exported({"out", "--to", "calculix"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  const double mu = bench.result("out")["runs"][0]["best"]["parameters"]["mu"]["value"];
+  EXPECT_THAT(unwrapped(ended.out),
+              AllOf(HasSubstr("run 'wall/lm'"), HasSubstr("type neo_hooke"), HasSubstr("sha256:"),
+                    HasSubstr("% interval"), HasSubstr("Fitted range of test 'circ': stretch 1.02 to 1.4"),
+                    HasSubstr("Stability: "), HasSubstr("Units: mm, N, MPa, s.")));
+  const std::string date = bench.result("out")["provenance"]["date"];
+  EXPECT_THAT(ended.out, Not(HasSubstr(date.substr(0, 10))));
+  const auto at = ended.out.find("*HYPERELASTIC, NEO HOOKE\n");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NEAR(std::stod(ended.out.substr(at + 25)), 0.5e-3 * mu, 1e-11 * mu);
+  EXPECT_EQ(exported({"out/result.json", "--to", "calculix", "-o", "card.inp"}).out, "card.inp\n");
+  EXPECT_EQ(bench.text("card.inp"), ended.out) << "the same every time, by folder or by file";
+  EXPECT_THAT(refused({"out", "--to", "calculix", "-o", "card.inp"}), HasSubstr("is there already; name a new file"));
+}
+
+TEST_F(Export, SaysWhatItCannotUse) {
+  fit({{"type", "gho"}, {"parameters", {{"kappa", {{"fixed", 0.1}}}}}});
+  EXPECT_THAT(refused({"out", "--to", "calculix"}), HasSubstr("CalculiX cannot express the model 'gho'"));
+  EXPECT_THAT(refused({"out", "--to", "nastran"}), HasSubstr("there are no cards for 'nastran'"));
+  EXPECT_THAT(refused({"out", "--to", "abaqus", "--units", "mm-N-kPa"}), HasSubstr("they are not consistent"));
+  EXPECT_THAT(refused({"out", "--to", "abaqus", "--run", "wall/ml"}), HasSubstr("Did you mean 'wall/lm'?"));
+  EXPECT_THAT(refused({"out", "--to", "abaqus", "--model", "wal"}), HasSubstr("Did you mean 'wall'?"));
+  EXPECT_THAT(refused({"nowhere", "--to", "abaqus"}), HasSubstr("nowhere: no such folder"));
+  std::filesystem::create_directory(bench.path("empty"));
+  EXPECT_THAT(refused({"empty", "--to", "abaqus"}), HasSubstr("there is no result.json"));
+}
+
+TEST_F(Export, RefusesAModelThatAMechanismChanges) {
+  fit({{"type", "neo_hooke"}, {"mechanisms", {{{"type", "chain_extensibility"}}}}});
+  EXPECT_THAT(refused({"out", "--to", "abaqus"}),
+              HasSubstr("the mechanism 'chain_extensibility' changes the model 'wall', and no card has it"));
+}

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "data/cycles.hpp"
+#include "data/strip.hpp"
+#include "data/table_place.hpp"
+
+/// Data as testing machines write them: tables below other lines, units in a row of their own, force and displacement,
+/// cycles.
+namespace tunica::data {
+namespace {
+
+using testing::Mapping;
+using testing::read_strip;
+using testing::strip_refusal;
+
+const Mapping by_force = {{"displacement", "Way"}, {"force", "Force"}};
+
+DataRequest strip_of(double width, double thickness, double gauge_length) {
+  DataRequest request;
+  request.specimen.all.width = width;
+  request.specimen.thickness = thickness;
+  request.specimen.all.gauge_length = gauge_length;
+  request.stress_measure = "first_piola_kirchhoff";
+  return request;
+}
+
+/// 0 → 5 → 0 mm, `cycles` times in steps of 0.5 mm, then 0 → 5 mm; the force of cycle k is (10 + k)·way.
+std::string preconditioned(int cycles) {
+  std::string text = "Way [mm],Force [mN]\n";
+  for (int cycle = 1; cycle <= cycles + 1; ++cycle) {
+    const int rows = cycle > cycles ? 10 : 19;
+    for (int row = 0; row <= rows; ++row) {
+      const double way = 0.5 * (row <= 10 ? row : 20 - row);
+      text += fmt::format("{},{}\n", way, (10 + cycle) * way);
+    }
+  }
+  return text;
+}
+
+TEST(TablePlace, IsTheFirstLineOfAPlainTable) {
+  const auto place = find_table("# c\nstretch,stress\n1,2\n1.1,3\n1.2,4\n", {});
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->header, 2u);
+  EXPECT_EQ(place->first_row, 3u);
+  EXPECT_EQ(place->delimiter, ',');
+}
+
+TEST(TablePlace, LiesBelowLinesThatAreTablesTooButShorter) {
+  const auto place = find_table(
+      "Specimen;A\nWidth;26,9\nThickness;1,4\nLength;12,5\n\nTime;Way;Force\ns;mm;N\n0,0;0,0;0,1\n0,1;0,2;0,3\n0,2;0,4;"
+      "0,"
+      "5\n0,3;0,6;0,7\n",
+      {});
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->header, 6u);
+  EXPECT_EQ(place->first_row, 8u);
+  EXPECT_EQ(place->delimiter, ';');
+}
+
+TEST(TablePlace, ToleratesTextEmptyCellsAndLostRows) {
+  const auto place = find_table("operator,x\nset,way,force\na,0,\na,1,n/a\nb,2,3\nb,,4\nb,3,5\nb,4,6\n", {});
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->header, 2u);
+}
+
+TEST(TablePlace, OfRowsWithoutNamesHasNoHeader) {
+  const auto place = find_table("0 0.5\n1 0.6\n2 0.8\n", {});
+  ASSERT_TRUE(place);
+  EXPECT_FALSE(place->header);
+  EXPECT_EQ(place->delimiter, ' ');
+  EXPECT_FALSE(find_table("a,b\n1,2\n", {})) << "two lines say nothing";
+}
+
+TEST(Cycles, EndAtTurningPoints) {
+  const std::vector<double> path = {0, 1, 2, 1, 0, 0, 1, 2, 2, 1, 0, 1, 2};
+  const auto branches = branches_of(path, 0);
+  ASSERT_EQ(branches.size(), 5u);
+  const std::size_t first[] = {0, 3, 5, 8, 10}, last[] = {3, 5, 8, 10, 13}, cycle[] = {1, 1, 2, 2, 3};
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(branches[k].first, first[k]) << k;
+    EXPECT_EQ(branches[k].last, last[k]) << k;
+    EXPECT_EQ(branches[k].cycle, cycle[k]) << k;
+    EXPECT_EQ(branches[k].loading, k % 2 == 0) << k;
+  }
+  EXPECT_EQ(returns_in(path, branches), 2u);
+}
+
+TEST(Cycles, OfCompressionLoadDownwards) {
+  const std::vector<double> path = {1, 0.9, 0.8, 0.9, 1, 0.9, 0.8};
+  const auto branches = branches_of(path, 1);
+  ASSERT_EQ(branches.size(), 3u);
+  EXPECT_TRUE(branches[0].loading);
+  EXPECT_EQ(branches[0].last, 3u);
+  EXPECT_EQ(cycles_in(branches), 2u);
+}
+
+TEST(Cycles, AreNotMadeByNoise) {
+  std::vector<double> path;
+  for (int row = 0; row < 200; ++row) path.push_back(row + (row % 2 == 0 ? 3.0 : -3.0));  // 3 % of the range to and fro
+  EXPECT_EQ(branches_of(path, 0).size(), 1u);
+}
+
+TEST(RigData, GivesStretchAndNominalStressFromForceAndDisplacement) {
+  const Dataset strip = read_strip("Way [mm],Force [N]\n0,0\n0.5,1\n1,3\n", by_force, strip_of(4, 0.5, 10));
+  EXPECT_EQ(strip.abscissae[0].first, "stretch");
+  EXPECT_EQ(strip.channels[0].observable, "stress");
+  const double stretch[] = {1, 1.05, 1.1}, stress[] = {0, 500, 1500};  // 1 N / 2 mm² = 500 kPa
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_NEAR(strip.abscissae[0].second[row], stretch[row], 1e-15);
+    EXPECT_NEAR(strip.channels[0].values[row], stress[row], 1e-12);
+  }
+  EXPECT_EQ(strip.source_columns[1].second, (std::pair<std::string, std::string>{"stress", ""}));
+}
+
+TEST(RigData, GivesTheStressMeasureOfTheTest) {
+  DataRequest request = strip_of(4, 0.5, 10);
+  const auto last_stress = [&](const char* measure) {
+    request.stress_measure = measure;
+    return read_strip("Way [mm],Force [N]\n0,0\n0.5,1\n2,3\n", by_force, request).channels[0].values[2];
+  };
+  EXPECT_NEAR(last_stress("cauchy"), 1500 * 1.2, 1e-10);
+  EXPECT_NEAR(last_stress("second_piola_kirchhoff"), 1500 / 1.2, 1e-10);
+}
+
+TEST(RigData, KnowsLengthStrainAreaAndGramsOfABalance) {
+  DataRequest request;
+  request.specimen.area = 2;
+  request.specimen.all.gauge_length = 20;
+  request.stress_measure = "first_piola_kirchhoff";
+  const Dataset length =
+      read_strip("Size [mm],Balance [g]\n20,0\n24,100\n", {{"length", "Size"}, {"force", "Balance"}}, request);
+  EXPECT_DOUBLE_EQ(length.abscissae[0].second[1], 1.2);
+  EXPECT_NEAR(length.channels[0].values[1], 980.665 / 2, 1e-10);
+  const Dataset strain =
+      read_strip("Strain [%],Force [mN]\n0,0\n20,100\n", {{"strain", "Strain"}, {"force", "Force"}}, request);
+  EXPECT_DOUBLE_EQ(strain.abscissae[0].second[1], 1.2);
+}
+
+TEST(RigData, ReadsARowOfUnitsHeaderLinesAndDecimalCommas) {
+  const Dataset strip = read_strip(
+      "Machine;7\nOperator;M\nWidth;4,0\nThickness;0,5\n\nLength;10,0\nWay;Force;Remark\n(mm);(N);\n0,0;0,0;\n0,5;1,0;"
+      "x\n1,"
+      "0;3,0;\n",
+      by_force, strip_of(4, 0.5, 10));
+  EXPECT_EQ(strip.lines, (std::vector<std::size_t>{9, 10, 11}));
+  EXPECT_NEAR(strip.channels[0].values[2], 1500, 1e-10);
+  EXPECT_TRUE(strip.warnings.empty());
+}
+
+TEST(RigData, ObeysALayoutThatIsStated) {
+  DataRequest request = strip_of(4, 0.5, 10);
+  request.layout.skip_lines = 2;
+  request.layout.delimiter = ';';
+  request.layout.decimal = ',';
+  request.layout.units = {{"Way", "um"}, {"Force", "N"}};
+  const Dataset strip = read_strip("x;y\n1;2\nWay;Force\n0;0\n500;1,5\n", by_force, request);
+  EXPECT_NEAR(strip.abscissae[0].second[1], 1.05, 1e-15);
+  EXPECT_NEAR(strip.channels[0].values[1], 750, 1e-10);
+  request.layout.skip_lines = 50;
+  EXPECT_EQ(strip_refusal("x;y\n1;2\nWay;Force\n0;0\n", by_force, request),
+            "strip.csv: \"skip_lines\" is 50, and no table follows. The file has 4 lines; correct it.");
+}
+
+TEST(RigData, TakesColumnsByTheirNumber) {
+  DataRequest request;
+  request.layout.by_position = true;
+  const Mapping columns = {{"stretch", "#1"}, {"stress", "#3"}};
+  EXPECT_EQ(read_strip("1 7 0\n1.1 8 2.5\n1.2 9 5\n", columns, request).channels[0].values,
+            (std::vector<double>{0, 2.5, 5}));
+  EXPECT_EQ(read_strip("a,b,c\n1,7,0\n1.1,8,2.5\n", columns).channels[0].values, (std::vector<double>{0, 2.5}));
+  EXPECT_EQ(strip_refusal("a,b\n1,7\n1.1,8\n", columns),
+            "strip.csv, line 1: there is no column 3, the table has 2. Give a number that is there.");
+}
+
+TEST(RigData, MatchesAnyOfSeveralValues) {
+  DataRequest request;
+  request.where = {{"set", "a"}, {"set", "c"}, {"side", "left"}};
+  EXPECT_EQ(
+      read_strip("set,side,stretch,stress [kPa]\na,left,1,0\nb,left,1.1,1\nc,left,1.2,2\nc,right,1.3,3\n", {}, request)
+          .channels[0]
+          .values,
+      (std::vector<double>{0, 2}));
+  request.where.emplace_back("set", "d");
+  EXPECT_NE(strip_refusal("set,side,stretch,stress [kPa]\na,left,1,0\nc,left,1.2,2\n", {}, request)
+                .find("no row left has the value 'd'"),
+            std::string::npos);
+}
+
+TEST(RigData, CountsRowsFromTheEnd) {
+  DataRequest request;
+  request.rows = {-2, {}, 1};
+  const char* const text = "stretch,stress [kPa]\n1,0\n1.1,1\n1.2,2\n1.3,3\n";
+  EXPECT_EQ(read_strip(text, {}, request).channels[0].values, (std::vector<double>{2, 3}));
+  request.rows = {-50, -3, 1};
+  EXPECT_EQ(read_strip(text, {}, request).channels[0].values, (std::vector<double>{0}));
+}
+
+TEST(RigData, WarnsFirstOfCyclesReadAsOneCurve) {
+  const Dataset strip = read_strip(preconditioned(5), by_force, strip_of(1, 1, 10));
+  ASSERT_FALSE(strip.warnings.empty());
+  EXPECT_EQ(
+      strip.warnings.front(),
+      "strip.csv, line 1, column 1 ('Way'): the rows go through 6 cycles of 'stretch' and are read as one curve. "
+      "Choose some with \"cycle\" (\"last\", a number or a list), or say with \"cycle\": \"all\" that they are the "
+      "history of loading.");
+  DataRequest request = strip_of(1, 1, 10);
+  request.cycle = CycleChoice{};
+  const Dataset all = read_strip(preconditioned(5), by_force, request);
+  EXPECT_TRUE(all.warnings.empty());
+  EXPECT_TRUE(all.ordered);
+  EXPECT_EQ(all.count, strip.count);
+}
+
+TEST(RigData, TakesTheLastCycleAListOfThemAndBranches) {
+  DataRequest request = strip_of(1, 1, 10);
+  request.cycle = CycleChoice{true, {}};
+  const Dataset last = read_strip(preconditioned(5), by_force, request);
+  ASSERT_EQ(last.count, 11u);
+  EXPECT_EQ(last.channels[0].values.front(), 0);
+  EXPECT_DOUBLE_EQ(last.channels[0].values.back(), 16 * 5);
+  request.cycle = CycleChoice{false, {2, 3}};
+  request.branch = BranchChoice::unloading;
+  const Dataset back = read_strip(preconditioned(5), by_force, request);
+  ASSERT_EQ(back.count, 18u);  // from below the peak to above the valley
+  EXPECT_DOUBLE_EQ(back.channels[0].values.front(), 12 * 4.5);
+  request.cycle = CycleChoice{true, {}};
+  EXPECT_DOUBLE_EQ(read_strip(preconditioned(5), by_force, request).channels[0].values.front(), 15 * 4.5)
+      << "the last unloading is that of cycle 5";
+  request.cycle = CycleChoice{false, {7}};
+  EXPECT_EQ(
+      strip_refusal(preconditioned(5), by_force, request),
+      "strip.csv, line 1, column 1 ('Way'): there is no cycle 7. Cycles found from the turning points: 1, 2, 3, 4, "
+      "5, 6.");
+}
+
+TEST(RigData, TakesCyclesFromAColumn) {
+  DataRequest request = strip_of(1, 1, 10);
+  request.cycle = CycleChoice{true, {}};
+  request.cycles_from = "Cycle";
+  request.branch = BranchChoice::loading;
+  const Dataset strip = read_strip(
+      "Cycle,Way [mm],Force "
+      "[mN]\n1-Stretch,0,0\n1-Stretch,5,50\n1-Recover,0,1\n2-Stretch,0,2\n2-Stretch,5,40\n2-Recover,0,"
+      "1\n",
+      by_force, request);
+  EXPECT_EQ(strip.channels[0].values, (std::vector<double>{2, 40}));
+  EXPECT_NE(strip_refusal("Cycle,Way [mm],Force [mN]\n1,0,0\nend,5,50\n", by_force, request)
+                .find("line 3, column 1 ('Cycle'): found 'end' where the number of a cycle is expected"),
+            std::string::npos);
+}
+
+TEST(RigData, BeginsATimeWithThePartThatIsUsed) {
+  DataRequest request = strip_of(1, 1, 10);
+  request.cycle = CycleChoice{true, {}};
+  Mapping columns = by_force;
+  columns.emplace_back("time", "t");
+  const Dataset strip = read_strip("t [s],Way [mm],Force [mN]\n0,0,0\n1,5,50\n2,0,0\n3,5,40\n", columns, request);
+  EXPECT_EQ(strip.time, (std::vector<double>{0, 1}));
+}
+
+TEST(RigData, TrimsTheToeAtAPreloadAndTakesTheGaugeLengthThere) {
+  const char* const text = "Size [mm],Force [mN]\n10,0\n11,0\n12,20\n13,60\n14,100\n13,60\n12,20\n11,0\n";
+  const Mapping columns = {{"length", "Size"}, {"force", "Force"}};
+  DataRequest request = strip_of(1, 1, 10);
+  request.preload = Preload{40, true};
+  const Dataset trimmed = read_strip(text, columns, request);
+  EXPECT_EQ(trimmed.channels[0].values, (std::vector<double>{60, 100, 60}));
+  EXPECT_DOUBLE_EQ(trimmed.abscissae[0].second[0], 1.3);
+  request.specimen.all.gauge_length.reset();
+  request.specimen.gauge_at_preload = true;
+  EXPECT_DOUBLE_EQ(read_strip(text, columns, request).abscissae[0].second[0], 13 / 12.5);
+  request.preload = Preload{400, true};
+  EXPECT_EQ(strip_refusal(text, columns, request),
+            "strip.csv, line 1, column 2 ('Force'): the preload of 400 mN is not reached; the values lie between 0 and "
+            "100. Correct \"preload\", or leave it out.");
+}
+
+TEST(RigData, ShiftsADisplacementToThePreload) {
+  DataRequest request = strip_of(1, 1, 0);
+  request.specimen.all.gauge_length.reset();
+  request.specimen.gauge_at_preload = true;
+  request.specimen.all.grip_distance = 9;
+  request.preload = Preload{40, true};
+  const Dataset strip = read_strip("Way [mm],Force [mN]\n0,0\n1,0\n2,80\n3,120\n", by_force, request);
+  ASSERT_EQ(strip.count, 2u);
+  EXPECT_DOUBLE_EQ(strip.abscissae[0].second[0], 11 / 10.5);  // 9 + 1.5 mm at 40 mN
+}
+
+TEST(RigData, NamesWhatIsMissing) {
+  DataRequest request = strip_of(1, 1, 10);
+  request.specimen.thickness.reset();
+  EXPECT_EQ(strip_refusal("Way [mm],Force [N]\n0,0\n1,1\n", by_force, request),
+            "strip.csv, line 1, column 2 ('Force'): 'force' needs the size \"thickness\" of the specimen. Add it to "
+            "\"specimen\".");
+  EXPECT_NE(strip_refusal("Way [mm],Force [mm]\n0,0\n1,1\n", by_force, strip_of(1, 1, 10))
+                .find("The quantity 'force' is in mN: correct the unit in the header."),
+            std::string::npos);
+  request = strip_of(1, 1, 10);
+  request.preload = Preload{1, false};
+  EXPECT_NE(strip_refusal("Way [mm],Force [N]\n0,0\n1,1\n", by_force, request).find("the preload is a stress"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace tunica::data
