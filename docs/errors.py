@@ -29,6 +29,7 @@ SUBJECTS = [
     ("Units", "", ["core/src/data/units"]),
     ("Data files", "Each message names the file, and the line and column where there is one.", ["core/src/data/"]),
     ("Material cards", "What `tunica export` refuses.", ["core/src/cards/"]),
+    ("Serving a run", "Answers of `tunica serve`, beside what fails in an evaluation.", ["core/src/serving/"]),
     ("Setting up a calibration", "Found when models, tests and data are put together, before anything is evaluated.",
      ["core/src/assembly/binding", "core/src/assembly/builder", "core/src/assembly/channels",
       "core/src/assembly/composition", "core/src/assembly/constraint.", "core/src/assembly/noise",

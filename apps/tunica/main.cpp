@@ -67,6 +67,9 @@ int run(int argc, char** argv) {
        {add_run, add_diagnose, add_report, add_export, add_certify, add_import, add_check, add_simulate, add_stability,
         add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
     add(app, global, action);
+#ifdef TUNICA_SERVES
+  add_serve(app, global, action);
+#endif
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -54,9 +54,9 @@ Analysis analysed(const Measured& measured) {
 /// A bend that no parameter of the wall follows, 20 σ high.
 double bend(const Strip& strip, double stretch) { return strip.name == "axial" ? 6 * std::sin(9 * stretch) : 0; }
 
-// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5. Where the
-// noise is white, half of it at the largest value is taken for growing where the likelihood gains about 2 ln 2, one-sided
-// 12 % of the data sets, and 5 % more for one observable; more than 15 of 40: 5e-4.
+// Seeds 1 … 40; the mean over two channels of σ̂²/σ² has a standard deviation of √(2/(ν·80)); four of them: 6e-5. Where
+// the noise is white, half of it at the largest value is taken for growing where the likelihood gains about 2 ln 2,
+// one-sided 12 % of the data sets, and 5 % more for one observable; more than 15 of 40: 5e-4.
 TEST(EncompassingNoise, IsUnbiasedBesideAMisfitOfManyTimesTheNoise) {
   double sum = 0, freedom = 0;
   int growing = 0;

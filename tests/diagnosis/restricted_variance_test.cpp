@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "assembly/growing_noise.hpp"
 #include "assembly/restricted_variance.hpp"
 
 #include <cmath>
@@ -7,6 +6,8 @@
 
 #include <Eigen/QR>
 #include <gmock/gmock.h>
+
+#include "assembly/growing_noise.hpp"
 
 namespace tunica::assembly {
 namespace {

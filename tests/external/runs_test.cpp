@@ -15,7 +15,6 @@ TEST(External, ParametersAreFoundThroughAProgramOfFiles) {
   ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
   EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-3);
   EXPECT_NEAR(bench.parameter("Jm"), 12, 12 * 1e-3);
-  EXPECT_LE(bench.result()["jacobians"], 12);
   EXPECT_GT(bench.solver_runs(), 0U);
   EXPECT_THAT(ended.out, HasSubstr("solver runs"));
   EXPECT_TRUE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
@@ -45,14 +44,11 @@ TEST(External, ResultsDoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(External, AKilledRunCostsOneEvaluation) {
-  // The seventh run kills itself, as the system would that is short of memory.
-  trial::SolverBench bench(310, 12, R"(
-runs = "FOLDER/runs"
-open(runs, "a").write("x")
-if os.path.getsize(runs) == 7: os.kill(os.getpid(), signal.SIGKILL))");
-  std::string program = trial::text_of(bench.folder.path() / "gent.py");
-  program.replace(program.find("FOLDER"), 6, bench.folder.path().string());
-  bench.folder.write("gent.py", program);
+  // The seventh run is killed, as the system does where memory is short.
+  const trial::Folder counted;
+  trial::SolverBench bench(310, 12,
+                           "echo >> " + (counted.path() / "runs").string() + "\n[ $(wc -l < " +
+                               (counted.path() / "runs").string() + ") = 7 ] && kill -9 $$");
   const auto ended = bench.run();
   ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
   EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-3);
@@ -61,7 +57,7 @@ if os.path.getsize(runs) == 7: os.kill(os.getpid(), signal.SIGKILL))");
 }
 
 TEST(External, AProgramThatHangsIsEndedAtItsLimit) {
-  trial::SolverBench bench(310, 12, "print('begun', flush=True); time.sleep(60)");
+  trial::SolverBench bench(310, 12, "echo begun; sleep 60");
   bench.test["time_limit"] = "0.5 s";
   bench.experiment["stop"]["max_evaluations"] = 1;
   const auto begun = std::chrono::steady_clock::now();
@@ -73,7 +69,7 @@ TEST(External, AProgramThatHangsIsEndedAtItsLimit) {
 }
 
 TEST(External, AFailureShowsTheLastLinesAndKeepsTheFolder) {
-  trial::SolverBench bench(310, 12, "print('matrix is singular'); sys.exit(3)");
+  trial::SolverBench bench(310, 12, "echo matrix is singular; exit 3");
   bench.experiment["stop"]["max_evaluations"] = 1;
   EXPECT_NE(bench.run().code, 0);
   const std::string reason = bench.result()["first_failure"];
@@ -82,7 +78,7 @@ TEST(External, AFailureShowsTheLastLinesAndKeepsTheFolder) {
 }
 
 TEST(External, MissingResultsAreAFailedEvaluation) {
-  trial::SolverBench bench(310, 12, "print('nothing to do'); sys.exit(0)");
+  trial::SolverBench bench(310, 12, "echo nothing to do; exit 0");
   bench.experiment["stop"]["max_evaluations"] = 1;
   EXPECT_NE(bench.run().code, 0);
   EXPECT_THAT(

@@ -141,7 +141,9 @@ void Builder::compose() {
     slots_.push_back(std::move(model.slots));
   }
   for (const std::string& name : run_.tests) {
-    composed_.push_back(compose_test(experiment_.test(name), catalogue_));
+    const experiment::TestEntry& entry = experiment_.test(name);
+    composed_.push_back(
+        compose_test(entry, catalogue_, entry.layers.empty() ? &experiment_.model(names.front()) : nullptr));
     slots_.push_back(composed_.back().slots);
   }
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cards/card.hpp"
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "plugins/guarded.hpp"
@@ -122,6 +123,27 @@ void refuse_other_tests(const experiment::TestEntry& entry, const Layer& layer, 
                   owner, layer.entry->type, entry.type, fmt::join(applies_to, ", ")));
 }
 
+/// TestSetup::card for a model of the experiment.
+auto card_writer(const experiment::ModelEntry& entry) {
+  std::string mechanisms;
+  for (const MechanismEntry& mechanism : entry.mechanisms)
+    mechanisms += (mechanisms.empty() ? "" : ", ") + mechanism.name();
+  cards::Material material{entry.type, {}};
+  if (entry.options.has("fibre_switch")) material.fibre_switch = entry.options.text("fibre_switch");
+  return [material, mechanisms](const Model& model, std::span<const double> values, const CardRequest& request) {
+    if (!mechanisms.empty())
+      throw InputError(
+          fmt::format("the model has mechanisms, {}, and no material card has them; take them out, or "
+                      "write its parameters by name",
+                      mechanisms));
+    cards::Material filled = material;
+    const auto& parameters = model.describe().parameters;
+    for (std::size_t j = 0; j < parameters.size(); ++j) filled.values[parameters[j].name] = values[j];
+    return cards::write_card(cards::target_of(request.program), filled,
+                             {.name = request.material, .units = cards::unit_system(request.units)});
+  };
+}
+
 /// What mechanisms that stand for native imperfections say of the test's options. A default says nothing against what
 /// the test's own entry says.
 void override_options(Options& options, const std::vector<Option>& of_test, const std::vector<Layer>& mechanisms) {
@@ -176,7 +198,8 @@ ComposedModel compose_model(const experiment::ModelEntry& entry, const plugins::
   return composed;
 }
 
-ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue) {
+ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue,
+                          const experiment::ModelEntry* model) {
   const std::string owner = fmt::format("test '{}'", entry.name), prefix = entry.name + ".";
   const auto& on_shelf = look_up(catalogue.tests(), entry.type, "test type");
   ComposedTest composed{{}, on_shelf.plugin, {}, {}};
@@ -188,6 +211,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     override_options(setup.options, on_shelf.factory.options, mechanisms);
     for (const experiment::LayerEntry& one : entry.layers) setup.layers.push_back(one.thickness);
     setup.folder = entry.folder.string();
+    if (model != nullptr) setup.card = card_writer(*model);
     setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {

@@ -32,6 +32,8 @@ struct ComposedTest {
   std::vector<Slot> slots;
   data::Dataset dataset;
 };
-ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue);
+/// `model` is what the test writes material cards of; nullptr = it can write none.
+ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Catalogue& catalogue,
+                          const experiment::ModelEntry* model = nullptr);
 
 }  // namespace tunica::assembly

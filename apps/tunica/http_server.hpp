@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tunica::app {
+
+/// What an HTTP server answers: JSON with a status.
+struct HttpReply {
+  int status = 200;
+  std::string json;
+};
+
+/// Where it listens and what it is asked.
+struct HttpService {
+  std::string host;
+  int port = 0;                          ///< 0 = any that is free
+  std::vector<std::string> got, posted;  ///< paths asked with GET, with POST
+  std::function<HttpReply(const std::string& path, const std::string& body)> answer;  ///< from several threads
+  std::function<void(int port)> listening;  ///< called once, when it can be asked
+  std::function<bool()> over;               ///< asked again and again; true ends it
+};
+
+/// Answers until `over`. Throws InputError where it cannot listen there. It stands apart because the library's header
+/// defines macros that Eigen cannot be read behind.
+void serve_http(const HttpService& service);
+
+}  // namespace tunica::app

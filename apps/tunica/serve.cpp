@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/nearest.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/plan.hpp"
+#include "exit_codes.hpp"
+#include "http_server.hpp"
+#include "serving/um_bridge.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct ServeOptions {
+  std::string file, run, host = "127.0.0.1";
+  int port = 4242;
+};
+
+const execution::PlannedRun& chosen(const execution::Plan& plan, const std::string& label) {
+  if (plan.runs.empty()) throw InputError("the experiment has no runs, so there is nothing to serve");
+  if (label.empty()) return plan.runs.front();
+  std::vector<std::string> labels;
+  for (const auto& run : plan.runs) {
+    if (run.label == label) return run;
+    labels.push_back(run.label);
+  }
+  throw InputError(fmt::format("--run: there is no run '{}'. {}", label, data::suggestion(label, labels)));
+}
+
+int serve(const GlobalOptions& global, const ServeOptions& options) {
+  const Session session(global);
+  const auto experiment = session.read(options.file);
+  const auto plan = execution::make_plan(experiment, session.catalogue());
+  const auto& run = chosen(plan, options.run);
+  const serving::ServedRun served(*run.assembly);
+  const execution::InterruptWatch interrupts;
+  HttpService service;
+  service.host = options.host;
+  service.port = options.port;
+  service.got = {"/Info"};
+  service.posted = serving::posted_paths();
+  service.answer = [&served](const std::string& path, const std::string& body) -> HttpReply {
+    serving::Answer answer = serving::answer(served, path, body);
+    return {answer.status, std::move(answer.body)};
+  };
+  service.listening = [&](int port) {
+    std::vector<std::string> names;
+    for (const auto& parameter : served.layout().parameters) names.push_back(parameter.name);
+    fmt::print("http://{}:{}\n", options.host, port);
+    std::fflush(stdout);
+    fmt::print(stderr, "{}: objective, residuals and predictions of {}; Ctrl-C ends it\n", run.label,
+               fmt::join(names, ", "));
+  };
+  service.over = [] { return execution::InterruptWatch::interrupted(); };
+  serve_http(service);
+  return done;
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<ServeOptions>();
+  auto* verb =
+      app.add_subcommand("serve", "Answer questions about a run by HTTP (UM-Bridge), for programs of your own");
+  verb->add_option("experiment", options->file, "Experiment file")->required()->type_name("EXP");
+  verb->add_option("--run", options->run, "Run of the experiment: MODEL/OPTIMIZER (default: the first)")
+      ->type_name("RUN");
+  verb->add_option("--port", options->port, "Port; 0 = any that is free (default: 4242)")
+      ->check(CLI::Range(0, 65535))
+      ->type_name("N");
+  verb->add_option("--host", options->host, "Address to listen on (default: 127.0.0.1, this machine only)")
+      ->type_name("ADDRESS");
+  verb->footer(
+      "Examples:\n"
+      "  tunica serve experiment.json\n"
+      "  tunica serve experiment.json --run gho/lm --port 0");
+  verb->callback([&global, &action, options] { action = [&global, options] { return serve(global, *options); }; });
+}
+
+}  // namespace tunica::app

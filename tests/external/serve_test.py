@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""serve_test.py TUNICA PLUGINS: `tunica serve` and the test type um_bridge, in the protocol UM-Bridge 1.0.
+
+A strip of neo-Hookean rubber, sigma = mu (l^2 - 1/l), is the oracle: predictions and Jacobian are known. Then a fit
+through the client is held against the direct one, and a server of Python's own, without derivatives, is fitted too."""
+import http.server
+import json
+import math
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import urllib.error
+import urllib.request
+
+tunica, plugins = sys.argv[1:3]
+folder = pathlib.Path(tempfile.mkdtemp(prefix="tunica-serve-"))
+stretches = [1 + 0.05 * k for k in range(1, 21)]
+# A ripple, so that the fit is not perfect.
+stresses = [30 * (s * s - 1 / s) + 0.3 * math.sin(9 * s) for s in stretches]
+(folder / "strip.csv").write_text("stretch,stress [kPa]\n" + "".join(f"{a!r},{b!r}\n" for a, b in zip(stretches, stresses)))
+
+
+def run(*arguments):
+    return subprocess.run([tunica, "--plugin-path", plugins, *arguments], cwd=folder, capture_output=True, text=True,
+                          timeout=120)
+
+
+def write(name, test, **model):
+    experiment = {
+        "format": 1, "name": name, "seed": 3,
+        "models": {"neo": {"type": "neo_hooke", "parameters": {"mu": {"min": 1, "max": 500, **model}}}},
+        "tests": {"strip": test}, "objective": "least_squares",
+        "optimizers": {"lm": {"type": "ceres_lm", "starts": 1}}, "stop": {"max_evaluations": 60},
+        "runs": [{"model": "neo", "optimizer": "lm"}]}
+    (folder / f"{name}.json").write_text(json.dumps(experiment))
+
+
+def best(name):
+    found = run("run", f"{name}.json", "-o", name)
+    assert found.returncode == 0, found.stderr + found.stdout
+    result = json.loads((folder / name / "result.json").read_text())["runs"][0]
+    return result["best"]["parameters"]["mu"]["value"], result["best"]["objective"], result
+
+
+def close(a, b, tolerance):
+    assert abs(a - b) <= tolerance * max(abs(a), abs(b)), f"{a!r} is not {b!r} within {tolerance}"
+
+
+data = {"file": "strip.csv", "columns": {"stretch": "stretch", "stress": "stress"}, "stress_measure": "cauchy",
+        "noise": {"absolute": "0.2 kPa"}}
+write("direct", {"type": "uniaxial", "direction": "axial", "data": data})
+mu, objective, _ = best("direct")
+
+server = subprocess.Popen([tunica, "--plugin-path", plugins, "serve", "direct.json", "--port", "0"], cwd=folder,
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+try:
+    url = server.stdout.readline().strip()
+    port = int(url.rsplit(":", 1)[1])
+    assert url.startswith("http://127.0.0.1:"), url
+
+    def ask(path, request=None, expected=200):
+        body = None if request is None else (request if isinstance(request, bytes) else json.dumps(request).encode())
+        try:
+            with urllib.request.urlopen(urllib.request.Request(url + path, body), timeout=20) as answer:
+                code, text = answer.status, answer.read()
+        except urllib.error.HTTPError as problem:
+            code, text = problem.code, problem.read()
+        assert code == expected, (path, code, text)
+        return json.loads(text)
+
+    assert ask("/Info") == {"protocolVersion": 1.0, "models": ["objective", "residuals", "predictions"]}
+    assert ask("/InputSizes", {"name": "objective", "config": {}}) == {"inputSizes": [1]}
+    assert ask("/OutputSizes", {"name": "predictions"}) == {"outputSizes": [20]}
+    assert ask("/OutputSizes", {"name": "residuals"}) == {"outputSizes": [20]}
+    info = ask("/ModelInfo", {"name": "objective"})
+    assert info["support"] == {"Evaluate": True, "Gradient": True, "ApplyJacobian": True, "ApplyHessian": False}
+    assert info["parameters"][0]["name"] == "mu" and info["parameters"][0]["unit"] == "kPa"
+
+    # The objective where the search ended; predictions, residuals and their derivatives by the closed form.
+    close(ask("/Evaluate", {"name": "objective", "input": [[mu]], "config": {}})["output"][0][0], objective, 1e-12)
+    for trial in (12.5, 30.0, 441.0):
+        point = {"input": [[trial]], "outWrt": 0, "inWrt": 0}
+        values = ask("/Evaluate", {"name": "predictions", **point})["output"][0]
+        slopes = ask("/ApplyJacobian", {"name": "predictions", "vec": [1], **point})["output"]
+        residuals = ask("/Evaluate", {"name": "residuals", **point})["output"][0]
+        for k, s in enumerate(stretches):
+            close(values[k], trial * (s * s - 1 / s), 1e-12)
+            close(slopes[k], s * s - 1 / s, 1e-12)
+            assert abs(residuals[k] - (trial * (s * s - 1 / s) - stresses[k]) / 0.2) < 1e-9
+        squares = sum(value * value for value in residuals)
+        close(ask("/Evaluate", {"name": "objective", **point})["output"][0][0], squares, 1e-12)
+        exact = sum(2 * r * (s * s - 1 / s) / 0.2 for r, s in zip(residuals, stretches))
+        close(ask("/Gradient", {"name": "objective", "sens": [1], **point})["output"][0], exact, 1e-12)
+        close(ask("/ApplyJacobian", {"name": "objective", "vec": [2], **point})["output"][0], 2 * exact, 1e-12)
+        close(ask("/Gradient", {"name": "residuals", "sens": [2 * r for r in residuals], **point})["output"][0], exact,
+              1e-12)
+
+    # Errors are answers with type and message.
+    def refusal(path, request):
+        return ask(path, request, 400)["error"]
+    assert refusal("/Evaluate", {"name": "objektive", "input": [[1]]})["type"] == "ModelNotFound"
+    assert "objective" in refusal("/Evaluate", {"name": "objektive", "input": [[1]]})["message"]
+    assert "outside its bounds" in refusal("/Evaluate", {"name": "objective", "input": [[501]]})["message"]
+    assert "1 numbers" in refusal("/Evaluate", {"name": "objective", "input": [[1, 2]]})["message"]
+    assert refusal("/Evaluate", b"{")["type"] == "InvalidInput"
+    assert refusal("/ApplyHessian", {"name": "objective"})["type"] == "UnsupportedFeature"
+    assert "outWrt" in refusal("/Gradient", {"name": "objective", "outWrt": 3, "inWrt": 0, "input": [[1]]})["message"]
+
+    # The port is taken.
+    found = run("serve", "direct.json", "--port", str(port))
+    assert found.returncode == 2 and "in use" in found.stderr, (found.returncode, found.stderr)
+    found = run("serve", "direct.json", "--run", "neo/ml")
+    assert found.returncode == 2 and "neo/lm" in found.stderr, found.stderr
+
+    # Through the client, exact derivatives included, the fit is the direct one.
+    client = {"type": "um_bridge", "url": url, "model": "predictions", "inputs": [["mu"]],
+              "outputs": {"stress": {"output": 0}}, "data": data}
+    write("client", client)
+    other, other_objective, result = best("client")
+    close(other, mu, 1e-12)
+    close(other_objective, objective, 1e-12)
+    assert result["efforts"]["strip"]["jacobian_actions"] == result["jacobians"], result["efforts"]
+    for key, value, words in (("inputs", [["mu"], ["mu"]], "1 input"), ("inputs", [["nu"]], "'nu'"),
+                              ("outputs", {}, "'stress'"), ("outputs", {"stress": {"output": 1}}, "'stress' has 20 rows"),
+                              ("model", "prediction", "predictions")):
+        write("wrong", {**client, key: value})
+        found = run("run", "wrong.json", "-o", "wrong")
+        assert found.returncode == 2 and words in found.stderr, (key, found.stderr)
+finally:
+    server.send_signal(signal.SIGINT)
+    assert server.wait(20) == 0
+
+found = run("run", "client.json", "-o", "gone")
+assert found.returncode == 2 and "did not answer" in found.stderr, found.stderr
+
+
+class Strip(http.server.BaseHTTPRequestHandler):
+    """A server as others write them: no derivatives, MPa, and one number that JSON has no way to write."""
+
+    def do_GET(self):
+        self.reply({"protocolVersion": 1.0, "models": ["forward"]})
+
+    def do_POST(self):
+        request = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+        if self.path == "/InputSizes":
+            self.reply({"inputSizes": [1]})
+        elif self.path == "/OutputSizes":
+            self.reply({"outputSizes": [3, 22]})
+        elif self.path == "/ModelInfo":
+            self.reply({"support": {"Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHessian": False}})
+        else:
+            value = request["input"][0][0]
+            curve = [value * (s * s - 1 / s) for s in stretches]
+            self.reply({"output": [[0, 0, 0], [0, 0] + curve]})
+
+    def reply(self, document):
+        text = json.dumps(document).encode()
+        self.send_response(200)
+        self.send_header("Content-Length", str(len(text)))
+        self.end_headers()
+        self.wfile.write(text)
+
+    def log_message(self, *arguments):
+        pass
+
+
+other = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Strip)
+threading.Thread(target=other.serve_forever, daemon=True).start()
+write("foreign", {"type": "um_bridge", "url": f"http://127.0.0.1:{other.server_port}", "inputs": [["mu MPa"]],
+                  "outputs": {"stress": {"output": 1, "first": 2, "unit": "MPa"}}, "data": data})
+found_mu, found_objective, result = best("foreign")
+close(found_mu, mu, 1e-6)
+close(found_objective, objective, 1e-9)
+other.shutdown()
+
+# A server that takes connections and says nothing is given up at the limit.
+with socket.socket() as silent:
+    silent.bind(("127.0.0.1", 0))
+    silent.listen()
+    write("silent", {"type": "um_bridge", "url": f"http://127.0.0.1:{silent.getsockname()[1]}", "time_limit": "0.3 s",
+                     "inputs": [["mu"]], "outputs": {"stress": {}}, "data": data})
+    found = run("run", "silent.json", "-o", "silent")
+    assert found.returncode == 2 and "within 0.3 s" in found.stderr, found.stderr
+print("served, and asked")
