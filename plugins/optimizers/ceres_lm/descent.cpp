@@ -124,20 +124,20 @@ class Observer : public ceres::IterationCallback {
 };
 
 ceres::Solver::Options solver_options(int max_iterations, const Settings& settings) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.num_threads = 1;  // the host runs starts side by side
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = max_iterations;
-  options.max_num_consecutive_invalid_steps = 10;
+  ceres::Solver::Options chosen;
+  chosen.linear_solver_type = ceres::DENSE_QR;
+  chosen.num_threads = 1;  // the host runs starts side by side
+  chosen.logging_type = ceres::SILENT;
+  chosen.max_num_iterations = max_iterations;
+  chosen.max_num_consecutive_invalid_steps = 10;
   // Measured on 300 random starts of the lamb aorta: Ceres' own values (1e4 and 20) need 60 % more evaluations a
   // success, as the first, nearly undamped steps jump to the bounds and the line search along the box lingers there.
-  options.initial_trust_region_radius = 10;
-  options.max_num_line_search_step_size_iterations = 2;
-  options.function_tolerance = settings.function_tolerance;
-  options.gradient_tolerance = settings.gradient_tolerance;
-  options.parameter_tolerance = settings.parameter_tolerance;
-  return options;
+  chosen.initial_trust_region_radius = 10;
+  chosen.max_num_line_search_step_size_iterations = 2;
+  chosen.function_tolerance = settings.function_tolerance;
+  chosen.gradient_tolerance = settings.gradient_tolerance;
+  chosen.parameter_tolerance = settings.parameter_tolerance;
+  return chosen;
 }
 
 Descent::End end_of(const ceres::Solver::Summary& summary, const Problem& problem, const Descent& descent) {
@@ -195,10 +195,10 @@ Descent descend_in_box(Problem& problem, std::span<const double> x, int& iterati
     }
     if (!held.empty()) least_squares.SetManifold(point.data(), new ceres::SubsetManifold(static_cast<int>(n), held));
     Observer observer(problem, descent, held);
-    ceres::Solver::Options options = solver_options(iterations, settings);
-    options.callbacks.push_back(&observer);
+    ceres::Solver::Options chosen = solver_options(iterations, settings);
+    chosen.callbacks.push_back(&observer);
     ceres::Solver::Summary summary;
-    ceres::Solve(options, &least_squares, &summary);
+    ceres::Solve(chosen, &least_squares, &summary);
     descent.end = end_of(summary, problem, descent);
     iterations -= std::max(1, observer.iterations);
     if (descent.end != Descent::End::converged && !observer.lingers) break;
