@@ -105,7 +105,7 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
                           run.label,
                           {stage.entry->name}});
   }
-  if (run.assembly->layout().blocks.empty())
+  if (run.assembly->layout().blocks.empty() && is_measured(run.assembly->layout()))
     throw InputError(fmt::format(
         "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
   if (!random && !run.entry->random_start && run.entry->realisations > 1)
