@@ -91,9 +91,17 @@ TEST(Declarations, NameWhatIsMissing) {
   EXPECT_THAT(parameters_are_declared({good, good}).counter_example, HasSubstr("declared twice"));
 }
 
-/// Rows are made up for every built-in test, without a word about any of them in the module.
+/// Rows are made up for every built-in test, without a word about any of them in the module. A test of which something
+/// has to be known, such as the program that it runs, says that it needs an experiment.
 TEST(TestBench, MakesUpRowsForEveryTestThatIsLoaded) {
   for (const auto& [type, entry] : testing::catalogue().tests()) {
+    const auto& options = entry.factory.options;
+    if (std::any_of(options.begin(), options.end(), [](const Option& option) { return !option.fallback; })) {
+      EXPECT_THAT(trial::message_of<std::runtime_error>([&] { (void)synthetic_case(entry, 1); }),
+                  ::testing::HasSubstr("--experiment"))
+          << type;
+      continue;
+    }
     const TestCase bench = synthetic_case(entry, 1);
     ASSERT_TRUE(bench.test) << type;
     EXPECT_GE(bench.test->rows().channels.size(), 1u) << type;

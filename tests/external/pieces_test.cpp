@@ -69,6 +69,8 @@ TEST(Results, JsonAndPatterns) {
       " total force (fx,fy,fz) for set TOP and time 1.0\n\n 1.0E0 2.0E0 -4.0E+00\n";
   EXPECT_THAT(values(read(text, pattern, R"(set TOP and time [^\n]*\n\s*\S+\s+\S+\s+(\S+))")), ElementsAre(-3, -4));
   EXPECT_THAT(values(read(text, pattern, R"(set TOP and time (\S+))")), ElementsAre(0.5, 1));
+  EXPECT_THAT(values(read("a\nF = 3\nb", pattern, "^F = (\\S+)$")), ElementsAre(3));
+  EXPECT_THAT(values(read(std::string(4'000'000, 'x') + "F = 3\n", pattern, R"(^[^F]*F = (\S+))")), ElementsAre(3));
   EXPECT_THAT(problem(read(text, pattern, "F=(.)")), HasSubstr("nothing that matches"));
   EXPECT_THAT(problem(read("F=nan", pattern, "F=(\\S+)")), HasSubstr("not finite"));
 }
@@ -102,8 +104,8 @@ TEST(Curve, TwoPointsAreALineAndTurningsAreRefused) {
 TEST(Cache, KeepsInMemoryAndInAFolder) {
   const trial::Folder folder;
   const Numbers numbers{{1.0 / 3, 2}, {3}};
-  Cache(folder.path() / "a/b").keep("key", numbers);
-  EXPECT_EQ(Cache(folder.path() / "a/b").find("key"), numbers);
-  EXPECT_EQ(Cache({}).find("key"), std::nullopt);
+  Cache(folder.path() / "a/b", numbers.size()).keep("key", numbers);
+  EXPECT_EQ(Cache(folder.path() / "a/b", numbers.size()).find("key"), numbers);
+  EXPECT_EQ(Cache({}, numbers.size()).find("key"), std::nullopt);
   EXPECT_EQ(digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
 }

@@ -5,8 +5,12 @@
 #include <thread>
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "execution/folder.hpp"
+#include "external/gone.hpp"
+#include "program.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -36,14 +40,59 @@ TEST(Process, AtTheLimitTheWholeGroupIsKilled) {
   const Ending ending = run(shell(folder, "sleep 50 & echo $! > child; sleep 50", 0.3));
   EXPECT_TRUE(ending.timed_out);
   EXPECT_THAT(ending.words, HasSubstr("time limit of 0.3 s"));
-  const pid_t child = std::stoi(trial::text_of(folder.path() / "child"));
-  bool gone = false;  // the grandchild is reaped by init, some time after it was killed
-  for (int k = 0; k < 200 && !gone; ++k) {
-    gone = kill(child, 0) != 0 ||
-           trial::text_of("/proc/" + std::to_string(child) + "/stat").find(") Z") != std::string::npos;
-    if (!gone) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_TRUE(trial::is_gone(std::stoi(trial::text_of(folder.path() / "child"))));
+}
+
+TEST(Process, AnInterruptEndsTheWholeGroup) {
+  const trial::Folder folder;
+  Command command = shell(folder, "sleep 50 & echo $! > child; sleep 50", 40);
+  command.interrupted = [&] { return std::filesystem::exists(folder.path() / "child"); };
+  const Ending ending = run(command);
+  EXPECT_TRUE(ending.interrupted);
+  EXPECT_FALSE(ending.timed_out);
+  EXPECT_TRUE(trial::is_gone(std::stoi(trial::text_of(folder.path() / "child"))));
+}
+
+// Of kill -9 nothing can be caught: the keeper of the program sees that its parent is gone.
+TEST(Process, WhereThisProcessIsKilledItsProgramsAreToo) {
+  const trial::Folder folder, scratch;
+  const pid_t killed = fork();
+  if (killed == 0) {
+    Command command = shell(folder, "sleep 50 & echo $! > child.part; mv child.part child; sleep 50", 40);
+    command.discarded = scratch.path() / "run";
+    std::filesystem::create_directories(command.discarded / "below");
+    (void)run(command);
+    _exit(0);
   }
-  EXPECT_TRUE(gone);
+  for (int k = 0; k < 1000 && !std::filesystem::exists(folder.path() / "child"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  kill(killed, SIGKILL);
+  waitpid(killed, nullptr, 0);
+  EXPECT_TRUE(trial::is_gone(std::stoi(trial::text_of(folder.path() / "child"))));
+  for (int k = 0; k < 1000 && std::filesystem::exists(scratch.path() / "run"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run"));
+}
+
+TEST(Process, WhyAProgramCannotBeStartedIsSaid) {
+  const trial::Folder folder;
+  const auto file = folder.write("solver", "#!/no/such/interpreter\n");
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  Command command = shell(folder, "");
+  command.words = {file.string()};
+  const Ending ending = run(command);
+  EXPECT_FALSE(ending.started);
+  EXPECT_EQ(ending.words, "could not be started: No such file or directory");
+  command.folder = folder.path() / "nowhere";
+  EXPECT_THAT(run(command).words, HasSubstr("in its scratch folder: No such file"));
+}
+
+// A host such as Python ignores SIGPIPE; a program that inherits this does not notice that its reader is gone.
+TEST(Process, SignalsAreThoseOfAShell) {
+  const trial::Folder folder;
+  const auto before = std::signal(SIGPIPE, SIG_IGN);
+  EXPECT_TRUE(run(shell(folder, "grep -E '^SigIgn:.0+$' /proc/self/status")).good());
+  std::signal(SIGPIPE, before);
 }
 
 TEST(Process, ASignalIsNamed) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "external/gone.hpp"
 #include "external/solver.hpp"
 
 using namespace tunica;
@@ -73,7 +74,7 @@ TEST(External, AFailureShowsTheLastLinesAndKeepsTheFolder) {
   bench.experiment["stop"]["max_evaluations"] = 1;
   EXPECT_NE(bench.run().code, 0);
   const std::string reason = bench.result()["first_failure"];
-  EXPECT_THAT(reason, AllOf(HasSubstr("exit code 3"), HasSubstr("matrix is singular"), HasSubstr("Its files are in")));
+  EXPECT_THAT(reason, AllOf(HasSubstr("exit code 3"), HasSubstr("matrix is singular"), HasSubstr("tunica-failed-*")));
   EXPECT_FALSE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
 }
 
@@ -96,6 +97,78 @@ TEST(External, ResultsAreKeptByContent) {
   bench.folder.write("input.in", "mu_MPa={{mu MPa}}\nJm={{Jm}}\n\n");  // other content
   ASSERT_EQ(bench.run("third").code, 0);
   EXPECT_GT(bench.solver_runs("third"), 0U);
+}
+
+TEST(External, AnotherProgramIsAnotherResult) {
+  trial::SolverBench bench;
+  bench.test["cache"] = "cache";
+  ASSERT_EQ(bench.run("first").code, 0);
+  std::string program = trial::text_of(bench.folder.path() / "gent.sh");
+  bench.folder.write("solve.sh", program + "# another\n");
+  bench.test["command"] = {"sh", (bench.folder.path() / "solve.sh").string()};
+  ASSERT_EQ(bench.run("second").code, 0);
+  EXPECT_GT(bench.solver_runs("second"), 0U);
+  ASSERT_EQ(bench.run("third").code, 0);
+  EXPECT_EQ(bench.solver_runs("third"), 0U);
+  bench.folder.write("solve.sh", program + "# a third\n");
+  ASSERT_EQ(bench.run("fourth").code, 0);
+  EXPECT_GT(bench.solver_runs("fourth"), 0U);
+}
+
+// Two tests read different columns of one program's results.
+TEST(External, TestsThatShareACacheReadTheirOwnColumns) {
+  trial::SolverBench bench;
+  bench.test["cache"] = "cache";
+  bench.test["results"]["diameter"] = {{"file", "curve.csv"}, {"column", "u [mm]"}, {"start", 0}};
+  bench.test["data"]["columns"] = {{"displacement", "u"}};
+  nlohmann::json forces = bench.test;
+  bench.test["data"]["columns"]["diameter"] = "d";
+  forces["data"]["columns"]["force"] = "d";
+  bench.folder.write("data.csv", "u [mm],d\n8,1\n16,1\n40,1\n");
+  bench.experiment["tests"]["forces"] = forces;
+  bench.folder.write("values.json", R"({"mu": 310, "Jm": 12})");
+  const auto ended =
+      bench.tunica({"simulate", "experiment.json", "--model", "gent", "--parameters", "values.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
+  const std::string diameters = trial::text_of(bench.folder.path() / "out/strip.csv");
+  EXPECT_THAT(diameters, AllOf(HasSubstr("8,8"), HasSubstr("16,16"), HasSubstr("40,40"))) << diameters;
+  EXPECT_THAT(trial::text_of(bench.folder.path() / "out/forces.csv"), ::testing::Not(HasSubstr("40,40")));
+}
+
+TEST(External, TwoFilesOfOneNameAreRefused) {
+  trial::SolverBench bench;
+  bench.test["files"] = {"gent.sh", "other/gent.sh"};
+  std::filesystem::create_directories(bench.folder.path() / "other");
+  bench.folder.write("other/gent.sh", "");
+  auto ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("'gent.sh'"), HasSubstr("give each its own")));
+  bench.test["files"] = {"gent.sh"};
+  bench.test["templates"] = {{"output.txt", "input.in"}};
+  ended = bench.run();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("takes what the program prints"));
+}
+
+// At its fifth run the solver sends Ctrl-C to tunica (its keeper's parent), starts a program of its own and waits.
+TEST(External, CtrlCEndsTheSolverAndTheRunGoesOnLater) {
+  trial::SolverBench whole;
+  ASSERT_EQ(whole.run().code, 0);
+  const trial::Folder counted;
+  const std::string runs = (counted.path() / "runs").string(), child = (counted.path() / "child").string();
+  trial::SolverBench bench(310, 12,
+                           "echo >> " + runs + "\nif [ $(wc -l < " + runs +
+                               ") = 5 ]; then kill -INT $(cut -d' ' -f4 /proc/$PPID/stat); sleep 300 & echo $! > " +
+                               child + "; wait; fi");
+  const auto ended = bench.run();
+  EXPECT_EQ(ended.code, 130) << ended.err << ended.out;
+  EXPECT_TRUE(std::filesystem::is_empty(bench.folder.path() / "scratch"));
+  EXPECT_TRUE(trial::is_gone(std::stoi(trial::text_of(child))));
+  const auto resumed = bench.tunica({"run", "experiment.json", "-o", "out", "--resume"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err << resumed.out;
+  EXPECT_EQ(bench.result()["best"]["parameters"], whole.result()["best"]["parameters"]);
+  EXPECT_EQ(bench.result()["evaluations"], whole.result()["evaluations"]);
+  EXPECT_EQ(bench.result()["failures"], 0);
 }
 
 TEST(External, ATemplateWithoutAParameterOfTheSearchIsRefused) {
@@ -148,7 +221,7 @@ TEST(External, ResultsThatDoNotSayWhereAreRefused) {
 
 TEST(External, AnEffectOnTheDataCostsNoRuns) {
   trial::SolverBench bench;
-  bench.test["mechanisms"] = {{{"type", "force_offset"}}};
+  bench.test["mechanisms"] = {{{"type", "signal_drift"}}};
   const auto ended = bench.run();
   ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
   EXPECT_NEAR(bench.parameter("mu"), 310, 310 * 1e-2);

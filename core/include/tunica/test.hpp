@@ -89,6 +89,9 @@ struct TestSetup {
   /// "TISSUE"}). It throws InputError where the program cannot express the model. Empty where a host writes no cards.
   std::function<std::string(const Model& model, std::span<const double> parameters, const CardRequest& request)> card =
       {};
+  /// Whether a person ended the work. A test that waits for something outside of the process asks ten times a second,
+  /// gives up and returns `failed`; what it returns is then not recorded. Empty where a host cannot be interrupted.
+  std::function<bool()> interrupted = {};
 };
 
 /// How the host differences a test that has no derivatives of its own, with any model.

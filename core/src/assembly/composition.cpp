@@ -11,6 +11,7 @@
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "plugins/guarded.hpp"
+#include "plugins/interrupted.hpp"
 
 namespace tunica::assembly {
 namespace {
@@ -213,6 +214,7 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     setup.folder = entry.folder.string();
     if (model != nullptr) setup.card = card_writer(*model);
     setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
+    setup.interrupted = [] { return plugins::interrupted.load(); };
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", owner, problem.what()));

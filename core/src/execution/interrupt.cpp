@@ -2,17 +2,15 @@
 #include "execution/interrupt.hpp"
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <utility>
 
+#include "plugins/interrupted.hpp"
+
 namespace tunica::execution {
 
 namespace {
-
-std::atomic<bool> raised = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
 /// A signal, and what the process did with it before: a program ends, an interpreter has a handler of its own.
 struct Watched {
@@ -24,7 +22,7 @@ std::array<Watched, 3> watched{{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}}};
 void restore(const Watched& signal) { ::sigaction(signal.number, &signal.before, nullptr); }
 
 void on_signal(int number) {
-  raised.store(true, std::memory_order_relaxed);
+  plugins::interrupted.store(true, std::memory_order_relaxed);
   for (const Watched& signal : watched)
     if (signal.number == number) restore(signal);
 }
@@ -32,7 +30,7 @@ void on_signal(int number) {
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
-  raised = false;
+  plugins::interrupted = false;
   for (Watched& signal : watched) {
     struct sigaction now = {};
     now.sa_handler = signal.number == SIGXFSZ ? SIG_IGN : on_signal;
@@ -45,9 +43,9 @@ InterruptWatch::~InterruptWatch() {
   for (const Watched& signal : watched) restore(signal);
 }
 
-bool InterruptWatch::interrupted() { return raised.load(std::memory_order_relaxed); }
+bool InterruptWatch::interrupted() { return plugins::interrupted.load(std::memory_order_relaxed); }
 
-void InterruptWatch::interrupt() { raised.store(true, std::memory_order_relaxed); }
+void InterruptWatch::interrupt() { plugins::interrupted.store(true, std::memory_order_relaxed); }
 
 InterruptLimit::InterruptLimit(std::function<void()> leave) {
   if (!leave) return;

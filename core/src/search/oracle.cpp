@@ -73,6 +73,16 @@ void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_c
   statuses.resize(total);
 }
 
+void Evaluations::drop_call(std::size_t parameter_count, std::size_t test_count) {
+  const std::size_t left = calls.back().first;
+  calls.pop_back();
+  parameters.resize(left * parameter_count);
+  per_test.resize(left * test_count);
+  objectives.resize(left);
+  seconds.resize(left);
+  statuses.resize(left);
+}
+
 void Evaluations::clear() {
   calls.clear();
   parameters.clear();
@@ -161,6 +171,16 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   return status;
 }
 
+bool Oracle::broken_off(std::size_t replayed) {
+  const auto& interrupted = shared_.settings.interrupted;
+  if (!interrupted || !interrupted()) return false;
+  const auto fresh = made.statuses.begin() + static_cast<std::ptrdiff_t>(made.calls.back().first + replayed);
+  if (std::none_of(fresh, made.statuses.end(), [](const Status& s) { return s.kind() == Status::Kind::failed; }))
+    return false;
+  made.drop_call(shared_.parameters, shared_.tests);
+  return should_stop();
+}
+
 void Oracle::count(std::span<const double> xs, const Evaluations::Call& call) {
   const std::size_t n = shared_.parameters;
   for (std::size_t k = 0; k < call.size; ++k) {
@@ -204,6 +224,10 @@ void Oracle::evaluate_batch(std::span<const double> xs, std::span<double> object
                           [&](const auto& range) { evaluate_range(range.begin(), range.end()); });
       });
     }
+    if (replayed < count && broken_off(replayed)) {
+      std::fill(statuses.begin(), statuses.end(), refusal());
+      return;
+    }
     const double now = replayed < count ? shared_.watch.seconds() : 0;
     std::fill(made.seconds.begin() + static_cast<std::ptrdiff_t>(call.first + replayed), made.seconds.end(), now);
     this->count(xs, call);
@@ -232,6 +256,7 @@ Status Oracle::linearise(std::span<const double> x, double& objective, std::span
   shared_.assembly.evaluator().remember(&secant_, *workspace);
   made.statuses[slot] = evaluate_at(x, slot, residuals, jacobian, *workspace);  // residuals are not in the journal
   shared_.assembly.evaluator().remember(nullptr, *workspace);
+  if (!replayed && broken_off(0)) return refusal();
   const Status& status = made.statuses[slot];
   if (replayed && status.kind() != status_before.kind()) {
     contradict(slot,

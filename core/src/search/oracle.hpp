@@ -88,6 +88,8 @@ struct Evaluations {
 
   [[nodiscard]] std::size_t size() const { return objectives.size(); }
   void grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count);
+  /// Takes the last call back.
+  void drop_call(std::size_t parameter_count, std::size_t test_count);
   void clear();
 };
 
@@ -119,6 +121,8 @@ class Oracle {
                      std::span<double> jacobian, assembly::Workspace& workspace);
   /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
   bool replay(std::span<const double> x, std::size_t slot);
+  /// Whether the last call failed because a person ended the work. It is taken back then: resuming asks for it again.
+  bool broken_off(std::size_t replayed);
   void count(std::span<const double> xs, const Evaluations::Call& call);
   void contradict(std::size_t slot, std::string what);
 

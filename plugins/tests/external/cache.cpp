@@ -24,7 +24,8 @@ std::string digest(std::string_view text) {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
-Cache::Cache(std::filesystem::path folder) : folder_(std::move(folder)) {
+Cache::Cache(std::filesystem::path folder, std::size_t observables)
+    : folder_(std::move(folder)), observables_(observables) {
   if (folder_.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -41,7 +42,9 @@ std::optional<Numbers> Cache::find(const std::string& key) const {
   if (!stream) return std::nullopt;
   const auto document = nlohmann::json::parse(stream, nullptr, false);
   try {
-    return kept_.emplace(key, document.get<Numbers>()).first->second;
+    auto numbers = document.get<Numbers>();
+    if (numbers.size() != observables_) return std::nullopt;
+    return kept_.emplace(key, std::move(numbers)).first->second;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;  // a file that is no result is written anew
   }

@@ -18,14 +18,16 @@ using Numbers = std::vector<std::vector<double>>;
 /// later runs of tunica read. Thread-safe.
 class Cache {
  public:
-  /// `folder` is made where it does not exist; empty = memory only. Throws InputError.
-  explicit Cache(std::filesystem::path folder);
+  /// `folder` is made where it does not exist; empty = memory only. `observables` is how many lists a result has: a
+  /// file with another number of them is no result. Throws InputError.
+  Cache(std::filesystem::path folder, std::size_t observables);
   [[nodiscard]] std::optional<Numbers> find(const std::string& key) const;
   void keep(const std::string& key, const Numbers& numbers);
 
  private:
   [[nodiscard]] std::filesystem::path file(const std::string& key) const { return folder_ / (key + ".json"); }
   std::filesystem::path folder_;
+  std::size_t observables_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, Numbers> kept_;
 };

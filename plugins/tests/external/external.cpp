@@ -82,7 +82,7 @@ class External final : public Test {
   Status row_by_row(const Numbers& numbers, const TestOutput& output) const {
     if (!output.abscissa_derivative.empty())
       return Status::failed("external: no derivatives by the abscissa where \"results\" name none");
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
+    for (std::size_t k = 0; k < rows_.channels.size(); ++k) {
       if (numbers[k].size() != rows_.count)
         return Status::failed(fmt::format(
             "external: the solver wrote {} numbers of '{}' for {} rows; name the abscissa in \"results\" if "

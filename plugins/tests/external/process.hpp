@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,28 +17,25 @@ struct Command {
   std::vector<std::pair<std::string, std::string>> environment;  ///< set for it besides what this process has
   double seconds = 0;                                            ///< time limit by the clock
   std::size_t mebibytes = 0;                                     ///< limit of its address space; 0 = none
+  std::filesystem::path discarded = {};                          ///< removed where this process dies; empty = nothing
+  std::function<bool()> interrupted = {};                        ///< asked ten times a second: whether to end it
 };
 
 /// How a run ended.
 struct Ending {
-  bool started = false;    ///< false: the system could not start it, see `words`
-  bool timed_out = false;  ///< it was ended at its limit
-  int code = -1;           ///< exit code; −1 where a signal ended it
+  bool started = false;      ///< false: the system could not start it, see `words`
+  bool timed_out = false;    ///< it was ended at its limit
+  bool interrupted = false;  ///< it was ended because a person ended the work
+  int code = -1;             ///< exit code; −1 where a signal ended it
   int signal = 0;
-  double seconds = 0;
-  std::string words;  ///< "ended with exit code 3 after 1.2 s"
+  std::string words;  ///< "ended with exit code 3"
 
-  [[nodiscard]] bool good() const { return started && !timed_out && code == 0; }
+  [[nodiscard]] bool good() const { return started && !timed_out && !interrupted && code == 0; }
 };
 
-/// Runs a program in a process group of its own, and waits for it. At the limit, and when the program has ended, every
-/// process that is left in its group is killed. It is killed as well where this process dies. Thread-safe.
+/// Runs a program in a process group of its own, and waits for it. At the limit, when it is interrupted, and when the
+/// program has ended, every process that is left in its group is killed. So they are where this process dies, whatever
+/// it dies of. Thread-safe.
 Ending run(const Command& command);
-
-/// The program's file: found in PATH, or below `folder` where the name has a slash. Throws InputError.
-std::filesystem::path program_file(const std::string& name, const std::filesystem::path& folder);
-
-/// The last lines of a text file, joined by " | "; blank ones left out.
-std::string last_lines(const std::filesystem::path& file, std::size_t count);
 
 }  // namespace tunica::external

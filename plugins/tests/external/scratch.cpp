@@ -26,6 +26,15 @@ Scratch::~Scratch() {
   if (!kept_) std::filesystem::remove_all(folder_, error);
 }
 
+void Scratch::keep_as_failed() {
+  const std::string name = folder_.filename().string();
+  const auto failed = folder_.parent_path() / ("tunica-failed" + name.substr(name.rfind('-')));
+  std::error_code error;
+  std::filesystem::rename(folder_, failed, error);
+  if (!error) folder_ = failed;
+  keep();
+}
+
 void Scratch::write(const std::string& name, const std::string& text) const {
   const std::filesystem::path file = folder_ / name;
   std::filesystem::create_directories(file.parent_path());

@@ -17,6 +17,8 @@ class Scratch {
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   void keep() { kept_ = true; }
+  /// Keeps it, under a name that begins with "tunica-failed-".
+  void keep_as_failed();
   /// Writes a file below the folder. Throws std::runtime_error where that fails.
   void write(const std::string& name, const std::string& text) const;
 

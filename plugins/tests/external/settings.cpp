@@ -4,24 +4,20 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cache.hpp"
-#include "process.hpp"
+#include "program.hpp"
 
 namespace tunica::external {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr const char* result_forms =
-    "one of {\"file\": \"out.csv\", \"column\": \"force\"}, {\"file\": \"out.json\", \"pointer\": \"/force\"} and "
-    "{\"file\": \"out.txt\", \"pattern\": \"F = (\\\\S+)\"}, with \"unit\", \"factor\" and \"start\" if needed";
 
 Json json_of(const Options& options, const char* name) { return Json::parse(options.text(name)); }
 
@@ -35,14 +31,8 @@ std::string read_file(const fs::path& file, const std::string& what) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A name that stays below the scratch folder.
-const std::string& checked_name(const std::string& name, const char* option) {
-  const fs::path path(name);
-  if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end())
-    throw InputError(
-        fmt::format("\"{}\" names '{}' in the scratch folder; give a relative name without '..'", option, name));
-  return name;
-}
+/// The content of the program and of what it is given by its absolute name: a script, an input file.
+std::string content_of(const fs::path& file) { return digest(read_file(file, "\"command\"")); }
 
 void read_command(const TestSetup& setup, Settings& settings) {
   const Json words = json_of(setup.options, "command");
@@ -50,7 +40,13 @@ void read_command(const TestSetup& setup, Settings& settings) {
                     std::ranges::all_of(words, [](const Json& word) { return word.is_string(); });
   if (!list) throw InputError(R"("command" is a list of texts, the program and its arguments: ["ccx", "strip"])");
   settings.program = program_file(words.front().get<std::string>(), setup.folder);
-  for (std::size_t k = 1; k < words.size(); ++k) settings.arguments.emplace_back(words[k].get<std::string>());
+  settings.content += fmt::format("program {} {}\n", settings.program.string(), content_of(settings.program));
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    const auto word = words[k].get<std::string>();
+    settings.arguments.emplace_back(word);
+    if (fs::path(word).is_absolute() && fs::is_regular_file(word))
+      settings.content += fmt::format("file {} {}\n", word, content_of(word));
+  }
 }
 
 void read_templates(const TestSetup& setup, Settings& settings) {
@@ -75,6 +71,22 @@ void read_files(const TestSetup& setup, Settings& settings) {
     settings.files.emplace_back(file.filename().string(), file);
     settings.content += fmt::format("file {} {}\n", file.filename().string(), digest(text));
   }
+}
+
+/// Everything in the scratch folder has a name of its own.
+void check_names(const Settings& settings) {
+  std::set<std::string> names{printed};
+  const auto add = [&](const std::string& name, const char* option) {
+    if (!names.insert(fs::path(name).lexically_normal().string()).second)
+      throw InputError(
+          name == printed
+              ? fmt::format("\"{}\" names '{}', which takes what the program prints; give another name", option, name)
+              : fmt::format("\"{}\" names '{}', and another template or file has that name in the scratch "
+                            "folder; give each its own",
+                            option, name));
+  };
+  for (const auto& [name, file] : settings.files) add(name, "files");
+  for (const auto& [name, text] : settings.templates) add(name, "templates");
 }
 
 void read_places(Settings& settings) {
@@ -109,88 +121,15 @@ void read_card(const TestSetup& setup, Settings& settings) {
                            card.value("material", "TISSUE")};
 }
 
-double factor_of(const Json& entry, const Observable& observable, const TestSetup& setup, const std::string& where) {
-  const Json unit = entry.value("unit", Json(observable.unit)), factor = entry.value("factor", Json(1));
-  if (!unit.is_string() || !factor.is_number())
-    throw InputError(fmt::format("{}: \"unit\" is a text and \"factor\" a number", where));
-  if (!setup.unit_factor && unit != observable.unit)
-    throw InputError(fmt::format("{}: this host converts no units; use \"factor\"", where));
-  return factor.get<double>() *
-         (unit == observable.unit ? 1 : setup.unit_factor(unit.get<std::string>(), observable.unit));
-}
-
-ResultPlace result_of(const Json& entry, const Observable& observable, const TestSetup& setup) {
-  const std::string where = fmt::format("\"results\": '{}'", observable.name);
-  ResultPlace place;
-  place.observable = observable.name;
-  int forms = 0;
-  if (!entry.is_object()) throw InputError(fmt::format("{} is {}", where, result_forms));
-  for (const auto& [key, value] : entry.items()) {
-    const bool form = key == "column" || key == "pointer" || key == "pattern";
-    if (!form && key != "file" && key != "unit" && key != "factor" && key != "start")
-      throw InputError(fmt::format("{}: the key '{}' is unknown; write {}", where, key, result_forms));
-    if (!form) continue;
-    ++forms;
-    place.kind = key == "column"    ? ResultPlace::Kind::column
-                 : key == "pointer" ? ResultPlace::Kind::pointer
-                                    : ResultPlace::Kind::pattern;
-    if (!value.is_string() && !(key == "column" && value.is_number_unsigned()))
-      throw InputError(fmt::format("{}: \"{}\" is a text", where, key));
-    place.text = value.is_string() ? value.get<std::string>() : value.dump();
-  }
-  if (forms != 1 || !entry.contains("file") || !entry["file"].is_string())
-    throw InputError(fmt::format("{} does not say where; write {}", where, result_forms));
-  place.file = entry["file"] == "-" ? "-" : checked_name(entry["file"].get<std::string>(), "results");
-  place.factor = factor_of(entry, observable, setup, where);
-  if (const auto start = entry.find("start"); start != entry.end()) {
-    if (!start->is_number()) throw InputError(fmt::format("{}: \"start\" is a number", where));
-    place.start = {start->get<double>()};
-  }
-  try {
-    if (place.kind == ResultPlace::Kind::pointer) (void)Json::json_pointer(place.text);
-    if (place.kind == ResultPlace::Kind::pattern && std::regex(place.text).mark_count() < 1)
-      throw InputError(fmt::format("{}: the pattern has no group; put the number into round brackets", where));
-  } catch (const Json::exception&) {
-    throw InputError(fmt::format("{}: '{}' is no JSON pointer; write \"/results/force\"", where, place.text));
-  } catch (const std::regex_error& problem) {
-    throw InputError(fmt::format("{}: the pattern is no regular expression (ECMAScript): {}", where, problem.what()));
-  }
-  return place;
-}
-
-void read_results(const TestSetup& setup, const std::vector<Observable>& observables, Settings& settings) {
-  const Json results = json_of(setup.options, "results");
-  if (!results.is_object()) throw InputError("\"results\" is an object: {\"force\": {…}}");
-  const auto declared = [&](const std::string& name) {
-    return std::ranges::find(observables, name, &Observable::name);
-  };
-  std::vector<std::string> mapped;
-  for (const auto& column : setup.rows.abscissae) mapped.push_back(column.observable);
-  for (const auto& [name, entry] : results.items()) {
-    if (declared(name) == observables.end()) {
-      std::vector<std::string> names;
-      for (const Observable& observable : observables) names.push_back(observable.name);
-      throw InputError(
-          fmt::format("\"results\": there is no observable '{}'; there are {}", name, fmt::join(names, ", ")));
-    }
-    if (declared(name)->role != Observable::Role::abscissa) continue;
-    if (std::ranges::find(mapped, name) == mapped.end())
-      throw InputError(fmt::format("\"results\": '{}' is an abscissa, and \"columns\" maps no column to it", name));
-    if (settings.curve)
-      throw InputError("\"results\" name two abscissae; a curve is read between its points over one of them");
-    settings.curve = true;
-    settings.results.push_back(result_of(entry, *declared(name), setup));
-  }
-  for (const std::string& channel : setup.rows.channels) {
-    if (!results.contains(channel))
-      throw InputError(
-          fmt::format("\"results\" do not say where the solver writes '{}', which \"columns\" maps; add {}", channel,
-                      result_forms));
-    settings.results.push_back(result_of(results[channel], *declared(channel), setup));
-  }
-}
-
 }  // namespace
+
+const std::string& checked_name(const std::string& name, const char* option) {
+  const fs::path path(name);
+  if (name.empty() || path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end())
+    throw InputError(
+        fmt::format("\"{}\" names '{}' in the scratch folder; give a relative name without '..'", option, name));
+  return name;
+}
 
 std::vector<Option> options() {
   const auto json = [](std::string name, std::optional<std::string> fallback, std::string doc) {
@@ -227,6 +166,7 @@ Settings read_settings(const TestSetup& setup, const std::vector<Observable>& ob
   read_command(setup, settings);
   read_templates(setup, settings);
   read_files(setup, settings);
+  check_names(settings);
   read_places(settings);
   read_card(setup, settings);
   read_results(setup, observables, settings);
@@ -244,7 +184,9 @@ Settings read_settings(const TestSetup& setup, const std::vector<Observable>& ob
   settings.scratch = folder("scratch");
   if (settings.scratch.empty()) settings.scratch = fs::temp_directory_path();
   settings.cache = folder("cache");
-  settings.content += fmt::format("program {}\nresults {}\n", settings.program.string(), options.text("results"));
+  settings.content += fmt::format("results {}\n", options.text("results"));
+  for (const ResultPlace& place : settings.results) settings.content += fmt::format("column {}\n", place.observable);
+  settings.interrupted = setup.interrupted;
   return settings;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "tunica/test.hpp"
 
 namespace tunica::external {
+
+/// The file of the scratch folder that takes what the program prints; "-" in "results".
+inline constexpr const char* printed = "output.txt";
 
 enum class Keep { never, on_failure, always };
 
@@ -29,9 +33,14 @@ struct Settings {
   std::size_t memory_limit = 0, threads = 1;
   Keep keep = Keep::on_failure;
   std::filesystem::path scratch, cache;
-  std::string content;  ///< what does not depend on the parameters, for the key of the cache
+  std::function<bool()> interrupted;  ///< TestSetup::interrupted
+  std::string content;                ///< what does not depend on the parameters, for the key of the cache
 };
 
+/// A name that stays below the scratch folder; throws InputError, which names `option`, where it does not.
+const std::string& checked_name(const std::string& name, const char* option);
+/// Reads "results" into `settings`. Throws InputError.
+void read_results(const TestSetup& setup, const std::vector<Observable>& observables, Settings& settings);
 /// The options of the test type; `channels` and `abscissae` of the setup say which results are needed.
 std::vector<Option> options();
 /// Throws InputError: what is missing, where it was looked for, what to write.

@@ -6,13 +6,14 @@
 #include <fmt/format.h>
 
 #include "process.hpp"
+#include "program.hpp"
 #include "scratch.hpp"
 
 namespace tunica::external {
 namespace {
 
 constexpr std::size_t kept_failures = 3, shown_lines = 5;
-constexpr const char* printed = "output.txt";
+constexpr const char* failed_folders = "tunica-failed-*";
 
 }  // namespace
 
@@ -33,6 +34,7 @@ std::variant<Numbers, std::string> Solver::solve(
     ++cached_;
     return std::move(*numbers);
   }
+  if (interrupted()) return std::string("the work was interrupted");
   ++runs_;
   auto found = [&]() -> std::variant<Numbers, std::string> {
     try {
@@ -43,10 +45,12 @@ std::variant<Numbers, std::string> Solver::solve(
   }();
   if (const auto* numbers = std::get_if<Numbers>(&found))
     cache_.keep(key, *numbers);
-  else
+  else if (!interrupted())
     ++failed_;
   return found;
 }
+
+bool Solver::interrupted() const { return settings_.interrupted && settings_.interrupted(); }
 
 std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std::string>& arguments,
                                                           const std::vector<std::string>& texts) const {
@@ -62,6 +66,8 @@ std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std:
   command.environment = {{"OMP_NUM_THREADS", std::to_string(settings_.threads)}};
   command.seconds = settings_.time_limit;
   command.mebibytes = settings_.memory_limit;
+  if (settings_.keep == Keep::never || settings_.keep == Keep::on_failure) command.discarded = scratch.folder();
+  command.interrupted = settings_.interrupted;
   const Ending ending = run(command);
   std::string problem = ending.good() ? "" : ending.words;
   Numbers numbers;
@@ -78,10 +84,10 @@ std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std:
   if (problem.empty()) return numbers;
   std::string words = fmt::format("'{}' {}. The last lines of its output: {}", settings_.program.filename().string(),
                                   problem, last_lines(scratch.folder() / printed, shown_lines));
-  if (settings_.keep == Keep::on_failure && failed_ < kept_failures) scratch.keep();
-  if (settings_.keep == Keep::always || (settings_.keep == Keep::on_failure && failed_ < kept_failures))
-    words += fmt::format(". Its files are in {}", scratch.folder().string());
-  return words;
+  // The words are the same for every run that fails alike, so that results count them together.
+  if (settings_.keep == Keep::never || ending.interrupted) return words;
+  if (settings_.keep == Keep::on_failure && failed_ < kept_failures) scratch.keep_as_failed();
+  return words + fmt::format(". The files of failed runs are in {}", (settings_.scratch / failed_folders).string());
 }
 
 std::vector<Effort> Solver::efforts() const {

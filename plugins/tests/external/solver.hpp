@@ -14,7 +14,8 @@ namespace tunica::external {
 /// Runs the program for filled-in templates and reads what it wrote; asks the cache first. Thread-safe.
 class Solver {
  public:
-  explicit Solver(Settings settings) : settings_(std::move(settings)), cache_(settings_.cache) {}
+  explicit Solver(Settings settings)
+      : settings_(std::move(settings)), cache_(settings_.cache, settings_.results.size()) {}
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   /// The numbers of Settings::results, one list each; or why there are none. `value` fills a place in.
@@ -25,6 +26,7 @@ class Solver {
  private:
   [[nodiscard]] std::variant<Numbers, std::string> run_in_scratch(const std::vector<std::string>& arguments,
                                                                   const std::vector<std::string>& texts) const;
+  [[nodiscard]] bool interrupted() const;
 
   Settings settings_;
   mutable Cache cache_;

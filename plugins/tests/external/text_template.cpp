@@ -53,6 +53,11 @@ std::string TextTemplate::filled(const std::function<std::string(const Place&)>&
   return text;
 }
 
-std::string number(double value) { return fmt::format("{:.12g}", value); }
+std::string number(double value) {
+  constexpr std::size_t widest = 19;
+  std::string text = fmt::format("{}", value);
+  for (int digits = 16; text.size() > widest; --digits) text = fmt::format("{:.{}g}", value, digits);
+  return text;
+}
 
 }  // namespace tunica::external

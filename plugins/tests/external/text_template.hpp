@@ -26,7 +26,8 @@ class TextTemplate {
   std::vector<Place> places_;
 };
 
-/// A number as solvers read it: twelve digits, at most 19 characters.
+/// A number as solvers read it: the shortest text that is exact, with fewer digits where it has more than 19
+/// characters, which is what the fields of CalculiX and Abaqus hold; twelve digits or more.
 std::string number(double value);
 
 }  // namespace tunica::external
