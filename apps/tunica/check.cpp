@@ -76,7 +76,21 @@ void print_parameters(const assembly::Assembly& assembly) {
 }
 
 std::string duration_text(double seconds) {
-  return seconds < 1e-3 ? fmt::format("{:.3g} µs", 1e6 * seconds) : fmt::format("{:.3g} ms", 1e3 * seconds);
+  if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
+  if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return seconds < 3600 ? fmt::format("{:.3g} s", seconds) : fmt::format("{:.3g} h", seconds / 3600);
+}
+
+/// What the budget of a run may cost, where that is more than an hour.
+void print_cost(const calibration::PosedProblem& problem) {
+  const auto& entry = *problem.run->entry;
+  const auto evaluations = entry.stop.max_evaluations * entry.realisations;
+  const double most = problem.initial.seconds * static_cast<double>(evaluations);
+  if (problem.run->assembly->layout().has_costly_tests && most > 3600)
+    fmt::print("{}\n", hanging("  ", fmt::format("the {} evaluations that a run may take last up to {} one after the "
+                                                 "other; for fewer, set \"max_evaluations\" in \"stop\" and \"starts\" "
+                                                 "of its optimiser",
+                                                 evaluations, duration_text(most))));
 }
 
 /// What the tests find of themselves by other means.
@@ -119,6 +133,7 @@ void print_initial_point(const calibration::PosedProblem& problem) {
       text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", tests[test], initial.per_test[test]);
   fmt::print("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
              duration_text(initial.seconds), assembly.layout().jacobian_is_exact ? "exact" : "differenced");
+  print_cost(problem);
   if (assembly.constraints().count() > 0)
     fmt::print(
         "{}\n",

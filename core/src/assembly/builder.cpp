@@ -125,6 +125,9 @@ Parts Builder::build() {
   layout.test_count = parts_.tests.size();
   layout.jacobian_is_exact =
       std::none_of(parts_.tests.begin(), parts_.tests.end(), [](const RunTest& test) { return test.differenced; });
+  layout.derivatives_missing = std::any_of(parts_.tests.begin(), parts_.tests.end(), [](const RunTest& test) {
+    return test.differenced && !test.test->describe().differencing;
+  });
   layout.has_costly_tests =
       std::any_of(parts_.fitted.begin(), parts_.fitted.end(),
                   [this](const ChannelObjective& channel) { return parts_.tests[channel.test].costly; });

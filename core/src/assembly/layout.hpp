@@ -89,6 +89,7 @@ struct Layout {
   std::size_t prediction_count = 0;      ///< Σ channel counts, held-out rows included
   std::size_t residual_count = 0;        ///< fitted rows and priors
   bool jacobian_is_exact = true;         ///< false: some test's predictions are differenced
+  bool derivatives_missing = false;      ///< some test is differenced that does not say how, see Differencing
   bool has_costly_tests = false;         ///< some fitted test declares itself costly
 };
 

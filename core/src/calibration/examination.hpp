@@ -26,7 +26,7 @@ struct InitialPoint {
   Status status;
   double objective = 0;
   std::vector<double> per_test;
-  double seconds = 0;  ///< of one evaluation, the median over a fifth of a second
+  double seconds = 0;  ///< of one evaluation: the median over a fifth of a second, the first where a test is costly
   std::vector<OtherMeans> other_means;
   bool analysed = false;               ///< false: the linearisation could not be made
   std::vector<std::string> sentences;  ///< what the data do not fix

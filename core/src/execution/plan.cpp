@@ -97,7 +97,7 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
                       run.label, stage.entry->name, stage.entry->type, needs.most_parameters,
                       run.assembly->layout().parameters.size()));
     check_constraints(run, stage, needs);
-    if (needs.gradient && !run.assembly->layout().jacobian_is_exact)
+    if (needs.gradient && run.assembly->layout().derivatives_missing)
       warnings.push_back({WarningKind::differenced_derivatives,
                           fmt::format("derivatives for '{}' are differences of whole predictions, because the model or "
                                       "a test has no exact ones",
