@@ -3,9 +3,10 @@
 """calculix_test.py TUNICA PLUGINS EXAMPLE [MODEL...]: parameters from curves that CalculiX computed, through CalculiX.
 
 Per model the strip and the tube of examples/calculix are simulated with known parameters, and fitted from others: all are
-found within 1e-3, in at most 12 Jacobians (evaluations of the search, one Jacobian each). Then the tube alone from a
-curve that tunica's own thick-walled tube gives.
-Prints the solver runs with Broyden's updates and with plain differences."""
+found within 1e-3, in at most 12 Jacobians (evaluations of the search, one Jacobian each). Broyden's updates take at most
+60 % of the solver runs of plain differences; with one parameter they cannot take less than half, and 65 % are allowed.
+Then the tube alone from a curve that tunica's own thick-walled tube gives."""
+import atexit
 import csv
 import json
 import pathlib
@@ -14,8 +15,9 @@ import subprocess
 import sys
 import tempfile
 
-tunica, plugins, example = sys.argv[1:4]
+tunica, plugins, example = (str(pathlib.Path(argument).resolve()) for argument in sys.argv[1:4])
 folder = pathlib.Path(tempfile.mkdtemp(prefix="tunica-calculix-"))
+atexit.register(shutil.rmtree, folder, ignore_errors=True)
 for file in pathlib.Path(example).iterdir():
     if file.is_file():
         shutil.copy(file, folder)
@@ -79,7 +81,9 @@ for model, parameters in cases.items():
         assert within <= 12, (name, within)
         counts[derivatives] = sum(entry["solver_runs"] for entry in result["efforts"].values())
         print(name, found, "within 1e-3 after", within, "runs", counts[derivatives])
-    print(model, "runs with updates / without: %.2f" % (counts["broyden"] / counts["forward"]))
+    saved = counts["broyden"] / counts["forward"]
+    print(f"{model}: runs with updates / without {saved:.3f}")
+    assert saved <= (0.6 if len(parameters) > 1 else 0.65), (model, counts)
 
 # The wall of incompressible Mooney-Rivlin, fixed in length, by tunica's own quadrature; CalculiX's is slightly
 # compressible and a mesh.
@@ -107,4 +111,3 @@ case["tests"]["tube"]["data"]["file"] = "tube-own.csv"
 found, result = fit("through")
 print("tunica's tube through CalculiX", found, result["jacobians"])
 assert abs(found["c10"] / 150 - 1) < 1e-3, found
-shutil.rmtree(folder)
