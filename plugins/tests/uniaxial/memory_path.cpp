@@ -10,7 +10,9 @@ namespace tunica::uniaxial {
 namespace {
 
 constexpr int iterations = 40;
-constexpr double settled = 1e-9;  ///< of y = ln u, before derivatives by parameters are taken
+// Newton's step in y = ln u. Its error is the square of the step before, so that behind a step of `near` the
+// derivatives by parameters can be taken at once; they are taken again where a kink between left more than `settled`.
+constexpr double near = 1e-5, settled = 1e-9;
 
 /// Scratch of one thread.
 struct Memory {
@@ -138,17 +140,22 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   for (std::size_t i = 0; i < n; ++i) m.u[i] *= 1 + m.elastic.step[i];
 
   Pass pass(strip, input, stretch, m);
+  const auto step_on = [&] {
+    for (std::size_t i = 0; i < n; ++i) m.u[i] *= std::exp(m.step[i]);
+  };
   bool found = false;
   for (int k = 0; k < iterations && !found; ++k) {
     if (Status status = pass.run(false); !status.ok()) return status;
     if (!pass.sound()) break;
-    found = pass.largest_step() < (parameters ? settled : free_strip::last_step);
-    if (!found || parameters)
-      for (std::size_t i = 0; i < n; ++i) m.u[i] *= std::exp(m.step[i]);
+    found = pass.largest_step() < (parameters ? near : free_strip::last_step);
+    if (!found || parameters) step_on();
   }
-  if (found && parameters) {
+  for (int k = 0; parameters && found && k < iterations; ++k) {
     if (Status status = pass.run(true); !status.ok()) return status;
     found = pass.sound();
+    if (!found || pass.largest_step() < settled) break;
+    step_on();
+    found = k + 1 < iterations;
   }
   if (!found) return Status::failed("uniaxial: no lateral equilibrium along the path of a model with memory");
 
