@@ -60,11 +60,20 @@ class External final : public Test {
     const auto& parameters = input.model.describe().parameters;
     for (std::size_t j = 0; j < parameters.size(); ++j) {
       if (parameters[j].name != place.name) continue;
-      const bool converted = !place.unit.empty() && place.unit != parameters[j].unit;
-      return number(input.model_parameters[j] * (converted ? unit_factor_(parameters[j].unit, place.unit) : 1));
+      return number(input.model_parameters[j] * factor(place, parameters[j]));
     }
     throw InputError(fmt::format("a template has a place for '{}', which is no parameter of the model '{}'", place.name,
                                  input.model.describe().type));
+  }
+
+  double factor(const TextTemplate::Place& place, const Parameter& parameter) const {
+    if (place.unit.empty() || place.unit == parameter.unit) return 1;
+    try {
+      return unit_factor_(parameter.unit, place.unit);
+    } catch (const InputError& problem) {
+      throw InputError(fmt::format("a template asks for {{{{{} {}}}}}, and {}; correct the unit there", place.name,
+                                   place.unit, problem.what()));
+    }
   }
 
   /// The abscissae in base units, a line a row.
