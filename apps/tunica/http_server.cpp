@@ -23,6 +23,7 @@ void serve_http(const HttpService& service) {
   server.set_read_timeout(slow_client);
   server.set_write_timeout(slow_client);
   server.set_payload_max_length(largest_request);
+  server.new_task_queue = [&service] { return new httplib::ThreadPool(service.threads); };
   // The library would set SO_REUSEPORT, with which two servers share a port and nobody notices.
   server.set_socket_options([](socket_t socket) {
     const int yes = 1;
@@ -47,8 +48,9 @@ void serve_http(const HttpService& service) {
                     service.host, service.port));
   service.listening(port);
   std::jthread watch([&](const std::stop_token& ended) {
-    while (!ended.stop_requested() && !service.over()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    server.stop();
+    // Again and again: before the server listens, stop() does nothing.
+    for (; !ended.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(50)))
+      if (service.over()) server.stop();
   });
   server.listen_after_bind();
 }

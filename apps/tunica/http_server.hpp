@@ -17,6 +17,7 @@ struct HttpReply {
 struct HttpService {
   std::string host;
   int port = 0;                          ///< 0 = any that is free
+  unsigned threads = 1;                  ///< requests that are answered at a time
   std::vector<std::string> got, posted;  ///< paths asked with GET, with POST
   std::function<HttpReply(const std::string& path, const std::string& body)> answer;  ///< from several threads
   std::function<void(int port)> listening;  ///< called once, when it can be asked

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -63,6 +66,21 @@ std::string ask_on_terminal(const Question& question) {
   }
 }
 
+/// A length that is greater than zero, with its unit; a bare number is taken for mm, and that is said.
+void check_length(std::string& answer, const char* option) {
+  if (answer.empty() || answer == "preload") return;
+  double length = 0;
+  try {
+    length = data::parse_quantity(answer, "mm");
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{} is no length: {}; give for example 5mm", option, problem.what()));
+  }
+  if (!(length > 0)) throw InputError(fmt::format("{} {}: it must be greater than zero. Correct it", option, answer));
+  if (answer.find_first_not_of("0123456789.+-eE ") != answer.npos) return;
+  answer += " mm";
+  say_wrapped_warning(fmt::format("{}: no unit is given; {} is assumed", option, answer));
+}
+
 [[noreturn]] void refuse_unanswered(const std::vector<Question>& questions) {
   std::vector<std::string> lines;
   std::set<std::string> named;
@@ -82,16 +100,39 @@ std::filesystem::path output_of(const ImportOptions& options) {
   return file;
 }
 
+/// A long flat beginning, which a preload cuts off and a model of rubber cannot follow.
+std::optional<std::string> toe_of(const data::Dataset& dataset) {
+  constexpr double small = 0.01, long_enough = 0.3;
+  if (dataset.abscissae.empty() || dataset.channels.empty() || dataset.count < 10) return std::nullopt;
+  const auto& [abscissa, path] = dataset.abscissae.front();
+  const auto& load = dataset.channels.front().values;
+  double most = 0;
+  for (const double value : load)
+    if (std::abs(value) > most) most = std::abs(value);
+  std::size_t row = 0;
+  while (row < load.size() && !(std::abs(load[row]) > small * most)) ++row;
+  const auto [low, high] = std::minmax_element(path.begin(), path.end());
+  if (row == load.size() || std::abs(path[row] - path.front()) < long_enough * (*high - *low)) return std::nullopt;
+  return fmt::format(
+      "up to a {} of {:.4g} the {} stays below 1 % of its largest value: a toe. If the specimen hung slack there, cut "
+      "it "
+      "off with --preload, for example --preload 0.1N, and take --gauge-length preload",
+      abscissa, path[row], dataset.channels.front().observable);
+}
+
 /// What was written is read as `tunica check` will read it; what it refuses is taken back.
 std::vector<std::string> warnings_about(const std::filesystem::path& file, const Session& session) {
   try {
     std::vector<std::string> warnings;
     const auto experiment = session.read(file);
-    for (const auto& test : experiment.tests)
-      for (const std::string& warning :
-           data::read_dataset(test.data, session.catalogue().tests().find(test.type)->second.factory.observables)
-               .warnings)
+    for (const auto& test : experiment.tests) {
+      data::Dataset dataset =
+          data::read_dataset(test.data, session.catalogue().tests().find(test.type)->second.factory.observables);
+      if (!test.data.preload)
+        if (auto toe = toe_of(dataset)) dataset.warnings.push_back(std::move(*toe));
+      for (const std::string& warning : dataset.warnings)
         warnings.push_back(fmt::format("test '{}': {}", test.name, warning));
+    }
     return warnings;
   } catch (const InputError&) {
     std::filesystem::remove(file);
@@ -104,6 +145,11 @@ int import(const GlobalOptions& global, ImportOptions options) {
   Answers& answers = options.answers;
   for (const std::string& file : options.files) answers.files.emplace_back(file);
   answers.table = options.table;
+  check_length(answers.width, "--width");
+  check_length(answers.thickness, "--thickness");
+  check_length(answers.gauge_length, "--gauge-length");
+  if (answers.gauge_length == "preload" && (answers.preload.empty() || answers.preload == "none"))
+    throw InputError("--gauge-length preload: at which load? Add --preload, for example --preload 0.1N");
   answers.options = pairs(options.options, "--set");
   answers.columns = pairs(options.columns, "--column");
   answers.units = pairs(options.units, "--unit");
@@ -164,9 +210,9 @@ void add_import(CLI::App& app, GlobalOptions& global, Action& action) {
   list("--set", options->options, "Option of the test; may be repeated", "KEY=VALUE");
   verb->footer(
       "Examples:\n"
-      "  tunica import strip.csv --width '5 mm' --thickness '1.2 mm' --gauge-length '20 mm'\n"
+      "  tunica import strip.csv --width 5mm --thickness 1.2mm --gauge-length 20mm\n"
       "  tunica import rig/*.csv --specimens specimens.csv -o experiment.json\n"
-      "  tunica import tube.csv --each test --thickness '0.77 mm' --set 'outer_radius=2.3 mm'\n\n"
+      "  tunica import tube.csv --each test --thickness 0.77mm --set outer_radius=2.3mm\n\n"
       "On a terminal it asks for what the files do not say. `tunica check` shows what was understood.");
   verb->callback([&global, &action, options] { action = [&global, options] { return import(global, *options); }; });
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 
 #include "data/nearest.hpp"
 #include "execution/interrupt.hpp"
@@ -24,6 +26,7 @@ namespace {
 struct ServeOptions {
   std::string file, run, host = "127.0.0.1";
   int port = 4242;
+  unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
 };
 
 const execution::PlannedRun& chosen(const execution::Plan& plan, const std::string& label) {
@@ -42,11 +45,13 @@ int serve(const GlobalOptions& global, const ServeOptions& options) {
   const auto experiment = session.read(options.file);
   const auto plan = execution::make_plan(experiment, session.catalogue());
   const auto& run = chosen(plan, options.run);
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const serving::ServedRun served(*run.assembly);
   const execution::InterruptWatch interrupts;
   HttpService service;
   service.host = options.host;
   service.port = options.port;
+  service.threads = options.threads;
   service.got = {"/Info"};
   service.posted = serving::posted_paths();
   service.answer = [&served](const std::string& path, const std::string& body) -> HttpReply {
@@ -60,6 +65,11 @@ int serve(const GlobalOptions& global, const ServeOptions& options) {
     std::fflush(stdout);
     fmt::print(stderr, "{}: objective, residuals and predictions of {}; Ctrl-C ends it\n", run.label,
                fmt::join(names, ", "));
+    std::vector<std::string> others;
+    for (const auto& other : plan.runs)
+      if (other.label != run.label) others.push_back(other.label);
+    if (options.run.empty() && !others.empty())
+      fmt::print(stderr, "the first run is served; for {} say --run\n", fmt::join(others, ", "));
   };
   service.over = [] { return execution::InterruptWatch::interrupted(); };
   serve_http(service);
@@ -77,6 +87,10 @@ void add_serve(CLI::App& app, GlobalOptions& global, Action& action) {
       ->type_name("RUN");
   verb->add_option("--port", options->port, "Port; 0 = any that is free (default: 4242)")
       ->check(CLI::Range(0, 65535))
+      ->type_name("N");
+  verb->add_option("-j,--threads", options->threads,
+                   "Threads for requests and what they ask for (default: all of the machine)")
+      ->check(CLI::Range(1, 1024))
       ->type_name("N");
   verb->add_option("--host", options->host, "Address to listen on (default: 127.0.0.1, this machine only)")
       ->type_name("ADDRESS");

@@ -130,6 +130,7 @@ TEST(Cards, RefuseSettingsAndParametersThatAreNotUsable) {
   EXPECT_THAT(refused(Target::calculix, neo, {.bulk_ratio = 0}), HasSubstr("CalculiX needs a bulk modulus"));
   EXPECT_THAT(refused(Target::febio, neo, {.bulk_ratio = 0}), HasSubstr("FEBio needs a bulk modulus"));
   EXPECT_THAT(refused(Target::lsdyna, neo), HasSubstr("a card of LS-DYNA has a density"));
+  EXPECT_THAT(refused(Target::lsdyna, neo, {.bulk_ratio = 1e9, .density = 1000}), HasSubstr("ten columns"));
   EXPECT_THAT(refused(Target::febio, neo, {.density = -1}), HasSubstr("density: found -1 kg/m3"));
   EXPECT_THAT(refused(Target::febio, gho, {.subroutine = true}), HasSubstr("for fibre models in Abaqus"));
   EXPECT_THAT(refused(Target::abaqus, neo, {.subroutine = true}), HasSubstr("this is 'neo_hooke' for Abaqus"));

@@ -136,7 +136,7 @@ finally:
     assert server.wait(20) == 0
 
 found = run("run", "client.json", "-o", "gone")
-assert found.returncode == 2 and "did not answer" in found.stderr, found.stderr
+assert found.returncode == 2 and "cannot be reached" in found.stderr, found.stderr
 
 
 class Strip(http.server.BaseHTTPRequestHandler):

@@ -75,6 +75,12 @@ class CommandLine(Case):
                                  result.runs[run].card(to, units="mm-mN-kPa"))
         with self.assertRaises(tunica.InputError):
             result.best.card("nastran")
+        self.assertEqual(program("export", result.directory, "--to", "lsdyna", "--run", "yeoh/lm", "--density", "1000 kg/m3"),
+                         result.runs["yeoh/lm"].card("lsdyna", density="1000 kg/m3"))
+        with self.assertRaisesRegex(KeyError, "no parameter 'c9'; there are: c10, c20, c30"):
+            result.runs["yeoh/lm"].parameters["c9"]
+        with self.assertRaisesRegex(KeyError, "no test 'torsion'; there are: uniaxial"):
+            result.best.fit["torsion"]
 
     def test_a_diagnosis_has_the_verdict_of_the_program(self):
         experiment = EXAMPLES / "treloar_cause" / "experiment.json"

@@ -12,6 +12,7 @@
 #include "comparison/certify.hpp"
 #include "comparison/simulation_record.hpp"
 #include "data/nearest.hpp"
+#include "data/units.hpp"
 #include "diagnosis_folder.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
@@ -197,13 +198,22 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
 /// What `tunica export` prints.
 std::string export_card(const std::string& result, const std::string& target, const std::string& run,
                         const std::string& model, const std::string& units, const std::string& name,
-                        const std::optional<double>& bulk_ratio) {
+                        const std::optional<double>& bulk_ratio, const std::string& density,
+                        const std::string& subroutine) {
   const auto fitted = exporting::fitted_material({result, run, model});
-  return cards::write_card(cards::target_of(target), fitted.material,
-                           {.name = name.empty() ? app::card_name(fitted.name) : name,
-                            .units = cards::unit_system(units),
-                            .bulk_ratio = bulk_ratio,
-                            .remarks = fitted.remarks});
+  if (!subroutine.empty() && std::filesystem::exists(subroutine))
+    throw InputError(fmt::format("subroutine '{}': is there already; name a new file", subroutine));
+  std::optional<double> mass;
+  if (!density.empty()) mass = data::parse_quantity(density, "kg/m3");
+  const std::string card = cards::write_card(cards::target_of(target), fitted.material,
+                                             {.name = name.empty() ? app::card_name(fitted.name) : name,
+                                              .units = cards::unit_system(units),
+                                              .bulk_ratio = bulk_ratio,
+                                              .density = mass,
+                                              .subroutine = !subroutine.empty(),
+                                              .remarks = fitted.remarks});
+  if (!subroutine.empty()) execution::write_atomically(subroutine, cards::uanisohyper_inv());
+  return card;
 }
 
 /// What `tunica certify FOLDER --best-points POINTS` prints.

@@ -100,7 +100,8 @@ class Run:
     @property
     def fit(self) -> dict[str, Table]: ...
     def card(self, to: str, *, model: str = ..., units: str = ..., name: str = ...,
-             bulk_ratio: float | None = ...) -> str: ...
+             bulk_ratio: float | None = ..., density: str | float | None = ...,
+             subroutine: str = ...) -> str: ...
 
 class Result(_Folder):
     @property

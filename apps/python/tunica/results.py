@@ -9,7 +9,7 @@ import re
 import numpy
 
 from . import _core
-from .errors import InputError
+from .errors import EvaluationError, InputError
 from .table import Table
 
 
@@ -22,6 +22,20 @@ def _once(method):
             self.__dict__[name] = method(self)
         return self.__dict__[name]
     return kept
+
+
+class Named(dict):
+    """A dictionary that says which names there are where one is not."""
+
+    def __init__(self, kind, entries=()):
+        super().__init__(entries)
+        self._kind = kind
+
+    def __missing__(self, name):
+        raise KeyError(f"no {self._kind} '{name}'; there are: {', '.join(map(str, self))}")
+
+    def __reduce__(self):
+        return Named, (self._kind, dict(self))
 
 
 class Estimate(float):
@@ -124,7 +138,7 @@ class Run:
     def best(self):
         """The best point as result.json has it."""
         if not self.found:
-            raise InputError(f"the run '{self.name}' has no result; the first failure: {self.json['first_failure']}")
+            raise EvaluationError(f"the run '{self.name}' has no result; the first failure: {self.json['first_failure']}")
         return self.json["best"]
 
     @property
@@ -134,7 +148,8 @@ class Run:
     @property
     def parameters(self):
         """{name: Estimate} of what was searched for."""
-        return {name: Estimate(about["value"], about) for name, about in self.best["parameters"].items()}
+        return Named("parameter", {name: Estimate(about["value"], about)
+                                   for name, about in self.best["parameters"].items()})
 
     @property
     def fixed(self):
@@ -156,17 +171,19 @@ class Run:
     @_once
     def fit(self):
         """{test: Table}: measured and predicted, row by row."""
-        tables = {}
+        tables = Named("test")
         for test in self.json["tests"]:
             table = self._result.table("fit_" + re.sub(r"[^A-Za-z0-9_-]", "-", test))
             tables[test] = table.where("run", self.name).filled()
         return tables
 
-    def card(self, to, *, model="", units="mm-N-MPa", name="", bulk_ratio=None):
+    def card(self, to, *, model="", units="mm-N-MPa", name="", bulk_ratio=None, density="", subroutine=""):
         """The material card for a finite-element program, as `tunica export` prints it: text. to: "calculix", "abaqus"
-        and others that docs/export.md lists. model: where layers have several. Raises InputError with the reason for
-        what the program cannot express."""
-        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio)
+        and others that docs/export.md lists. model: where layers have several. density: "1000 kg/m3" or a number of
+        kg/m³, for febio and lsdyna. subroutine: a new file for Abaqus' UANISOHYPER_INV, which the card then calls. Raises
+        InputError with the reason for what the program cannot express."""
+        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio,
+                                 "" if density is None else str(density), str(subroutine))
 
     def __repr__(self):
         if not self.found:
@@ -190,7 +207,7 @@ class Result(Folder):
         for entry in self.json["ranking"]:
             if entry["rank"] is not None:
                 return self.runs[entry["run"]]
-        raise InputError(f"{self.directory}: no run has a result; the first failure: "
+        raise EvaluationError(f"{self.directory}: no run has a result; the first failure: "
                          f"{self.json['runs'][0]['first_failure']}")
 
     @property
@@ -268,7 +285,7 @@ class Simulation:
         self.directory = pathlib.Path(directory) if directory is not None else None
 
     def __getitem__(self, test):
-        return self.tables[test]
+        return Named("test", self.tables)[test]
 
     def _repr_html_(self):
         if self.directory is not None:

@@ -2,6 +2,7 @@
 // LS-DYNA Keyword User's Manual, volume II: *MAT_HYPERELASTIC_RUBBER (077_H), *MAT_OGDEN_RUBBER (077_O), N = 0: the
 // constants are given. The bulk modulus follows from Poisson's ratio.
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,12 @@ std::string head(const Draft& draft, std::string_view keyword) {
   const double shear = draft.stress * stiffness_at_rest(draft.material), bulk = draft.bulk;
   // ν = (3K − 2G)/(6K + 2G)
   const double poisson = (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear);
+  const double written = std::stod(field(poisson)), read = 2 * shear * (1 + written) / (3 * (1 - 2 * written));
+  if (!(std::abs(read / bulk - 1) < 0.01))
+    throw InputError(
+        fmt::format("bulk ratio: found {:g}, and LS-DYNA reads Poisson's ratio from ten columns, which lose it; take "
+                    "1e5 or less",
+                    bulk / shear));
   return fmt::format("*MAT_{}_TITLE\n{}\n$      mid        ro        pr         n\n{:>10}{}{}{:>10}\n", keyword,
                      draft.settings.name, 1, field(*draft.settings.density * draft.settings.units.density_per_kg_m3),
                      field(poisson), 0);
@@ -57,8 +64,7 @@ std::string polynomial(const Draft& draft, double c10, double c01, double c20, d
 std::string lsdyna_card(const Draft& draft) {
   const auto& material = draft.material;
   if (has_fibres(material))
-    cannot_express("LS-DYNA", material,
-                   "tunica writes no card of its anisotropic energies (*MAT_295), which nobody here could check",
+    cannot_express("LS-DYNA", material, "tunica writes no card of its anisotropic energies (*MAT_295)",
                    "export for FEBio or Abaqus");
   if (material.type == "gent")
     cannot_express("LS-DYNA", material, "it has no energy with a limit of extension of the chains",

@@ -83,11 +83,9 @@ void trim(Branch& branch, const std::vector<double>& load, double preload) {
 }
 
 /// Between the row that first bears the preload and the one before.
-double length_at(const RawPath& path, const Branch& whole, std::size_t row, double preload) {
-  const auto& length = path.length->values;
-  const auto& load = path.load->values;
-  if (row == whole.first || load[row] == load[row - 1]) return length[row];
-  return length[row - 1] + (preload - load[row - 1]) / (load[row] - load[row - 1]) * (length[row] - length[row - 1]);
+PathPoint point_at(const std::vector<double>& load, const Branch& whole, std::size_t row, double preload) {
+  if (row == whole.first || load[row] == load[row - 1] || std::isnan(load[row - 1])) return {row};
+  return {row, (load[row] - preload) / (load[row] - load[row - 1])};
 }
 
 }  // namespace
@@ -149,8 +147,8 @@ ChosenRows choose_rows(const RawPath& path, const DataRequest& request) {
     any_branch = true;
     Branch used = whole;
     if (request.preload) trim(used, path.load->values, request.preload->value);
-    if (path.length != nullptr && used.loading && used.first < used.last && !chosen.length_at_preload)
-      chosen.length_at_preload = length_at(path, whole, used.first, request.preload->value);
+    if (request.preload && used.loading && used.first < used.last && !chosen.at_preload)
+      chosen.at_preload = point_at(path.load->values, whole, used.first, request.preload->value);
     for (std::size_t row = used.first; row < used.last; ++row) chosen.rows.push_back(row);
   }
   if (!any_branch)
@@ -159,13 +157,15 @@ ChosenRows choose_rows(const RawPath& path, const DataRequest& request) {
   const std::string preload =
       request.preload ? fmt::format("{:g} {}", request.preload->value, request.preload->is_force ? "mN" : "kPa") : "";
   if (chosen.rows.empty()) {
-    const auto [low, high] = std::minmax_element(path.load->values.begin(), path.load->values.end());
+    std::vector<double> load = path.load->values;
+    std::erase_if(load, [](double value) { return std::isnan(value); });
+    const auto [low, high] = std::minmax_element(load.begin(), load.end());
     throw InputError(
         fmt::format("{}: the preload of {} is not reached; the values lie between {:g} and {:g}. Correct "
                     "\"preload\", or leave it out.",
                     path.load->place, preload, *low, *high));
   }
-  if (path.length != nullptr && !chosen.length_at_preload)
+  if (request.specimen.gauge_at_preload && !chosen.at_preload)
     throw InputError(
         fmt::format("{}: no loading reaches the preload of {}, so the gauge length cannot be taken there. "
                     "Give \"gauge_length\" as a length.",

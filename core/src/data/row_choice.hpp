@@ -29,17 +29,26 @@ struct RawPath {
   RawColumn path;                      ///< what is prescribed
   double rest = 0;                     ///< its value at rest
   const RawColumn* load = nullptr;     ///< what the preload is compared with; null: no preload
-  const RawColumn* length = nullptr;   ///< length or displacement; null: no gauge length is asked for
   std::vector<std::size_t> of_column;  ///< number of the cycle of each row, from "cycles_from"; empty = turning points
 };
 
-struct ChosenRows {
-  std::vector<std::size_t> rows;                 ///< positions, rising
-  std::optional<double> length_at_preload = {};  ///< in the unit of `length`
+/// A point of the path at or before a row.
+struct PathPoint {
+  std::size_t row = 0;
+  double back = 0;  ///< by which part of the way to the row before
+
+  [[nodiscard]] double of(const std::vector<double>& values) const {
+    return back == 0 ? values[row] : values[row] + back * (values[row - 1] - values[row]);
+  }
 };
 
-/// The rows of the cycles and branches that the request names, from the preload on. Throws InputError where no row is
-/// left.
+struct ChosenRows {
+  std::vector<std::size_t> rows;             ///< positions, rising
+  std::optional<PathPoint> at_preload = {};  ///< where the first loading that is chosen comes to the preload
+};
+
+/// The rows of the cycles and branches that the request names, from the preload on. A row without a load does not bear
+/// it. Throws InputError where no row is left.
 ChosenRows choose_rows(const RawPath& path, const DataRequest& request);
 
 /// The number that stands first in a cell: 3 of "3-Stretch", "cycle 3" and "3".

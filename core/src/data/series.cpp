@@ -61,11 +61,10 @@ class Reader {
     const std::vector<std::size_t> chosen = cycles();
     std::vector<std::size_t> selected = rows_in_range(csv_, request_.rows, chosen.size(), warnings_);
     for (std::size_t& row : selected) row = chosen[row];
+    take_gauge_lengths();
     for (const std::size_t row : selected) series_.lines.push_back(rows_[row]->line);
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
-      for (const std::size_t row : selected)
-        series_.columns[k].values.push_back(is_missing(k, *rows_[row]) ? std::numeric_limits<double>::quiet_NaN()
-                                                                       : value(k, *rows_[row]));
+      for (const std::size_t row : selected) series_.columns[k].values.push_back(value_or_nan(k, *rows_[row]));
     series_.used_lines = series_.lines;
     take_time(selected);
     derive_stretches();
@@ -126,10 +125,14 @@ class Reader {
     return false;
   }
 
+  double value_or_nan(std::size_t k, const Csv::Row& row) const {
+    return is_missing(k, row) ? std::numeric_limits<double>::quiet_NaN() : value(k, row);
+  }
+
   RawColumn all_rows_of(std::size_t k) const {
     RawColumn column{series_.header_place(series_.columns[k]), {}};
     column.values.reserve(rows_.size());
-    for (const Csv::Row* row : rows_) column.values.push_back(value(k, *row));
+    for (const Csv::Row* row : rows_) column.values.push_back(value_or_nan(k, *row));
     return column;
   }
 
@@ -168,10 +171,13 @@ class Reader {
                                  csv_.file.string(), request_.preload->is_force ? "force" : "stress"));
   }
 
-  std::optional<std::size_t> length_column() const {
-    if (!request_.specimen.gauge_at_preload) return std::nullopt;
+  bool has_length(std::size_t k) const {
+    return quantities_[k].kind == From::length || quantities_[k].kind == From::displacement;
+  }
+
+  void require_length() const {
     for (std::size_t k = 0; k < quantities_.size(); ++k)
-      if (quantities_[k].kind == From::length || quantities_[k].kind == From::displacement) return k;
+      if (has_length(k)) return;
     throw InputError(
         fmt::format("{}: the gauge length is that at the preload, and no column is a length or a "
                     "displacement. Map one in \"columns\".",
@@ -204,28 +210,35 @@ class Reader {
       return rows;
     }
     const std::size_t column = path_column();
-    RawColumn load, length;
-    RawPath path{all_rows_of(column), rest_of(column), nullptr, nullptr, cycle_numbers()};
+    if (request_.specimen.gauge_at_preload) require_length();
+    RawColumn load;
+    RawPath path{all_rows_of(column), rest_of(column), nullptr, cycle_numbers()};
     if (request_.preload) {
       load = all_rows_of(load_column());
       path.load = &load;
     }
-    const auto measured_along = length_column();
-    if (measured_along) {
-      length = all_rows_of(*measured_along);
-      path.length = &length;
-    }
     ChosenRows chosen = choose_rows(path, request_);
     parted_ = true;
-    if (chosen.length_at_preload) gauge_at_preload(*measured_along, *chosen.length_at_preload);
+    at_preload_ = chosen.at_preload;
     return std::move(chosen.rows);
   }
 
-  void gauge_at_preload(std::size_t k, double at_preload) {
-    series_.gauge_length = at_preload;
-    if (quantities_[k].kind != From::displacement) return;
-    offset_ = at_preload;
-    *series_.gauge_length += grip_distance(k);
+  /// Of every direction its own: what is given for it, else its length at the preload.
+  void take_gauge_lengths() {
+    offsets_.assign(quantities_.size(), 0);
+    for (std::size_t k = 0; k < quantities_.size(); ++k) {
+      if (!has_length(k)) continue;
+      double& gauge = series_.columns[k].gauge_length;
+      const auto given = sizes_along(request_.specimen, quantities_[k].observable->name).gauge_length;
+      if (given || !request_.specimen.gauge_at_preload || !at_preload_) {
+        gauge = required_size(given, k, "gauge_length");
+        continue;
+      }
+      gauge = at_preload_->of(all_rows_of(k).values);
+      if (quantities_[k].kind == From::length) continue;
+      offsets_[k] = gauge;
+      gauge += grip_distance(k);
+    }
   }
 
   double grip_distance(std::size_t k) const {
@@ -247,8 +260,13 @@ class Reader {
         for (double begin = column.values.front(); double& time : column.values) time -= begin;
     if (!request_.time_rate || path == series_.columns.end()) return;
     const auto k = static_cast<std::size_t>(path - series_.columns.begin());
-    const RawColumn all = all_rows_of(k);
-    const std::vector<double> time = time_along(all.values, rest_of(k), *request_.time_rate);
+    RawColumn all = all_rows_of(k);
+    double rest = rest_of(k);
+    if (series_.columns[k].derived) {  // the rate is that of the stretch
+      for (double& value : all.values) value = stretch(k, value);
+      rest = 1;
+    }
+    const std::vector<double> time = time_along(all.values, rest, *request_.time_rate);
     for (const std::size_t row : selected) series_.time.push_back(time[row]);
   }
 
@@ -259,19 +277,17 @@ class Reader {
   }
 
   /// λ = 1 + ΔL/L, ℓ/L or 1 + ε, with the gauge length L.
+  double stretch(std::size_t k, double value) const {
+    const From kind = quantities_[k].kind;
+    if (kind == From::strain) return 1 + value;
+    const double gauge = series_.columns[k].gauge_length;
+    return kind == From::length ? value / gauge : 1 + (value - offsets_[k]) / gauge;
+  }
+
   void derive_stretches() {
-    for (std::size_t k = 0; k < series_.columns.size(); ++k) {
-      const From kind = quantities_[k].kind;
-      if (kind != From::displacement && kind != From::length && kind != From::strain) continue;
-      double gauge = 1, shift = 0;
-      if (kind != From::strain) {
-        const auto given = sizes_along(request_.specimen, quantities_[k].observable->name).gauge_length;
-        gauge = series_.gauge_length ? *series_.gauge_length : required_size(given, k, "gauge_length");
-        if (series_.gauge_length && kind == From::displacement) shift = offset_;
-      }
-      for (double& value : series_.columns[k].values)
-        value = kind == From::length ? value / gauge : 1 + (value - shift) / gauge;
-    }
+    for (std::size_t k = 0; k < series_.columns.size(); ++k)
+      if (has_length(k) || quantities_[k].kind == From::strain)
+        for (double& value : series_.columns[k].values) value = stretch(k, value);
   }
 
   /// The nominal stress is P = F/(width·thickness); in an incompressible specimen σ = Pλ and S = P/λ.
@@ -311,7 +327,8 @@ class Reader {
   std::vector<const Csv::Row*> rows_;
   char decimal_ = '.';
   bool parted_ = false;  ///< rows are a part of those that match "where"
-  double offset_ = 0;    ///< displacement at the preload
+  std::optional<PathPoint> at_preload_;
+  std::vector<double> offsets_;  ///< displacement at the preload, by column
 };
 
 }  // namespace

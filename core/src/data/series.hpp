@@ -18,6 +18,7 @@ struct Series {
     std::string name, unit;      ///< as the header has them; unit "" where it has none
     std::vector<double> values;  ///< one per row
     bool derived = false;        ///< from another quantity in the column, with the sizes of the specimen
+    double gauge_length = 0;     ///< mm, of a stretch from a length or a displacement; 0 = none
   };
   std::filesystem::path file;
   std::string sha256;
@@ -27,7 +28,6 @@ struct Series {
   std::vector<double> time;                                 ///< from `time_from`; empty = none
   std::vector<std::size_t> used_lines = {};                 ///< of the rows that were read
   std::vector<std::pair<std::string, Noise>> scatter = {};  ///< by channel, where it was resampled
-  std::optional<double> gauge_length = {};                  ///< mm, where it was taken at the preload
 
   /// "circ.csv, line 7, column 2 ('stress')".
   [[nodiscard]] std::string place(std::size_t row, const Column& column) const;

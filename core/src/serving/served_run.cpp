@@ -47,7 +47,7 @@ std::vector<std::vector<double>> ServedRun::values(Function function, std::span<
   if (function == Function::predictions) {
     std::vector<double> predictions(layout().prediction_count);
     const Status status = assembly_.evaluator().predict(parameters, predictions, {}, *workspace);
-    if (!status.ok()) throw InputError(status.reason());
+    if (!status.ok()) throw ModelFailure(status.reason());
     std::vector<std::vector<double>> outputs;
     for (const auto& channel : layout().channels) {
       const auto first = predictions.begin() + static_cast<std::ptrdiff_t>(channel.offset);
@@ -58,7 +58,7 @@ std::vector<std::vector<double>> ServedRun::values(Function function, std::span<
   double objective = 0;
   std::vector<double> residuals(function == Function::residuals ? layout().residual_count : 0);
   const Status status = assembly_.evaluator().evaluate(parameters, objective, {}, residuals, {}, *workspace);
-  if (status.kind() == Status::Kind::failed) throw InputError(status.reason());
+  if (status.kind() == Status::Kind::failed) throw ModelFailure(status.reason());
   if (function == Function::residuals) return {std::move(residuals)};
   return {{objective}};
 }
@@ -71,7 +71,7 @@ std::vector<double> ServedRun::jacobian(Function function, std::size_t output,
   if (function == Function::predictions) {
     std::vector<double> predictions(layout().prediction_count), all(predictions.size() * n);
     const Status status = assembly_.evaluator().predict(parameters, predictions, all, *workspace);
-    if (!status.ok()) throw InputError(status.reason());
+    if (!status.ok()) throw ModelFailure(status.reason());
     const auto& channel = layout().channels[output];
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(channel.offset * n);
     return {first, first + static_cast<std::ptrdiff_t>(channel.count * n)};
@@ -79,7 +79,7 @@ std::vector<double> ServedRun::jacobian(Function function, std::size_t output,
   double objective = 0;
   std::vector<double> residuals(m), rows(m * n);
   const Status status = assembly_.evaluator().evaluate(parameters, objective, {}, residuals, rows, *workspace);
-  if (status.kind() == Status::Kind::failed) throw InputError(status.reason());
+  if (status.kind() == Status::Kind::failed) throw ModelFailure(status.reason());
   if (function == Function::residuals) return rows;
   // ∂f/∂p_j = Σ_b 2 w_b ρ'_b Σ_i r_i ∂r_i/∂p_j
   std::vector<double> gradient(n);

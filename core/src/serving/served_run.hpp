@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "assembly/assembly.hpp"
 
 namespace tunica::serving {
+
+/// An evaluation that fails, with its reason: the model's fault, not that of who asks.
+class ModelFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// One run of an experiment as functions of its free parameters, in base units:
 ///
@@ -26,7 +33,7 @@ class ServedRun {
   [[nodiscard]] std::size_t input_size() const { return layout().parameters.size(); }
   /// Length of each output vector.
   [[nodiscard]] std::vector<std::size_t> output_sizes(Function function) const;
-  /// Throws InputError where the parameters lie outside their bounds, or cannot be evaluated, with the reason.
+  /// Throws InputError where the parameters lie outside their bounds, and ModelFailure where they cannot be evaluated.
   [[nodiscard]] std::vector<std::vector<double>> values(Function function, std::span<const double> parameters) const;
   /// ∂output/∂p of one output vector, row-major. Exact where the tests' derivatives are.
   [[nodiscard]] std::vector<double> jacobian(Function function, std::size_t output,

@@ -144,6 +144,8 @@ Answer answer(const ServedRun& run, std::string_view path, const std::string& bo
     return error(400, problem.type, problem.what());
   } catch (const InputError& problem) {
     return error(400, "InvalidInput", problem.what());
+  } catch (const ModelFailure& problem) {
+    return error(500, "ModelError", problem.what());
   } catch (const std::exception& problem) {
     return error(500, "InternalError", problem.what());
   }

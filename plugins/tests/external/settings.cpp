@@ -131,6 +131,14 @@ const std::string& checked_name(const std::string& name, const char* option) {
   return name;
 }
 
+/// At most a year, which every clock can count.
+static Option time_limit() {
+  Option option = Option::quantity("time_limit", "s", 0.001,
+                                   "Longest time of a run; then it is ended, and the evaluation fails.", 600.0);
+  option.max = 3e7;
+  return option;
+}
+
 std::vector<Option> options() {
   const auto json = [](std::string name, std::optional<std::string> fallback, std::string doc) {
     Option option{std::move(name), Option::Kind::json, {}, std::move(doc)};
@@ -145,8 +153,7 @@ std::vector<Option> options() {
       json("files", "[]", "List of other files that the solver reads; each is linked into the scratch folder."),
       json("results", {}, "Object: observable to the file and the column, JSON pointer or pattern of its numbers."),
       json("card", "{}", "Object: \"program\", \"units\" and \"material\" of {{card}}."),
-      Option::quantity("time_limit", "s", 0.001, "Longest time of a run; then it is ended, and the evaluation fails.",
-                       600.0),
+      time_limit(),
       Option::integer("memory_limit", 0, {0, 1e7}, "Largest memory of a run in MiB; 0 sets no limit."),
       Option::integer("threads", 1, {1, 1024}, "Threads of a run, given to it as OMP_NUM_THREADS."),
       Option::choice("derivatives", {"broyden", "forward", "central"}, "broyden",

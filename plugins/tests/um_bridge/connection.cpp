@@ -20,11 +20,18 @@ Json Connection::ask(const std::string& path, const Json* request) const {
   client.set_connection_timeout(limit);
   client.set_read_timeout(limit);
   client.set_write_timeout(limit);
+  const auto begun = std::chrono::steady_clock::now();
   const httplib::Result result =
       request == nullptr ? client.Get(path) : client.Post(path, request->dump(), "application/json");
+  if (!result && std::chrono::steady_clock::now() - begun >= limit)
+    throw std::runtime_error(
+        fmt::format("{}{} did not answer within {:g} s; start the server anew, or give it more "
+                    "\"time_limit\"",
+                    url_, path, seconds_));
   if (!result)
-    throw std::runtime_error(fmt::format("{}{} did not answer within {:g} s ({}); start the server, or correct \"url\"",
-                                         url_, path, seconds_, httplib::to_string(result.error())));
+    throw std::runtime_error(
+        fmt::format("{}{} cannot be reached, or broke off ({}); start the server, or correct \"url\"", url_, path,
+                    httplib::to_string(result.error())));
   const Json answer = Json::parse(result->body, nullptr, false);
   if (answer.is_object() && answer.contains("error")) {
     const Json& error = answer["error"];

@@ -192,6 +192,14 @@ class Served final : public Test {
   mutable std::atomic<std::uint64_t> evaluations_ = 0, actions_ = 0;
 };
 
+/// At most a year, which every clock can count.
+Option time_limit() {
+  Option option =
+      Option::quantity("time_limit", "s", 0.001, "Longest wait for the server; then the evaluation fails.", 600.0);
+  option.max = 3e7;
+  return option;
+}
+
 std::vector<Option> options() {
   const auto json = [](std::string name, std::optional<std::string> fallback, std::string doc) {
     Option option{std::move(name), Option::Kind::json, {}, std::move(doc)};
@@ -205,7 +213,7 @@ std::vector<Option> options() {
       json("inputs", {},
            "List of lists of parameters by name, with a unit if it is not the base unit: [[\"mu MPa\"]]."),
       json("outputs", {}, "Object: channel to {\"output\": 0, \"first\": 0, \"unit\": \"N\", \"factor\": 1}."),
-      Option::quantity("time_limit", "s", 0.001, "Longest time of an answer; then the evaluation fails.", 600.0),
+      time_limit(),
       Option::choice("derivatives", {"server", "broyden", "forward", "central"}, "server",
                      "Actions of the server's Jacobian, where it has them; else differences as 'broyden'."),
       Option::number("difference_step", 1e-4, {1e-8, 0.1}, "Relative step of the differences."),
