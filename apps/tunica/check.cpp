@@ -148,7 +148,7 @@ void print_initial_point(const calibration::PosedProblem& problem) {
 }
 
 void print(const calibration::Examination& checked, const std::string& file) {
-  const auto& [experiment, plan, warnings, notes, problems, paths] = checked;
+  const auto& [experiment, plan, warnings, notes, problems, paths, understood] = checked;
   fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
              counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
              counted(experiment.runs.size(), "run", "runs"), experiment.seed);
@@ -158,6 +158,10 @@ void print(const calibration::Examination& checked, const std::string& file) {
   for (const auto& run : plan.runs)
     fmt::print("{}: {} of at most {} evaluations\n", run.label,
                counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
+  for (const auto& [test, lines] : understood) {
+    fmt::print("\n{}, as its file was understood\n", test);
+    for (const auto& line : lines) fmt::print("{}\n", hanging("  ", line));
+  }
   print_paths(paths);
   for (const auto& problem : problems) {
     fmt::print("\n{}\n", hanging("", problem.title));

@@ -83,10 +83,12 @@ json initial_json(const calibration::PosedProblem& problem) {
 }  // namespace
 
 json check_json(const calibration::Examination& checked) {
-  json document = {
-      {"name", checked.experiment.name}, {"in_order", checked.good()},       {"seed", checked.experiment.seed},
-      {"warnings", json::array()},       {"warning_details", json::array()}, {"runs", json::array()},
-      {"notes", checked.notes},          {"problems", json::array()},        {"paths", json::array()}};
+  json document = {{"name", checked.experiment.name},  {"in_order", checked.good()},
+                   {"seed", checked.experiment.seed},  {"warnings", json::array()},
+                   {"warning_details", json::array()}, {"runs", json::array()},
+                   {"notes", checked.notes},           {"problems", json::array()},
+                   {"paths", json::array()},           {"understood", json::object()}};
+  for (const auto& [test, lines] : checked.understood) document["understood"][test] = lines;
   for (const auto& path : checked.paths)
     document["paths"].push_back({{"test", path.test},
                                  {"ordered", path.ordered},

@@ -73,6 +73,18 @@ std::vector<TestPath> paths_of(const experiment::Experiment& experiment, const p
   return paths;
 }
 
+/// What was made of the files of testing machines.
+std::vector<UnderstoodData> understood_of(const experiment::Experiment& experiment,
+                                          const plugins::Catalogue& catalogue) {
+  std::vector<UnderstoodData> found;
+  for (const auto& test : experiment.tests) {
+    const auto& observables = catalogue.tests().find(test.type)->second.factory.observables;
+    if (auto lines = data::read_dataset(test.data, observables).understood; !lines.empty())
+      found.push_back({test.name, std::move(lines)});
+  }
+  return found;
+}
+
 }  // namespace
 
 bool agrees(const Agreement& one) { return one.difference <= one.expected; }
@@ -89,8 +101,13 @@ bool Examination::good() const {
 }
 
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
-  Examination found{
-      experiment, execution::make_plan(experiment, catalogue), {}, {}, {}, paths_of(experiment, catalogue)};
+  Examination found{experiment,
+                    execution::make_plan(experiment, catalogue),
+                    {},
+                    {},
+                    {},
+                    paths_of(experiment, catalogue),
+                    understood_of(experiment, catalogue)};
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;

@@ -51,6 +51,12 @@ struct PosedProblem {
 };
 
 /// Refers to the experiment and the catalogue, which must outlive it.
+/// What was made of the file of a testing machine, a line a column.
+struct UnderstoodData {
+  std::string test;
+  std::vector<std::string> lines;
+};
+
 struct Examination {
   const experiment::Experiment& experiment;
   execution::Plan plan;
@@ -58,6 +64,7 @@ struct Examination {
   std::vector<std::string> notes;  ///< what should be known, and worries nobody
   std::vector<PosedProblem> problems;
   std::vector<TestPath> paths;  ///< of tests with several branches, or with an order that somebody gave
+  std::vector<UnderstoodData> understood = {};
 
   [[nodiscard]] bool good() const;
 };

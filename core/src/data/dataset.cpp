@@ -131,6 +131,7 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
   dataset.count = first.lines.size();
   dataset.lines = first.lines;
   dataset.time = first.time;
+  dataset.understood = understood(first, request, observables);
   for (std::size_t k = 0; k < first.columns.size(); ++k) {
     const Series::Column& column = first.columns[k];
     const Observable& observable = *column.observable;

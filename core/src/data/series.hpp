@@ -41,6 +41,11 @@ Series read_series(const std::filesystem::path& file, const DataRequest& request
 /// a fraction, time that runs backwards) and warns of what probably is none. Throws InputError.
 void check_series(const Series& series, std::vector<std::string>& warnings);
 
+/// What was made of the columns, in lines such as "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm"; and which
+/// rows were taken. Empty for a file whose columns are the observables and whose rows are all taken.
+std::vector<std::string> understood(const Series& series, const DataRequest& request,
+                                    const std::vector<Observable>& observables);
+
 /// Puts `points` rows in place of each branch of the path, evenly along it, by local regression. What the measured rows
 /// scatter about the curve becomes the noise of the new ones. Throws InputError where a branch has fewer rows.
 void resample(Series& series, std::size_t points);

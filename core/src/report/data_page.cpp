@@ -108,6 +108,7 @@ std::string data_page(const std::string& title, const std::vector<TestData>& tes
     if (!test.dataset.warnings.empty())
       page.box("bad", test.dataset.warnings.size() == 1 ? "Warning" : "Warnings", test.dataset.warnings);
     page.paragraph(test.words);
+    for (const std::string& line : test.dataset.understood) page.paragraph(line);
     page.begin_pair();
     for (const data::Signal& signal : test.signals)
       for (std::size_t column = 0; column < signal.columns.size(); ++column)

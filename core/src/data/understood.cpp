@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "data/quantities.hpp"
+#include "data/series.hpp"
+#include "text/lists.hpp"
+
+namespace tunica::data {
+namespace {
+
+using From = Quantity::Kind;
+
+std::string source_of(const Series::Column& column) {
+  return fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit);
+}
+
+/// "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm".
+std::string formula(const Series::Column& column, const Quantity& quantity, const DataRequest& request) {
+  const std::string& name = column.observable->name;
+  const std::string source = source_of(column);
+  const bool measured = request.specimen.gauge_at_preload;
+  const std::string gauge =
+      fmt::format("{:.5g} mm{}", column.gauge_length, measured ? ", the gauge length at the preload" : "");
+  switch (quantity.kind) {
+    case From::own:
+      return fmt::format("{} from {}", name, source);
+    case From::displacement:
+      return fmt::format("{} = 1 + displacement / {}, from {}", name, gauge, source);
+    case From::length:
+      return fmt::format("{} = length / {}, from {}", name, gauge, source);
+    case From::strain:
+      return fmt::format("{} = 1 + strain, from {}", name, source);
+    case From::force:
+      break;
+  }
+  const Specimen& specimen = request.specimen;
+  const auto width = sizes_along(specimen, name).width;
+  const std::string area =
+      specimen.area ? fmt::format("{:.5g} mm²", *specimen.area)
+                    : fmt::format("({:.5g} mm × {:.5g} mm)", width.value_or(0), specimen.thickness.value_or(0));
+  const char* const measure = request.stress_measure == "cauchy" ? ", times the stretch: Cauchy stress"
+                              : request.stress_measure == "first_piola_kirchhoff"
+                                  ? ": nominal stress"
+                                  : ", over the stretch: second Piola–Kirchhoff stress";
+  return fmt::format("{} = force / {}{}, from {}", name, area, measure, source);
+}
+
+std::string cycles_of(const DataRequest& request) {
+  std::string words;
+  if (request.cycle)
+    words = request.cycle->last              ? "the last cycle"
+            : request.cycle->numbers.empty() ? "all cycles"
+                                             : fmt::format("cycle {}", fmt::join(request.cycle->numbers, ", "));
+  if (request.cycle && !request.cycles_from.empty()) words += fmt::format(" (column '{}')", request.cycles_from);
+  if (request.branch != BranchChoice::both)
+    words += fmt::format("{}{}", words.empty() ? "" : ", ",
+                         request.branch == BranchChoice::loading ? "loading only" : "unloading only");
+  if (request.preload)
+    words += fmt::format("{}from a preload of {:g} {} on", words.empty() ? "" : ", ", request.preload->value,
+                         request.preload->is_force ? "mN" : "kPa");
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> understood(const Series& series, const DataRequest& request,
+                                    const std::vector<Observable>& observables) {
+  std::vector<std::string> found;
+  const bool derived = std::any_of(series.columns.begin(), series.columns.end(),
+                                   [](const Series::Column& column) { return column.derived; });
+  for (std::size_t k = 0; derived && k < series.columns.size(); ++k)
+    found.push_back(formula(series.columns[k], *quantity_named(request.columns[k].first, observables), request));
+  std::vector<std::string> conditions;
+  for (const auto& [column, value] : request.where) conditions.push_back(fmt::format("{} = {}", column, value));
+  std::string rows;
+  if (!conditions.empty()) rows = fmt::format("where {}", text::joined(conditions));
+  if (const std::string cycles = cycles_of(request); !cycles.empty()) rows += (rows.empty() ? "" : "; ") + cycles;
+  if (request.time_rate)
+    rows += fmt::format("{}time from a rate of {:g}/s", rows.empty() ? "" : "; ", *request.time_rate);
+  if (request.resample)
+    rows += fmt::format("{}{} points a branch by local regression", rows.empty() ? "" : "; ", *request.resample);
+  if (!rows.empty()) found.push_back("rows: " + rows);
+  return found;
+}
+
+}  // namespace tunica::data
