@@ -47,10 +47,25 @@ assert (block["cycle"], block["branch"], block["stress_measure"]) == ("last", "l
 assert "mm is assumed" in said and "last loading is taken" in said, said
 printed, _ = rig.tunica(program, "check", folder / "strip.json", "--page", folder / "data.html")
 assert "5 rows" in printed, printed
+assert "stretch = 1 + displacement / 20 mm, from 'Weg' in mm" in words(printed), printed
+assert "stress = force / (5 mm × 1.5 mm): nominal stress, from 'Kraft' in N" in words(printed), printed
+assert "rows: the last cycle, loading only" in words(printed), printed
 page = (folder / "data.html").read_text(encoding="utf-8")
 assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page
 _, said = imported(strip, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "preload", "--preload", "0.5 N", code=2)
 assert "grip_distance" in said, said
+_, said = imported(strip, "--width=-5mm", "--thickness", "1 mm", "--gauge-length", "20 mm", code=2)
+assert "--width -5mm: it must be greater than zero" in said, said
+_, said = imported(strip, "--width", "5 apples", "--thickness", "1 mm", "--gauge-length", "20 mm", code=2)
+assert "--width is no length" in said, said
+_, said = imported(strip, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "preload", code=2)
+assert "Add --preload" in said, said
+experiment, said = imported(strip, "--width", "5", "--thickness", "1 mm", "--gauge-length", "20 mm")
+assert "--width: no unit is given; 5 mm is assumed" in said, said
+assert experiment["tests"]["strip"]["data"]["specimen"]["width"] == "5 mm"
+toe = table("toe.csv", ["way [mm],force [N]"] + [f"{0.5 * k},{max(0, k - 12) ** 2}" for k in range(21)])
+_, said = imported(toe, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "20 mm")
+assert "a toe" in said and "--preload" in said, said
 # Everything that is missing is asked for at once, and nothing is written.
 there, said = imported(strip, code=2)
 assert all(option in said for option in ("--width", "--thickness", "--gauge-length")) and not there, said
