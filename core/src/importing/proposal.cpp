@@ -388,8 +388,7 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
   if (!catalogue.models().contains(model))
     throw InputError(fmt::format("--model {}: there is no such model. {}", model, data::suggestion(model, models)));
   Json entry = {{"type", model}};
-  // Two terms: on strips of porcine dermis, with toe and steep end, one leaves 4 to 17 times the misfit.
-  if (model == "ogden") entry["terms"] = 2;
+  if (model == "ogden") entry["terms"] = 2;  // on strips of porcine dermis one term leaves 4 to 17 times the misfit
   proposal.experiment = {{"format", 1}};
   proposal.experiment["models"][model] = std::move(entry);
   proposal.experiment["tests"] = std::move(tests);
