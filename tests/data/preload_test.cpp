@@ -10,20 +10,11 @@
 namespace tunica::data {
 namespace {
 
+using testing::by_force;
 using testing::Mapping;
 using testing::read_strip;
+using testing::strip_of;
 using testing::strip_refusal;
-
-const Mapping by_force = {{"displacement", "Way"}, {"force", "Force"}};
-
-DataRequest strip_of(double width, double thickness, double gauge_length) {
-  DataRequest request;
-  request.specimen.all.width = width;
-  request.specimen.thickness = thickness;
-  request.specimen.all.gauge_length = gauge_length;
-  request.stress_measure = "first_piola_kirchhoff";
-  return request;
-}
 
 TEST(RigData, TrimsTheToeAtAPreloadAndTakesTheGaugeLengthThere) {
   const char* const text = "Size [mm],Force [mN]\n10,0\n11,0\n12,20\n13,60\n14,100\n13,60\n12,20\n11,0\n";

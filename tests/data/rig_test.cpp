@@ -15,20 +15,11 @@
 namespace tunica::data {
 namespace {
 
+using testing::by_force;
 using testing::Mapping;
 using testing::read_strip;
+using testing::strip_of;
 using testing::strip_refusal;
-
-const Mapping by_force = {{"displacement", "Way"}, {"force", "Force"}};
-
-DataRequest strip_of(double width, double thickness, double gauge_length) {
-  DataRequest request;
-  request.specimen.all.width = width;
-  request.specimen.thickness = thickness;
-  request.specimen.all.gauge_length = gauge_length;
-  request.stress_measure = "first_piola_kirchhoff";
-  return request;
-}
 
 /// 0 → 5 → 0 mm, `cycles` times in steps of 0.5 mm, then 0 → 5 mm; the force of cycle k is (10 + k)·way.
 std::string preconditioned(int cycles) {

@@ -58,4 +58,17 @@ inline std::string strip_refusal(std::string_view text, const Mapping& columns =
   return message_of<InputError>([&] { read_strip(text, columns, request); });
 }
 
+/// A mapping of rigs that record the way of the grip and the force, and a strip's sizes (mm); stress: first
+/// Piola-Kirchhoff.
+inline const Mapping by_force = {{"displacement", "Way"}, {"force", "Force"}};
+
+inline data::DataRequest strip_of(double width, double thickness, double gauge_length) {
+  data::DataRequest request;
+  request.specimen.all.width = width;
+  request.specimen.thickness = thickness;
+  request.specimen.all.gauge_length = gauge_length;
+  request.stress_measure = "first_piola_kirchhoff";
+  return request;
+}
+
 }  // namespace tunica::testing

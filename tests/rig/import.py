@@ -63,7 +63,7 @@ assert "Add --preload" in said, said
 experiment, said = imported(strip, "--width", "5", "--thickness", "1 mm", "--gauge-length", "20 mm")
 assert "--width: no unit is given; 5 mm is assumed" in said, said
 assert experiment["tests"]["strip"]["data"]["specimen"]["width"] == "5 mm"
-toe = table("toe.csv", ["way [mm],force [N]"] + [f"{0.5 * k},{max(0, k - 12) ** 2}" for k in range(21)])
+toe = table("toe.csv", ["displacement [mm],force [N]"] + [f"{0.5 * k},{max(0, k - 12) ** 2}" for k in range(21)])
 _, said = imported(toe, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "20 mm")
 assert "a toe" in said and "--preload" in said, said
 # Everything that is missing is asked for at once, and nothing is written.
