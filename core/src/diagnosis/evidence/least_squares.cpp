@@ -15,6 +15,7 @@ constexpr double promised = 1e-6;  ///< of |r|², in noise units
 constexpr double edge = 1e-9;      ///< of the unit box
 constexpr double hopeless = 0.01;  ///< of what is missing to a wanted |r|²
 constexpr int patience = 2;        ///< such steps
+constexpr std::size_t creep = 6;   ///< steps that have to gain something together
 
 class Descent {
  public:
@@ -94,6 +95,7 @@ class Descent {
         x_ = trial;
         r_.swap(r);
         squares = now;
+        if (creeps(squares)) break;
         damping *= std::max(1.0 / 3, 1 - std::pow(2 * agreement - 1, 3));
         damping = std::max(damping, 1e-12);
         growth = 2;
@@ -139,6 +141,12 @@ class Descent {
                                          : parameter.max - parameter.min;
   }
 
+  /// Whether the last steps together gained next to nothing: the floor of a valley that data do not close.
+  bool creeps(double squares) {
+    passed_.push_back(squares);
+    return passed_.size() > creep && passed_[passed_.size() - 1 - creep] - squares < data_.negligible;
+  }
+
   Status evaluate(Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     evaluations_ += J != nullptr && !assembly_.layout().jacobian_is_exact ? 2 : 1;
     Eigen::MatrixXd all;
@@ -171,7 +179,8 @@ class Descent {
   Eigen::MatrixXd J_;
   std::size_t evaluations_ = 0;
   double gained_ = 0;
-  int slow_ = 0;  ///< steps in a row that promise too little
+  int slow_ = 0;                ///< steps in a row that promise too little
+  std::vector<double> passed_;  ///< |r|² after every step down
 };
 
 }  // namespace

@@ -32,7 +32,12 @@ struct DataVariant {
   /// A fit is of use only below this |r|². It ends above it once a step promises less than a hundredth of what is
   /// missing, several times in a row: that is another minimum.
   double wanted = std::numeric_limits<double>::infinity();
+  /// A fit ends where six steps down together lower |r|² by less than this.
+  double negligible = 0;
 };
+
+/// Of |r|²: no verdict and no threshold turns on it.
+inline constexpr double says_nothing = 0.01;
 
 /// Minimises the whitened squares over some of the parameters, the others stay where `start` has them, within the
 /// bounds: Levenberg–Marquardt in the unit box with Nielsen's damping (K. Madsen, H. B. Nielsen, O. Tingleff, Methods

@@ -87,7 +87,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     std::vector<double> start = extended.at_null(evidence.fit.free);
     take_over(*from, extended.assembly(), start);
     set_amplitude(start, extended.parts().size() - 1, 1);
-    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
     if (fit.status.ok()) {
       refit.fit = std::move(fit);
       found = true;
@@ -107,7 +107,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     }
     std::vector<double> start = extended.at_null(base);
     for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, share);
-    Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
     if (!fit.status.ok()) continue;
     if (!found || fit.chi2 < refit.fit.chi2) {
       refit.fit = std::move(fit);
@@ -119,7 +119,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
   if (found && refit.fit.chi2 > evidence.fit.chi2) {
     std::vector<double> start = extended.at_null(evidence.fit.free);
     for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, next_to_nothing);
-    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace);
+    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
         fit.status.ok() && fit.chi2 < refit.fit.chi2)
       refit.fit = std::move(fit);
   }
@@ -149,8 +149,8 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
         start[member] = std::clamp(part.null + share * (refit.fit.free[member] - part.null), parameters[member].min,
                                    parameters[member].max);
     }
-    Fit fit =
-        least_squares(extended.assembly(), extended.variables(), start, *workspace, 60, {.wanted = refit.fit.chi2});
+    Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60,
+                            {.wanted = refit.fit.chi2, .negligible = says_nothing});
     if (!fit.status.ok()) continue;
     if (fit.chi2 < refit.fit.chi2 - same_minimum)
       returns = 0;

@@ -70,7 +70,8 @@ struct Prediction {
 Prediction prediction_of(const assembly::Assembly& assembly, const std::vector<Variable>& variables,
                          std::span<const double> start, const std::vector<bool>& counted) {
   const auto workspace = assembly.evaluator().make_workspace();
-  const Fit fit = least_squares(assembly, variables, start, *workspace, 60, {nullptr, &counted});
+  const Fit fit =
+      least_squares(assembly, variables, start, *workspace, 60, {.counted = &counted, .negligible = says_nothing});
   Prediction prediction;
   Eigen::MatrixXd all;
   if (!fit.status.ok() || !whitened(assembly, fit.free, *workspace, prediction.residuals, &all).ok()) return prediction;

@@ -18,43 +18,51 @@ namespace {
 /// (2 · 1.645)²: at this squared distance the right one of two is preferred with 95 % probability.
 constexpr double separated = 10.82;
 
-/// min over the parameters of b of |f_a − f_b|² in the design, while the data hold them: with J of b,
-///
-///   min_x |Δ − J_new x|² + |J_old x|²,  Δ = (f_a − f_b)/σ.
-double distance(const Design& design, const Refit& a, const Refit& b) {
-  std::vector<double> of_a, of_b, moved;
-  if (!predict(design, a, a.fit.free, of_a) || !predict(design, b, b.fit.free, of_b)) return 0;
-  const auto n = static_cast<Eigen::Index>(of_a.size());
-  const std::vector<Variable> variables = b.extension->variables();
+/// What a rival predicts of a design, in its noise, and how that and what was measured follow its parameters: each by
+/// the length of its column in the data.
+struct Forecast {
+  Eigen::VectorXd values;  ///< none where it cannot be simulated
+  Eigen::MatrixXd J_new, J_old;
+};
+
+Forecast forecast(const Design& design, const Refit& rival) {
+  std::vector<double> at, moved;
+  if (!predict(design, rival, rival.fit.free, at)) return {};
+  const Eigen::Map<const Eigen::ArrayXd> sd(design.sd.data(), static_cast<Eigen::Index>(design.sd.size()));
+  const auto in_noise = [&](const std::vector<double>& values) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::ArrayXd>(values.data(), sd.size()) / sd;
+  };
+  const std::vector<Variable> variables = rival.extension->variables();
   const auto columns = static_cast<Eigen::Index>(variables.size());
-  Eigen::VectorXd difference(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    difference[i] = (of_a[k] - of_b[k]) / design.sd[k];
-  }
-  Eigen::MatrixXd J_new = Eigen::MatrixXd::Zero(n, columns), J_old = b.fit.jacobian;
+  Forecast found{in_noise(at), Eigen::MatrixXd::Zero(sd.size(), columns), rival.fit.jacobian};
   for (Eigen::Index c = 0; c < columns; ++c) {
     const auto v = static_cast<std::size_t>(c);
-    const double length = J_old.col(c).norm();
-    if (b.fit.at_bound[v] || !(length > 0)) {
-      J_old.col(c).setZero();
+    const double length = found.J_old.col(c).norm();
+    if (rival.fit.at_bound[v] || !(length > 0)) {
+      found.J_old.col(c).setZero();
       continue;
     }
     // A step of a tenth of its standard deviation, were it alone.
     const double step = 0.1 / length;
-    std::vector<double> free = b.fit.free;
+    std::vector<double> free = rival.fit.free;
     for (const std::size_t member : variables[v]) free[member] += step;
-    if (!predict(design, b, free, moved)) continue;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      J_new(i, c) = (moved[k] - of_b[k]) / design.sd[k] / step / length;
-    }
-    J_old.col(c) /= length;
+    if (!predict(design, rival, free, moved)) continue;
+    found.J_new.col(c) = (in_noise(moved) - found.values) / (step * length);
+    found.J_old.col(c) /= length;
   }
-  Eigen::MatrixXd J(n + J_old.rows(), columns);
-  J << J_new, J_old;
+  return found;
+}
+
+/// min over the parameters of b of |f_a − f_b|² in the design, while the data hold them: with J of b,
+///
+///   min_x |Δ − J_new x|² + |J_old x|²,  Δ = (f_a − f_b)/σ.
+double distance(const Forecast& a, const Forecast& b) {
+  const Eigen::Index n = b.values.size();
+  if (n == 0 || a.values.size() == 0) return 0;
+  Eigen::MatrixXd J(n + b.J_old.rows(), b.J_old.cols());
+  J << b.J_new, b.J_old;
   Eigen::VectorXd target = Eigen::VectorXd::Zero(J.rows());
-  target.head(n) = difference;
+  target.head(n) = a.values - b.values;
   const Eigen::VectorXd x = numerics::shortest_least_squares_solution(J, target);
   return (target - J * x).squaredNorm();
 }
@@ -87,10 +95,12 @@ std::vector<double> smallest_distances(const Inquiry& inquiry, const std::vector
   std::vector<double> smallest(library.size(), 0);
   const auto done = inquiry.steps("the next experiment", 0.9, 1, library.size() + 1);
   tbb::parallel_for(std::size_t{0}, library.size(), [&](std::size_t k) {
+    std::vector<Forecast> forecasts;
+    for (const Refit& rival : rivals) forecasts.push_back(forecast(library[k], rival));
     double least = INFINITY;
     for (std::size_t a = 0; a < rivals.size(); ++a)
       for (std::size_t b = 0; b < rivals.size(); ++b)
-        if (a != b) least = std::min(least, distance(library[k], rivals[a], rivals[b]));
+        if (a != b) least = std::min(least, distance(forecasts[a], forecasts[b]));
     smallest[k] = std::isfinite(least) ? least : 0;
     done();
   });
