@@ -15,7 +15,8 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t quick_starts = 6, full_starts = 16;
+constexpr std::size_t quick_draws = 12, full_draws = 64;
+constexpr std::size_t quick_starts = 3, full_starts = 16;   ///< the best of the draws
 constexpr std::size_t quick_returns = 1, full_returns = 4;  ///< to the best minimum, after which no other is expected
 constexpr double same_minimum = 0.05;                       ///< of |r|²
 constexpr double next_to_nothing = 0.01;                    ///< of the amplitude that the scores promise
@@ -87,7 +88,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     std::vector<double> start = extended.at_null(evidence.fit.free);
     take_over(*from, extended.assembly(), start);
     set_amplitude(start, extended.parts().size() - 1, 1);
-    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60,
+                            {.wanted = evidence.fit.chi2, .negligible = says_nothing});
     if (fit.status.ok()) {
       refit.fit = std::move(fit);
       found = true;
@@ -107,7 +109,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     }
     std::vector<double> start = extended.at_null(base);
     for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, share);
-    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
+    Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60,
+                            {.wanted = evidence.fit.chi2, .negligible = says_nothing});
     if (!fit.status.ok()) continue;
     if (!found || fit.chi2 < refit.fit.chi2) {
       refit.fit = std::move(fit);
@@ -119,7 +122,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
   if (found && refit.fit.chi2 > evidence.fit.chi2) {
     std::vector<double> start = extended.at_null(evidence.fit.free);
     for (std::size_t a = 0; a < extended.parts().size(); ++a) set_amplitude(start, a, next_to_nothing);
-    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60, {.negligible = says_nothing});
+    if (Fit fit = least_squares(extended.assembly(), variables, start, *workspace, 60,
+                                {.wanted = evidence.fit.chi2, .negligible = says_nothing});
         fit.status.ok() && fit.chi2 < refit.fit.chi2)
       refit.fit = std::move(fit);
   }
@@ -127,20 +131,23 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
   return refit;
 }
 
-Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit, double enough) {
-  const Evidence& evidence = analysis.evidence;
-  if (!at_a_bound(evidence.fit)) return refit;
+namespace {
+
+/// Random places for what lies at a bound of the base, in every second also for the rest of the base, and amplitudes up
+/// to those of a refit; the best first.
+std::vector<std::vector<double>> random_starts(const Inquiry& inquiry, const Evidence& evidence, const Refit& refit,
+                                               assembly::Workspace& workspace) {
   const Extension& extended = *refit.extension;
   const auto& parameters = extended.assembly().layout().parameters;
-  const auto workspace = extended.assembly().evaluator().make_workspace();
   boost::random::mt19937_64 generator(derive_seed(inquiry.request.seed, "starts off the bounds"));
   boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
-  const bool quick = inquiry.request.quick;
-  std::size_t returns = 0;
-  for (std::size_t k = 0; k < (quick ? quick_starts : full_starts); ++k) {
-    if (refit.fit.chi2 < enough || returns >= (quick ? quick_returns : full_returns)) break;
+  std::vector<std::pair<double, std::vector<double>>> drawn;
+  for (std::size_t k = 0; k < (inquiry.request.quick ? quick_draws : full_draws); ++k) {
     std::vector<double> unit(evidence.base->layout().parameters.size()), base(unit.size());
-    for (double& x : unit) x = uniform(generator);
+    for (std::size_t j = 0; j < base.size(); ++j) base[j] = refit.fit.free[extended.base()[j]];
+    evidence.base->box().to_unit(base, unit);
+    for (std::size_t j = 0; j < unit.size(); ++j)
+      if (k % 2 == 1 || evidence.fit.at_bound[j]) unit[j] = uniform(generator);
     evidence.base->box().from_unit(unit, base);
     std::vector<double> start = extended.at_null(base);
     for (const Extension::Part& part : extended.parts()) {
@@ -149,6 +156,26 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
         start[member] = std::clamp(part.null + share * (refit.fit.free[member] - part.null), parameters[member].min,
                                    parameters[member].max);
     }
+    Eigen::VectorXd residuals;
+    if (whitened(extended.assembly(), start, workspace, residuals, nullptr).ok())
+      drawn.emplace_back(residuals.squaredNorm(), std::move(start));
+  }
+  std::stable_sort(drawn.begin(), drawn.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  drawn.resize(std::min(drawn.size(), inquiry.request.quick ? quick_starts : full_starts));
+  std::vector<std::vector<double>> starts;
+  for (auto& [squares, start] : drawn) starts.push_back(std::move(start));
+  return starts;
+}
+
+}  // namespace
+
+Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit, double enough) {
+  const Evidence& evidence = analysis.evidence;
+  if (!at_a_bound(evidence.fit) || refit.fit.chi2 < enough) return refit;
+  const Extension& extended = *refit.extension;
+  const auto workspace = extended.assembly().evaluator().make_workspace();
+  std::size_t returns = 0;
+  for (const std::vector<double>& start : random_starts(inquiry, evidence, refit, *workspace)) {
     Fit fit = least_squares(extended.assembly(), extended.variables(), start, *workspace, 60,
                             {.wanted = refit.fit.chi2, .negligible = says_nothing});
     if (!fit.status.ok()) continue;
@@ -157,6 +184,7 @@ Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit ref
     else if (fit.chi2 < refit.fit.chi2 + same_minimum)
       ++returns;
     if (fit.chi2 < refit.fit.chi2) refit.fit = std::move(fit);
+    if (refit.fit.chi2 < enough || returns >= (inquiry.request.quick ? quick_returns : full_returns)) break;
   }
   return refit;
 }

@@ -26,7 +26,8 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
 
 /// What a missing effect has driven to a bound of the base fit may stay there, though with the effect it is there no
 /// longer: at θ = 0 two families of fibres are one, and no derivative leads away. Where the base fit has such a
-/// parameter, the refit is searched for again from random places; the better one. It ends below `enough`.
+/// parameter, the refit is searched for again from the best of many random places; the better one. It ends below
+/// `enough`.
 Refit searched_again(const Inquiry& inquiry, const Analysis& analysis, Refit refit, double enough = 0);
 
 }  // namespace tunica::diagnosis
