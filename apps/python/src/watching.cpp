@@ -30,6 +30,7 @@ class InterruptibleTest final : public Test {
                    std::vector<Snapshot>& found) const override {
     return test_->snapshots(input, rows, found);
   }
+  [[nodiscard]] std::vector<Effort> efforts() const override { return test_->efforts(); }
 
  private:
   std::unique_ptr<Test> test_;

@@ -66,6 +66,11 @@ std::string xml_comment(std::span<const std::string> paragraphs) {
   return "<!--\n" + lines + "-->\n";
 }
 
-std::string number(double value) { return fmt::format("{:.12g}", value); }
+std::string number(double value) {
+  constexpr std::size_t widest = 19;
+  std::string text;
+  for (int digits = 15; text.empty() || text.size() > widest; --digits) text = fmt::format("{:.{}g}", value, digits);
+  return text;
+}
 
 }  // namespace tunica::cards

@@ -21,7 +21,7 @@ std::string comments(std::string_view lead, std::span<const std::string> paragra
 /// The same as one comment of XML, in which "--" may not stand.
 std::string xml_comment(std::span<const std::string> paragraphs);
 
-/// Twelve digits: at most 18 columns, of the 20 that CalculiX reads.
+/// Up to fifteen digits, at most 19 columns: CalculiX reads 20.
 std::string number(double value);
 
 }  // namespace tunica::cards

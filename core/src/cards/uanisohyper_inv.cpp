@@ -74,14 +74,14 @@ C
         if (.not. active) goto 60
         q = rk2*e*e
         growth = exp(q)
-C       exp(q) - 1 without cancellation
+C       (exp(q) - 1)/q without cancellation, and for k2 = 0
         if (q .lt. 1.d-2) then
-          rise = q*(1.d0 + q/2.d0*(1.d0 + q/3.d0*(1.d0 +
-     &      q/4.d0*(1.d0 + q/5.d0*(1.d0 + q/6.d0)))))
+          rise = 1.d0 + q/2.d0*(1.d0 + q/3.d0*(1.d0 +
+     &      q/4.d0*(1.d0 + q/5.d0*(1.d0 + q/6.d0))))
         else
-          rise = growth - 1.d0
+          rise = (growth - 1.d0)/q
         end if
-        ua(2) = ua(2) + 0.5d0*rk1/rk2*rise
+        ua(2) = ua(2) + 0.5d0*rk1*e*e*rise
         first = rk1*e*growth
         second = rk1*(1.d0 + 2.d0*q)*growth
         do 50 k = 1, nTerms
