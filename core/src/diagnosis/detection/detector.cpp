@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "assembly/restricted_variance.hpp"
@@ -27,19 +26,6 @@ double share_up_to(const std::vector<float>& ascending, double value) {
   const std::size_t low = ascending.size() / 50;
   if (low > 0 && static_cast<std::size_t>(count) < low) return value / static_cast<double>(ascending[low]) * 0.02;
   return static_cast<double>(count) / static_cast<double>(ascending.size());
-}
-
-/// z² of t², see the header, and t² of z².
-template <class Number>
-Number normal_square(Number T, Number freedom) {
-  if (!std::isfinite(freedom)) return T;
-  const Number c = (8 * freedom + 1) / (8 * freedom + 3);
-  return c * c * freedom * std::log1p(T / freedom);
-}
-double student_square(double z2, double freedom) {
-  if (!std::isfinite(freedom)) return z2;
-  const double c = (8 * freedom + 1) / (8 * freedom + 3);
-  return freedom * std::expm1(z2 / (c * c * freedom));
 }
 
 /// {1 two-sided, 2Φ(t) one-sided} · exp(T/2), T = t² on the admissible side, else 0.
@@ -73,26 +59,21 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
   std::vector<char> has_direction(candidates_, 0);
   for (const Direction& direction : directions_) has_direction[direction.candidate] = 1;
   visible_ = static_cast<std::size_t>(std::count(has_direction.begin(), has_direction.end(), 1));
-  count_freedom(draws);
   const auto [Q, t] = seen_of(projection, draws);
-  Eigen::MatrixXf largest = Eigen::MatrixXf::Zero(B, static_cast<Eigen::Index>(candidates_));  // z²
-  Eigen::VectorXf gain = Eigen::VectorXf::Zero(B);
+  Eigen::MatrixXf largest = Eigen::MatrixXf::Zero(B, static_cast<Eigen::Index>(candidates_));
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(B);
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k), candidate = static_cast<Eigen::Index>(directions_[k].candidate);
     const Side side = directions_[k].side;
     const float share = static_cast<float>(directions_[k].share);
     for (Eigen::Index b = 0; b < B; ++b) {
-      const float value = t(b, column), T = value * value;
-      const float z2 = normal_square(T, static_cast<float>(freedom_[k]));
-      sum[b] += share * likelihood(side, std::copysign(std::sqrt(z2), value));
-      if (side != Side::both && value <= 0) continue;
-      largest(b, candidate) = std::max(largest(b, candidate), z2);
-      gain[b] = std::max(gain[b], T);
+      const float value = t(b, column);
+      sum[b] += share * likelihood(side, value);
+      if (side == Side::both || value > 0) largest(b, candidate) = std::max(largest(b, candidate), value * value);
     }
   }
-  if (candidates_ > 0) gain_of_nothing_ = static_cast<double>(gain.mean());
-  // p = K P(χ²₁ > z²) of one candidate: K from the points that one draw in ten, twenty and fifty exceeds.
+  if (candidates_ > 0) gain_of_nothing_ = static_cast<double>(largest.rowwise().maxCoeff().mean());
+  // p = K P(χ²₁ > T) of one candidate: K from the points that one draw in ten, twenty and fifty exceeds.
   std::vector<float> sorted(static_cast<std::size_t>(B));
   for (std::size_t c = 0; c < candidates_; ++c) {
     const auto column = largest.col(static_cast<Eigen::Index>(c));
@@ -101,9 +82,9 @@ Detector::Detector(const Projection& projection, std::vector<Direction> directio
     double log_sum = 0;
     int points = 0;
     for (const double share : {0.1, 0.05, 0.02}) {
-      const float z2 = sorted[static_cast<std::size_t>((1 - share) * static_cast<double>(B))];
-      if (z2 > 0) {
-        log_sum += std::log(share / tail(static_cast<double>(z2)));
+      const float T = sorted[static_cast<std::size_t>((1 - share) * static_cast<double>(B))];
+      if (T > 0) {
+        log_sum += std::log(share / tail(static_cast<double>(T)));
         ++points;
       }
     }
@@ -157,33 +138,8 @@ Detector::Seen Detector::seen_of(const Projection& projection, const Draws& draw
   return seen;
 }
 
-/// ν = (Σ u²)² / Σ_g (Σ_g u²)²/ν_g over the variances g.
-void Detector::count_freedom(const Draws& draws) {
-  constexpr double known = std::numeric_limits<double>::infinity();
-  freedom_.assign(directions_.size(), known);
-  least_freedom_.assign(candidates_, known);
-  if (draws.freedom.size() == 0) return;
-  for (std::size_t k = 0; k < directions_.size(); ++k) {
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(draws.freedom.size());
-    for (std::size_t i = 0; i < draws.group.size(); ++i)
-      if (draws.group[i] != assembly::known_variance)
-        squares[static_cast<Eigen::Index>(draws.group[i])] +=
-            std::pow(directions_[k].unit[static_cast<Eigen::Index>(i)], 2);
-    double spread = 0;
-    for (Eigen::Index g = 0; g < squares.size(); ++g)
-      spread += squares[g] * squares[g] / std::max(draws.freedom[g], 1.0);
-    if (spread > 0) freedom_[k] = std::pow(directions_[k].unit.squaredNorm(), 2) / spread;
-    double& least = least_freedom_[directions_[k].candidate];
-    least = std::min(least, freedom_[k]);
-  }
-}
-
-double Detector::candidate_p_of_normal(std::size_t candidate, double z2) const {
-  return z2 > 0 ? std::min(1.0, multiplicity_[candidate] * tail(z2)) : 1.0;
-}
-
 double Detector::candidate_p(std::size_t candidate, double T) const {
-  return candidate_p_of_normal(candidate, normal_square(T, least_freedom_[candidate]));
+  return T > 0 ? std::min(1.0, multiplicity_[candidate] * tail(T)) : 1.0;
 }
 
 double Detector::smooth_p(double Q) const {
@@ -216,16 +172,16 @@ Detection Detector::test(const Eigen::VectorXd& given, const Eigen::VectorXd& pr
   std::vector<double> best(candidates_, -1), logs;
   for (std::size_t k = 0; k < directions_.size(); ++k) {
     const Direction& direction = directions_[k];
-    const double z2 = normal_square(score_of(direction), freedom_[k]);
+    const double T = score_of(direction);
     const std::size_t c = direction.candidate;
-    if (z2 > best[c]) {
-      best[c] = z2;
+    if (T > best[c]) {
+      best[c] = T;
       detection.direction[c] = k;
     }
-    const double sides = direction.side == Side::both ? 1 : std::erfc(-std::sqrt(z2 / 2));
-    logs.push_back(z2 / 2 + std::log(direction.share * sides));
+    const double sides = direction.side == Side::both ? 1 : std::erfc(-std::sqrt(T / 2));
+    logs.push_back(T / 2 + std::log(direction.share * sides));
   }
-  for (std::size_t c = 0; c < candidates_; ++c) detection.by_candidate[c] = candidate_p_of_normal(c, best[c]);
+  for (std::size_t c = 0; c < candidates_; ++c) detection.by_candidate[c] = candidate_p(c, best[c]);
   if (!logs.empty()) {
     const double top = *std::max_element(logs.begin(), logs.end());
     double sum = 0;
@@ -243,7 +199,7 @@ Detection Detector::test(const Eigen::VectorXd& given, const Eigen::VectorXd& pr
 }
 
 double Detector::threshold(std::size_t candidate, double alpha) const {
-  // p_B that raises the alarm, B that has it, and z² of a direction that brings B there while the others say nothing.
+  // p_B that raises the alarm, B that has it, and T of a direction that brings B there while the others say nothing.
   const auto at = static_cast<std::size_t>(alpha * static_cast<double>(smallest_.size()));
   const double p = std::max(static_cast<double>(smallest_[at]), 1e-6);
   double low = 0, high = 60;
@@ -254,8 +210,7 @@ double Detector::threshold(std::size_t candidate, double alpha) const {
   double share = 1;
   for (const Direction& direction : directions_)
     if (direction.candidate == candidate && !direction.row) share = std::min(share, direction.share);
-  const double z2 = 2 * std::log(std::max(1.0, static_cast<double>(visible_) * std::expm1(high) / share));
-  return student_square(z2, least_freedom_[candidate]);
+  return 2 * std::log(std::max(1.0, static_cast<double>(visible_) * std::expm1(high) / share));
 }
 
 }  // namespace tunica::diagnosis

@@ -31,14 +31,6 @@ struct Detection {
 ///
 /// whose largest term is the largest score, and which has more power than that alone where several see the same. The
 /// smaller of p_B and 4 p_Q is calibrated against its own distribution: Q is there for what no mechanism sees.
-///
-/// Where residuals said how large the noise is, t = √T is Student's, of the ν degrees of freedom that the variances of
-/// the direction's rows have (F. E. Satterthwaite, Biometrics Bulletin 2:110, 1946). It then stands in B as the normal
-/// deviate of the same probability (D. L. Wallace, Ann. Math. Stat. 30:1121, 1959),
-///
-///   z² = [(8ν + 1)/(8ν + 3)]² ν ln(1 + t²/ν),
-///
-/// so that a channel of few rows does not fill the tail of B by itself.
 class Detector {
  public:
   /// `draws` from noise_draws.
@@ -66,8 +58,6 @@ class Detector {
     Eigen::MatrixXf t;
   };
   [[nodiscard]] Seen seen_of(const Projection& projection, const Draws& draws) const;
-  void count_freedom(const Draws& draws);
-  [[nodiscard]] double candidate_p_of_normal(std::size_t candidate, double z2) const;
   [[nodiscard]] double smooth_p(double Q) const;
   [[nodiscard]] double mechanisms_p(double B) const;
 
@@ -76,12 +66,10 @@ class Detector {
   Eigen::MatrixXd smooth_;  ///< orthonormal
   std::vector<Eigen::MatrixXd> smooth_by_curve_;
   double smooth_scale_ = 1, gain_of_nothing_ = 0;
-  std::vector<double> freedom_;        ///< ν by direction; infinite where the noise is known
-  std::vector<double> least_freedom_;  ///< by candidate
-  std::vector<double> multiplicity_;   ///< K of p = K · P(χ²₁ > z²) by candidate
-  std::size_t visible_ = 0;            ///< candidates with a direction
-  std::vector<float> smallest_;        ///< min(p_B, 4 p_Q) of the draws, ascending
-  std::vector<float> likelihoods_;     ///< B of the draws, ascending
+  std::vector<double> multiplicity_;  ///< K of p = K · P(χ²₁ > T) by candidate
+  std::size_t visible_ = 0;           ///< candidates with a direction
+  std::vector<float> smallest_;       ///< min(p_B, 4 p_Q) of the draws, ascending
+  std::vector<float> likelihoods_;    ///< B of the draws, ascending
 };
 
 }  // namespace tunica::diagnosis

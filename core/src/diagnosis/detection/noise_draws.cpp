@@ -64,13 +64,11 @@ void estimate_anew(const EstimatedNoise& estimated, boost::random::mt19937_64& g
   const auto d = static_cast<float>(estimated.moderation);
   boost::random::gamma_distribution<float> gamma(std::max(d / 2, 1e-3F), 2 / std::max(d, 1e-3F));  // χ²_d/d
   Eigen::VectorXf true_variance = Eigen::VectorXf::Ones(count);
-  double lent = 0;  // degrees of freedom, by the other channels
   for (Eigen::Index b = 0; b < draws.cols(); ++b) {
     if (d > 0)
       for (float& variance : true_variance) variance = 1 / std::max(gamma(generator), 1e-6F);
     const Moderation others = d > 0 ? moderation_in(true_variance.cwiseProduct(squares.col(b)), freedom) : Moderation{};
     const auto of_others = static_cast<float>(others.freedom);
-    lent += others.freedom / static_cast<double>(draws.cols());
     for (Eigen::Index g = 0; g < count; ++g) {
       const float found = (of_others * static_cast<float>(others.ratio) + true_variance[g] * squares(g, b)) /
                           std::max(of_others + freedom[g], 1e-6F);
@@ -81,7 +79,6 @@ void estimate_anew(const EstimatedNoise& estimated, boost::random::mt19937_64& g
     if (group_of(i) != assembly::known_variance)
       draws.row(i).array() *= squares.row(static_cast<Eigen::Index>(group_of(i))).array().sqrt();
   all.precision = std::move(squares);
-  all.freedom = freedom.cast<double>().array() + lent;
   all.group = estimated.group;
 }
 

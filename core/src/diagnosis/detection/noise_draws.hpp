@@ -16,7 +16,6 @@ namespace tunica::diagnosis {
 struct Draws {
   Eigen::MatrixXf residuals;       ///< rows × draws
   Eigen::MatrixXf precision;       ///< variances × draws: (σ/σ̂)²; no rows where residuals say nothing of σ
-  Eigen::VectorXd freedom;         ///< of each variance, what the other channels say of it included
   std::vector<std::size_t> group;  ///< by row: which variance; assembly::known_variance
 
   /// (σ/σ̂)² of every row; empty where residuals say nothing of σ.
