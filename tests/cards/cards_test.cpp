@@ -60,7 +60,7 @@ TEST(Cards, ConvertParametersAsTheirPageSays) {
   EXPECT_THAT(cards::write_card(Target::abaqus, ogden, {.name = "R", .units = kilopascal}),
               EndsWith("*HYPERELASTIC, OGDEN, N=2\n450, 1.5, 10, -2, 0, 0\n"));
   EXPECT_THAT(cards::write_card(Target::abaqus, gho, {.name = "W", .units = kilopascal}),
-              AllOf(HasSubstr("** 0.5, 0.866025403784, 0\n** -0.5, 0.866025403784, 0\n"),
+              AllOf(HasSubstr("** 0.5, 0.866025403784439, 0\n** -0.5, 0.866025403784439, 0\n"),
                     EndsWith("*ANISOTROPIC HYPERELASTIC, HOLZAPFEL, LOCAL DIRECTIONS=2\n6, 0, 20, 0.8, 0.1\n")));
 }
 
