@@ -24,13 +24,15 @@ JsonDocument::Place place_of(std::string_view text, std::size_t offset) {
   return place;
 }
 
+}  // namespace
+
 /// Walks the structure of a JSON text and notes where each value stands. Strings and numbers are skipped over; whether
 /// they are well formed is for the parser to say.
 class Scanner {
  public:
   Scanner(const std::filesystem::path& file, std::string_view text,
-          std::unordered_map<std::string, std::size_t>& offsets)
-      : file_(file), text_(text), offsets_(offsets) {}
+          std::unordered_map<std::string, JsonDocument::Where>& where)
+      : file_(file), text_(text), where_(where) {}
 
   void scan() {
     skip_space();
@@ -77,7 +79,7 @@ class Scanner {
   }
 
   void value(const std::string& pointer, std::size_t depth) {
-    offsets_.emplace(pointer, at_);
+    where_.emplace(pointer, JsonDocument::Where{at_, {at_, at_}});
     if (depth > deepest)
       fail(at_, fmt::format("more than {} levels of nesting", deepest), "Is a bracket missing above?");
     if (here() == '{')
@@ -88,6 +90,7 @@ class Scanner {
       string();
     else
       literal();
+    where_.at(pointer).value.end = at_;
   }
 
   void object(const std::string& pointer, std::size_t depth) {
@@ -104,10 +107,10 @@ class Scanner {
                                    : "Keys look like \"name\": …");
       const std::string key = string();
       const std::string child = child_pointer(pointer, key);
-      if (const auto first = offsets_.find(child); first != offsets_.end())
+      if (const auto first = where_.find(child); first != where_.end())
         fail(key_at, fmt::format("the key '{}' appears twice in the same object", excerpt(key)),
              fmt::format("It was given before in line {}; names must differ. Remove or rename one.",
-                         place_of(text_, first->second).line),
+                         place_of(text_, first->second.shown).line),
              child);
       skip_space();
       if (here() != ':')
@@ -115,7 +118,7 @@ class Scanner {
       ++at_;
       skip_space();
       value(child, depth + 1);
-      offsets_[child] = key_at;  // people look for the key
+      where_.at(child).shown = key_at;  // people look for the key
       skip_space();
       if (here() == '}') return void(++at_);
       if (here() != ',')
@@ -186,16 +189,14 @@ class Scanner {
 
   const std::filesystem::path& file_;
   std::string_view text_;
-  std::unordered_map<std::string, std::size_t>& offsets_;
+  std::unordered_map<std::string, JsonDocument::Where>& where_;
   std::size_t at_ = 0;
 };
-
-}  // namespace
 
 JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
-  Scanner(file_, text_, offsets_).scan();
+  Scanner(file_, text_, where_).scan();
   try {
     root_ = std::make_shared<const Json>(Json::parse(text_, nullptr, true, true));
   } catch (const nlohmann::json::exception& error) {
@@ -210,11 +211,16 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
 
 JsonDocument::Place JsonDocument::place(std::string_view pointer) const {
   for (;;) {
-    const auto found = offsets_.find(std::string(pointer));
-    if (found != offsets_.end()) return place_of(text_, found->second);
+    const auto found = where_.find(std::string(pointer));
+    if (found != where_.end()) return place_of(text_, found->second.shown);
     if (pointer.empty()) return {1, 1};
     pointer = pointer.substr(0, pointer.rfind('/'));
   }
+}
+
+std::optional<JsonDocument::Extent> JsonDocument::extent(std::string_view pointer) const {
+  const auto found = where_.find(std::string(pointer));
+  return found == where_.end() ? std::nullopt : std::optional(found->second.value);
 }
 
 std::string child_pointer(std::string_view pointer, std::string_view key) {

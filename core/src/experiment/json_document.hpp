@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -30,11 +31,23 @@ class JsonDocument {
   /// Of a value in an array, or of the key of a member; where nothing stands, of the nearest enclosing value.
   [[nodiscard]] Place place(std::string_view pointer) const;
 
+  /// Bytes [begin, end) of the text that a value takes.
+  struct Extent {
+    std::size_t begin, end;
+  };
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::optional<Extent> extent(std::string_view pointer) const;
+
  private:
+  friend class Scanner;
+  struct Where {
+    std::size_t shown;  ///< byte that people look for: of the key of a member, else of the value
+    Extent value;
+  };
   std::filesystem::path file_;
   std::string text_;
   std::shared_ptr<const Json> root_;
-  std::unordered_map<std::string, std::size_t> offsets_;  ///< JSON pointer → byte offset
+  std::unordered_map<std::string, Where> where_;  ///< by JSON pointer
 };
 
 /// One more step of a JSON pointer, escaped as RFC 6901 asks.

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include "cohort/collection.hpp"
+#include "cohort/shares.hpp"
+#include "cohort/tables.hpp"
+#include "execution/files.hpp"
+#include "execution/interrupt.hpp"
+#include "execution/run_directory.hpp"
+#include "exit_codes.hpp"
+#include "messages.hpp"
+#include "stages.hpp"
+#include "tunica/error.hpp"
+#include "verbs.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+struct CohortOptions {
+  std::string file, directory, share;
+  unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
+  bool reports = false, no_reports = false;
+};
+
+/// Above so many specimens a report for each is made only where somebody asks for it: a page is half a megabyte.
+constexpr std::size_t most_reports = 50;
+
+/// The cohort as it was read, and where its results go.
+struct Opened {
+  cohort::Specification cohort;
+  cohort::SpecimenTable table;
+  cohort::Template pattern;
+
+  explicit Opened(const std::filesystem::path& file)
+      : cohort(cohort::read_specification(file)), table(cohort::read_specimens(cohort)), pattern(cohort, table) {}
+};
+
+/// The folder of an earlier start of this cohort may be used again; nobody else's.
+std::filesystem::path results_of(const CohortOptions& options, const std::string& name) {
+  const std::filesystem::path folder = options.directory;
+  if (!folder.empty() && std::filesystem::exists(folder / "cohort.json")) return folder;
+  return execution::RunDirectory::create(folder.empty() ? std::nullopt : std::optional(folder), name).path();
+}
+
+void write_results(const Opened& opened, const cohort::Collection& found, const std::filesystem::path& results) {
+  execution::write_atomically(results / "parameters.csv", cohort::parameter_table(opened.table, found));
+  execution::write_atomically(results / "specimens.csv", cohort::specimen_table(opened.table, found));
+}
+
+int merge(const GlobalOptions&, const Session& session, const Opened& opened, const std::filesystem::path& results) {
+  const auto found = cohort::collect(opened.cohort, opened.table, opened.pattern, session.catalogue(), results);
+  if (!found.missing.empty())
+    throw InputError(
+        fmt::format("{}: {} of {} specimens have no result yet, the first is '{}'. Run "
+                    "`tunica cohort {} -o {}`, which makes what is missing",
+                    results.string(), found.missing.size(), opened.table.specimens.size(),
+                    opened.table.specimens[found.missing.front()].id, opened.cohort.file.string(), results.string()));
+  write_results(opened, found, results);
+  fmt::print("{}Results:  {}\n", cohort::outcome_words(opened.table, found), results.string());
+  return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
+}
+
+int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  const cohort::Share share = options.share.empty() ? cohort::Share{} : cohort::parse_share(options.share);
+  const Session session(global);
+  const Opened opened(options.file);
+  const auto results = results_of(options, opened.cohort.name);
+  execution::write_atomically(results / "cohort.json", opened.cohort.text);
+  cohort::FitSettings settings;
+  settings.results = results;
+  settings.reports = options.reports || (!options.no_reports && opened.table.specimens.size() <= most_reports);
+  settings.refusals = session.refusals();
+  settings.interrupted = [] { return execution::InterruptWatch::interrupted(); };
+  cohort::ShareOutcome outcome;
+  {
+    const execution::InterruptWatch watch;
+    Stages stages(global.quiet);
+    outcome = cohort::fit_share(opened.cohort, opened.table, opened.pattern, session.catalogue(), settings, share,
+                                [&](std::size_t finished, std::size_t of) {
+                                  stages.tell(fmt::format("{} of {} specimens", finished, of),
+                                              static_cast<double>(finished) / static_cast<double>(of));
+                                });
+  }
+  if (outcome.interrupted) {
+    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  tunica cohort {} -o {}{}\n",
+               options.file, results.string(), options.share.empty() ? "" : " --shard " + options.share);
+    return interrupted;
+  }
+  if (share.of > 1) {
+    fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    tunica cohort merge {} -o {}\n", share.part,
+               share.of, outcome.fitted, outcome.specimens, options.file, results.string());
+    return done;
+  }
+  return merge(global, session, opened, results);
+}
+
+int merge_only(const GlobalOptions& global, const CohortOptions& options) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  const Session session(global);
+  return merge(global, session, Opened(options.file), options.directory);
+}
+
+void add_common(CLI::App& verb, CohortOptions& options, bool directory_required) {
+  verb.add_option("cohort", options.file, "Cohort file (JSON)")->type_name("FILE");
+  auto* directory = verb.add_option("-o,--output", options.directory,
+                                    "Folder for the results; results/<name>-<n> without it. One of an earlier start of "
+                                    "the same cohort is gone on with")
+                        ->type_name("DIR");
+  if (directory_required) directory->required();
+  verb.add_option("-j,--threads", options.threads, "Threads; all of the machine without it")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+}
+
+}  // namespace
+
+void add_cohort(CLI::App& app, GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<CohortOptions>();
+  auto* verb = app.add_subcommand("cohort", "Fit many specimens, and say what they have in common");
+  add_common(*verb, *options, false);
+  verb->add_option("--shard", options->share, "Only part k of N, as 2/7; merge them when all are done")
+      ->type_name("k/N");
+  auto* reports = verb->add_flag("--reports", options->reports, "A report.html for each specimen, however many");
+  verb->add_flag("--no-reports", options->no_reports, "No report.html for single specimens")->excludes(reports);
+  verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
+  verb->require_subcommand(0, 1);
+  verb->footer(
+      "Examples:\n"
+      "  tunica cohort cohort.json -o results/aortas\n"
+      "  tunica cohort cohort.json -o results/aortas --shard 2/7\n"
+      "  tunica cohort merge cohort.json -o results/aortas\n\n"
+      "What the file holds: docs/cohort.md. A specimen that cannot be read or fitted is listed with its reason, and "
+      "the\n"
+      "others go on. The same command again makes only what is missing or has changed.");
+  auto* merging = verb->add_subcommand("merge", "Make the results of the cohort from what its shards have left");
+  add_common(*merging, *options, true);
+  merging->callback(
+      [&global, &action, options] { action = [&global, options] { return merge_only(global, *options); }; });
+  verb->callback([&global, &action, options, verb] {
+    if (!verb->get_subcommands().empty()) return;
+    if (options->file.empty()) throw CLI::RequiredError("FILE");
+    action = [&global, options] { return fit_and_merge(global, *options); };
+  });
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cohort/shares.hpp"
+
+#include <atomic>
+#include <charconv>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "tunica/error.hpp"
+
+namespace tunica::cohort {
+
+Share parse_share(const std::string& text) {
+  Share share{0, 0};
+  const std::size_t slash = text.find('/');
+  const auto number = [&text](std::size_t from, std::size_t to, std::size_t& value) {
+    const char* end = text.data() + to;
+    const auto [stopped, error] = std::from_chars(text.data() + from, end, value);
+    return error == std::errc() && stopped == end;
+  };
+  if (slash == std::string::npos || !number(0, slash, share.part) || !number(slash + 1, text.size(), share.of) ||
+      share.part < 1 || share.part > share.of)
+    throw InputError(
+        fmt::format("--shard {}: expected k/N with 1 ≤ k ≤ N, for example 2/7 for the second of seven parts", text));
+  return share;
+}
+
+ShareOutcome fit_share(const Specification& cohort, const SpecimenTable& table, const Template& pattern,
+                       const plugins::Catalogue& catalogue, const FitSettings& settings, const Share& share,
+                       const std::function<void(std::size_t done, std::size_t of)>& told) {
+  std::vector<std::size_t> mine;
+  for (std::size_t k = 0; k < table.specimens.size(); ++k)
+    if (share.holds(k)) mine.push_back(k);
+  ShareOutcome outcome;
+  outcome.specimens = mine.size();
+  std::atomic<std::size_t> done = 0, fitted = 0;
+  std::atomic<bool> interrupted = false;
+  const auto stopped = [&] { return settings.interrupted && settings.interrupted(); };
+  tbb::parallel_for(
+      std::size_t{0}, mine.size(),
+      [&](std::size_t k) {
+        if (stopped()) return void(interrupted = true);
+        // A search runs its own loops side by side; a thread that waits for them must not begin another specimen.
+        tbb::this_task_arena::isolate([&] {
+          const auto record = fit(cohort, pattern, table.specimens[mine[k]], catalogue, settings);
+          if (!record) return void(interrupted = true);
+          if (record->outcome == Outcome::fitted) ++fitted;
+          if (told) told(++done, mine.size());
+        });
+      },
+      tbb::simple_partitioner());
+  outcome.fitted = fitted;
+  outcome.interrupted = interrupted;
+  return outcome;
+}
+
+}  // namespace tunica::cohort
