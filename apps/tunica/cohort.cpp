@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 #include "cohort/collection.hpp"
+#include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
 #include "cohort/tables.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
-#include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "stages.hpp"
@@ -44,13 +44,6 @@ struct Opened {
       : cohort(cohort::read_specification(file)), table(cohort::read_specimens(cohort)), pattern(cohort, table) {}
 };
 
-/// The folder of an earlier start of this cohort may be used again; nobody else's.
-std::filesystem::path results_of(const CohortOptions& options, const std::string& name) {
-  const std::filesystem::path folder = options.directory;
-  if (!folder.empty() && std::filesystem::exists(folder / "cohort.json")) return folder;
-  return execution::RunDirectory::create(folder.empty() ? std::nullopt : std::optional(folder), name).path();
-}
-
 void write_results(const Opened& opened, const cohort::Collection& found, const std::filesystem::path& results) {
   execution::write_atomically(results / "parameters.csv", cohort::parameter_table(opened.table, found));
   execution::write_atomically(results / "specimens.csv", cohort::specimen_table(opened.table, found));
@@ -74,7 +67,7 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
   const cohort::Share share = options.share.empty() ? cohort::Share{} : cohort::parse_share(options.share);
   const Session session(global);
   const Opened opened(options.file);
-  const auto results = results_of(options, opened.cohort.name);
+  const auto results = cohort::results_folder(options.directory, opened.cohort.name);
   execution::write_atomically(results / "cohort.json", opened.cohort.text);
   cohort::FitSettings settings;
   settings.results = results;

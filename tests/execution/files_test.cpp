@@ -2,8 +2,13 @@
 #include "execution/files.hpp"
 
 #include <cerrno>
+#include <filesystem>
+#include <iterator>
+#include <vector>
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "execution/folder.hpp"
 #include "tunica/error.hpp"
@@ -18,8 +23,41 @@ TEST(Files, AreReplacedWholeOrNotAtAll) {
   const auto file = folder.write("checkpoint.json", "old");
   execution::write_atomically(file, "new");
   EXPECT_EQ(trial::text_of(file), "new");
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "checkpoint.json.new"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file is left";
   EXPECT_THROW(execution::write_atomically(folder.path() / "missing" / "file", "text"), WriteFailure);
+}
+
+TEST(Files, AreWholeWhenSeveralProcessesWriteThemAtOnce) {
+  const trial::Folder folder;
+  const auto file = folder.write("record.json", std::string(1 << 20, '0'));
+  const auto write_often = [&file](char letter) {
+    for (int n = 0; n < 50; ++n) execution::write_atomically(file, std::string(1 << 20, letter));
+  };
+  std::vector<pid_t> writers;
+  for (const char letter : {'a', 'b', 'c'}) {
+    const pid_t id = fork();
+    ASSERT_GE(id, 0);
+    if (id == 0) {
+      try {
+        write_often(letter);
+      } catch (...) {
+        _exit(1);
+      }
+      _exit(0);
+    }
+    writers.push_back(id);
+  }
+  for (int n = 0; n < 50; ++n) {
+    const std::string text = trial::text_of(file);
+    ASSERT_EQ(text.size(), std::size_t{1} << 20);
+    ASSERT_EQ(text.find_first_not_of(text.front()), std::string::npos) << "two texts in one file";
+  }
+  for (const pid_t id : writers) {
+    int status = -1;
+    waitpid(id, &status, 0);
+    EXPECT_EQ(status, 0) << "a writer failed because of another";
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Files, GrowAtTheEnd) {

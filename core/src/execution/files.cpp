@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <utility>
 
 #include <fcntl.h>
@@ -42,6 +43,19 @@ void sync_folder(const std::filesystem::path& folder) {
   ::close(descriptor);
 }
 
+/// A new file beside `file`. Its name is drawn, so that writers of the same file on several machines, whose process
+/// numbers may be equal, never share it.
+std::pair<std::filesystem::path, int> open_temporary(const std::filesystem::path& file) {
+  std::random_device device;
+  for (;;) {
+    std::filesystem::path temporary = file;
+    temporary += fmt::format(".new-{:08x}{:08x}", device(), device());
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) return {temporary, descriptor};
+    if (errno != EEXIST) throw WriteFailure(file, errno);
+  }
+}
+
 }  // namespace
 
 WriteFailure::WriteFailure(const std::filesystem::path& file, int error)
@@ -77,10 +91,7 @@ void AppendFile::close() {
 }
 
 void write_atomically(const std::filesystem::path& file, std::string_view text) {
-  std::filesystem::path temporary = file;
-  temporary += ".new";
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) throw WriteFailure(file, errno);
+  const auto [temporary, descriptor] = open_temporary(file);
   try {
     write_all(descriptor, text, file);
     if (::fsync(descriptor) != 0 && errno != EINVAL) throw WriteFailure(file, errno);
@@ -90,7 +101,11 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
     throw;
   }
   ::close(descriptor);
-  if (::rename(temporary.c_str(), file.c_str()) != 0) throw WriteFailure(file, errno);
+  if (::rename(temporary.c_str(), file.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    throw WriteFailure(file, error);
+  }
   sync_folder(file.parent_path());
 }
 
