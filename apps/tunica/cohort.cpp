@@ -13,6 +13,7 @@
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
 #include "cohort/tables.hpp"
+#include "cohort_cluster.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "exit_codes.hpp"
@@ -139,6 +140,7 @@ void add_cohort(CLI::App& app, GlobalOptions& global, Action& action) {
   add_common(*merging, *options, true);
   merging->callback(
       [&global, &action, options] { action = [&global, options] { return merge_only(global, *options); }; });
+  add_cohort_cluster(*verb, global, action);
   verb->callback([&global, &action, options, verb] {
     if (!verb->get_subcommands().empty()) return;
     if (options->file.empty()) throw CLI::RequiredError("FILE");

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cluster/slurm.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "cluster/command.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::cluster::slurm {
+
+namespace {
+
+/// Every state that is no end, from `man squeue`, "JOB STATE CODES".
+constexpr text::Codes<Phase, 16> living_states{{{Phase::waiting, "PENDING"},
+                                                {Phase::waiting, "CONFIGURING"},
+                                                {Phase::waiting, "REQUEUED"},
+                                                {Phase::waiting, "REQUEUE_FED"},
+                                                {Phase::waiting, "REQUEUE_HOLD"},
+                                                {Phase::waiting, "RESV_DEL_HOLD"},
+                                                {Phase::waiting, "SPECIAL_EXIT"},
+                                                {Phase::running, "RUNNING"},
+                                                {Phase::running, "COMPLETING"},
+                                                {Phase::running, "RESIZING"},
+                                                {Phase::running, "SIGNALING"},
+                                                {Phase::running, "STAGE_OUT"},
+                                                {Phase::running, "STOPPED"},
+                                                {Phase::running, "SUSPENDED"},
+                                                {Phase::ended, "COMPLETED"},
+                                                {Phase::failed, "FAILED"}}};
+
+std::optional<std::size_t> number_in(const std::string& text) {
+  std::size_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stopped == end ? std::optional(number) : std::nullopt;
+}
+
+std::vector<std::string> cut(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, separator);) cells.push_back(cell);
+  return cells;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ",") + word;
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& program, const Ended& ended, const char* cure) {
+  const std::string said = last_line(ended.err.empty() ? ended.out : ended.err);
+  throw InputError(
+      fmt::format("{} ended with code {}: {}. {}", program, ended.code, said.empty() ? "it said nothing" : said, cure));
+}
+
+}  // namespace
+
+Phase phase_of(const std::string& state) {
+  const auto known = text::value_of(living_states, state.substr(0, state.find(' ')));
+  return known.value_or(Phase::failed);  // TIMEOUT, NODE_FAIL, OUT_OF_MEMORY, CANCELLED, DEADLINE, …
+}
+
+std::vector<Task> tasks_of(const std::string& squeue) {
+  std::vector<Task> tasks;
+  std::istringstream lines(squeue);
+  for (std::string line; std::getline(lines, line);) {
+    auto cells = cut(line, '|');
+    cells.resize(std::max<std::size_t>(cells.size(), 6));
+    if (!number_in(cells[0])) continue;
+    Task task{cells[0], number_in(cells[1]), cells[2], cells[3], cells[4], cells[5], phase_of(cells[3])};
+    if (task.reason == "None") task.reason.clear();
+    tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
+std::vector<Task> queue(const std::vector<std::string>& names) {
+  // --array: a line for each task, also of those that wait; --all: partitions that are hidden, too.
+  const Ended ended = run_command({"squeue", "--noheader", "--array", "--all", "--states=all",
+                                   "--name=" + joined(names), "--format=%F|%K|%j|%T|%r|%N"});
+  if (!ended.well())
+    refuse("squeue", ended,
+           "Without it nobody knows which jobs are alive. Try again where Slurm answers; `scontrol ping` says whether "
+           "it does");
+  return tasks_of(ended.out);
+}
+
+std::vector<Task> accounts(const std::vector<std::string>& jobs) {
+  if (jobs.empty()) return {};
+  const Ended ended = run_command({"sacct", "--noheader", "--parsable2", "--allocations", "--jobs=" + joined(jobs),
+                                   "--format=JobID,JobName,State,NodeList"});
+  std::vector<Task> tasks;
+  if (!ended.well()) return tasks;  // most clusters keep accounts, but not all
+  std::istringstream lines(ended.out);
+  for (std::string line; std::getline(lines, line);) {
+    auto cells = cut(line, '|');
+    cells.resize(std::max<std::size_t>(cells.size(), 4));
+    const auto bar = cells[0].find('_');
+    if (!number_in(cells[0].substr(0, bar))) continue;
+    tasks.push_back({cells[0].substr(0, bar),
+                     bar == std::string::npos ? std::nullopt : number_in(cells[0].substr(bar + 1)), cells[1], cells[2],
+                     "", cells[3], phase_of(cells[2])});
+  }
+  return tasks;
+}
+
+std::optional<std::size_t> largest_index() {
+  const Ended ended = run_command({"scontrol", "show", "config"});
+  std::istringstream lines(ended.out);
+  for (std::string line; ended.well() && std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string key, equals, value;
+    words >> key >> equals >> value;
+    if (const auto number = number_in(value); key == "MaxArraySize" && number && *number > 1) return *number - 1;
+  }
+  return {};
+}
+
+std::vector<std::string> words_of(const Order& order) {
+  // Paths with a % would be patterns in --output, so that one stands below --chdir.
+  std::vector<std::string> words{"sbatch",
+                                 "--parsable",
+                                 "--job-name=" + order.name,
+                                 "--requeue",
+                                 "--open-mode=append",
+                                 "--nodes=1",
+                                 "--ntasks=1",
+                                 fmt::format("--cpus-per-task={}", order.threads),
+                                 "--time=" + order.time,
+                                 "--mem=" + order.memory,
+                                 "--chdir=" + order.folder.string(),
+                                 "--output=" + order.log};
+  if (!order.partition.empty()) words.push_back("--partition=" + order.partition);
+  if (!order.array.empty()) words.push_back("--array=" + order.array);
+  // afterok would never start after one task that failed. The merge says itself what is missing.
+  if (!order.after.empty()) words.push_back("--dependency=afterany:" + order.after);
+  words.push_back(order.script.string());
+  return words;
+}
+
+std::string submit(const Order& order) {
+  const Ended ended = run_command(words_of(order));
+  // "4711", or "4711;cluster"
+  const std::string line = last_line(ended.out), job = line.substr(0, line.find(';'));
+  if (!ended.well() || !number_in(job))
+    refuse("sbatch", ended,
+           "Change --partition, --time or --memory where it names them; it also reads SBATCH_ACCOUNT, SBATCH_QOS and "
+           "its other variables");
+  return job;
+}
+
+void cancel(const std::string& job) { run_command({"scancel", job}); }
+
+}  // namespace tunica::cluster::slurm
