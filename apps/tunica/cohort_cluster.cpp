@@ -83,7 +83,10 @@ int tell_status(const GlobalOptions& global, const ClusterOptions& options) {
     return code;
   }
   fmt::print("{}", cluster::in_words(view, submission));
-  if (view.missing == 0 && !(view.merge && view.merge->alive())) fmt::print("Merge:    {}\n", cohort.command("merge"));
+  if (view.missing == 0 && view.merge && view.merge->phase == cluster::slurm::Phase::ended)
+    fmt::print("Results:  {}\n", cohort.results.string());
+  else if (view.missing == 0 && !(view.merge && view.merge->alive()))
+    fmt::print("Merge:    {}\n", cohort.command("merge"));
   if (code == done) return code;
   if (!stored) {
     fmt::print("Go on:    {} --slurm\n", cohort.command("submit"));

@@ -212,7 +212,7 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
 }
 
 int nothing_missing(const ClusterCohort& cohort) {
-  fmt::print("Every specimen has a result, so nothing was submitted.\nMerge:    {}\n", cohort.command("merge"));
+  fmt::print("No specimen is left to fit, so nothing was submitted.\nMerge:    {}\n", cohort.command("merge"));
   return done;
 }
 
@@ -221,6 +221,7 @@ int nothing_missing(const ClusterCohort& cohort) {
 int submit_cohort(const GlobalOptions& global, const ClusterOptions& options) {
   const ClusterCohort cohort(global, options);
   cohort::results_folder(cohort.results, cohort.specification.name);
+  execution::write_atomically(cohort.results / "cohort.json", cohort.specification.text);
   const cluster::SubmissionLock lock(cohort.results);
   const auto earlier = cluster::stored_submission(cohort.results);
   cluster::Submission submission;
@@ -228,8 +229,6 @@ int submit_cohort(const GlobalOptions& global, const ClusterOptions& options) {
                             : cluster::job_name(cohort.specification.name, std::filesystem::canonical(cohort.results));
   if (earlier) submission.jobs = earlier->jobs;
   if (!options.dry_run) refuse_where_alive(submission, cohort);
-  // Not before: living shards have read the file as it was.
-  execution::write_atomically(cohort.results / "cohort.json", cohort.specification.text);
   const auto begin = Clock::now();
   auto missing = cohort.missing();
   const double scan_seconds = seconds_since(begin);

@@ -121,8 +121,18 @@ std::optional<std::size_t> largest_index() {
   return {};
 }
 
+namespace {
+
+/// sbatch takes % in the name of an output file, and in the folder before it, for a pattern, and %% for itself.
+std::string no_pattern(const std::string& path) {
+  std::string text;
+  for (const char letter : path) text += letter == '%' ? "%%" : std::string(1, letter);
+  return text;
+}
+
+}  // namespace
+
 std::vector<std::string> words_of(const Order& order) {
-  // Paths with a % would be patterns in --output, so that one stands below --chdir.
   std::vector<std::string> words{"sbatch",
                                  "--parsable",
                                  "--job-name=" + order.name,
@@ -134,7 +144,7 @@ std::vector<std::string> words_of(const Order& order) {
                                  "--time=" + order.time,
                                  "--mem=" + order.memory,
                                  "--chdir=" + order.folder.string(),
-                                 "--output=" + order.log};
+                                 "--output=" + no_pattern(order.folder.string()) + "/" + order.log};
   if (!order.partition.empty()) words.push_back("--partition=" + order.partition);
   if (!order.array.empty()) words.push_back("--array=" + order.array);
   // afterok would never start after one task that failed. The merge says itself what is missing.
@@ -144,6 +154,11 @@ std::vector<std::string> words_of(const Order& order) {
 }
 
 std::string submit(const Order& order) {
+  if (order.folder.string().find('\\') != std::string::npos)
+    throw InputError(
+        fmt::format("{}: has a backslash, which sbatch reads as a sign of its own; name a folder without one "
+                    "with -o",
+                    order.folder.string()));
   const Ended ended = run_command(words_of(order));
   // "4711", or "4711;cluster"
   const std::string line = last_line(ended.out), job = line.substr(0, line.find(';'));
