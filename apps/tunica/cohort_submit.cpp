@@ -206,8 +206,8 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
     cluster::store(submission, cohort.results);
     fmt::print("Job {}: the merge, when they have ended\nStatus:   {}\n", merge, cohort.command("status"));
   } catch (const InputError& refusal) {
-    throw InputError(fmt::format("the shards were submitted, but not the merge: {}. When they have ended, run `{}`",
-                                 refusal.what(), cohort.command("merge")));
+    throw InputError(fmt::format("the shards were submitted, but not the merge: {}. `{}` submits it",
+                                 refusal.what(), cohort.command("resubmit")));
   }
 }
 

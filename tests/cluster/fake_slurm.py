@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """fake_slurm.py COMMAND WORDS...: what tunica uses of sbatch, squeue, sacct, scancel and scontrol, as far as a test needs
 it. Jobs stand in the folder FAKE_SLURM; nothing runs unless the test runs it. A command whose name is in the file
-`broken` fails as if the controller were down."""
+`broken` fails as if the controller were down; "merge" there is the sbatch of a job that waits for others."""
 import fcntl
 import json
 import os
@@ -38,7 +38,8 @@ class Jobs:
 def command(name, words):
     options = dict(word[2:].partition("=")[::2] for word in words if word.startswith("--"))
     broken = FOLDER / "broken"
-    if broken.exists() and name in broken.read_text(encoding="utf-8").split():
+    names = (name, "merge") if "dependency" in options else (name,)
+    if broken.exists() and set(names) & set(broken.read_text(encoding="utf-8").split()):
         sys.exit(f"{name}: error: Unable to contact slurm controller (connect failure)")
     with open(FOLDER / "calls.txt", "a", encoding="utf-8") as calls:
         calls.write(json.dumps([name, *words]) + "\n")

@@ -180,14 +180,19 @@ def without_an_answer_of_the_queue_nothing_is_submitted():
     expect("Unable to contact" in cluster("resubmit", code=2), "resubmit goes on without the queue")
 
 
-def a_merge_that_sbatch_refuses_is_said():
+def what_sbatch_refuses_is_said_and_submitted_later():
     cluster = Cluster("refused")
     (cluster.folder / "broken").write_text("sbatch", encoding="utf-8")
     said = cluster.submit("--shards", "2", code=2)
     expect("sbatch ended with code 1: sbatch: error: Unable" in said, said)
+    (cluster.folder / "broken").write_text("merge", encoding="utf-8")
+    said = cluster.submit("--shards", "2", code=2)
+    expect("the shards were submitted, but not the merge: sbatch ended with code 1" in said, said)
+    expect("are alive: 101 (2 tasks)" in cluster.submit("--shards", "2", code=2), "the shards are submitted again")
     (cluster.folder / "broken").unlink()
-    cluster.submit("--shards", "2")
-    expect(len(cluster.calls("sbatch")) == 2, "nothing was alive, so it may be submitted")
+    cluster("resubmit")
+    array, merge = cluster.calls("sbatch")
+    expect("--dependency=afterany:101" in merge, merge)
 
 
 def numbers_of_shards_that_cannot_be_are_refused():
@@ -234,6 +239,6 @@ def paths_of_plugins_are_carried_over_absolute():
 run_cases([the_array_and_the_merge_give_the_bytes_of_one_machine, nothing_is_submitted_twice,
            of_two_that_submit_at_once_one_does, only_shards_that_stopped_are_submitted_again,
            accounts_tell_what_the_queue_has_forgotten, without_an_answer_of_the_queue_nothing_is_submitted,
-           a_merge_that_sbatch_refuses_is_said, numbers_of_shards_that_cannot_be_are_refused,
+           what_sbatch_refuses_is_said_and_submitted_later, numbers_of_shards_that_cannot_be_are_refused,
            the_pilot_states_what_it_measured_and_keeps_its_records, a_dry_run_needs_no_slurm,
            paths_of_plugins_are_carried_over_absolute])

@@ -9,6 +9,7 @@ import sys
 
 tunica, source = sys.argv[1], pathlib.Path(sys.argv[2])
 PLACEHOLDER = re.compile(r"[A-Z|]+$|my_|\.|[⟨⟩]")  # NAME, WHAT|…, files, and the plugins of tutorials
+ACTIONS = {"plugin": ("new", "check"), "cohort": ("merge", "submit", "status", "resubmit")}  # verbs below verbs
 helps, problems, count = {}, [], 0
 
 
@@ -41,8 +42,8 @@ for page in [source / "README.md", source / "CONTRIBUTING.md", *sorted((source /
                 problems.append(f"{place}: no such verb; known: {', '.join(sorted(verbs))}")
             continue
         count += 1
-        action = words[words.index(verb) + 1:][:1] if verb == "plugin" else []
-        key = (verb, *[word for word in action if word in ("new", "check")])
+        action = words[words.index(verb) + 1:][:1] if verb in ACTIONS else []
+        key = (verb, *[word for word in action if word in ACTIONS[verb]])
         helps.setdefault(key, known + (ask(*key, "--help") or ""))
         for option in re.findall(r"(?<!\S)--?[a-z][\w-]*", " ".join(words)):
             if not re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", helps[key]):

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""slurm_test.py TUNICA [SPECIMENS]: a cohort over three nodes of a real Slurm, which is harmed while it works.
+
+For 1, 2 and 7 shards: kill -9 of a slurmstepd, of a slurmd and of slurmctld, and a node set down. The merged files are
+those of one machine, byte for byte, and Slurm has seen no job but those that tunica recorded. Ends with 77 where there
+is no Slurm, or nobody may start one."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True  # nothing is left beside the sources
+from laboratory import Program, expect, expect_same, make_cohort, records
+
+LOCAL = pathlib.Path(__file__).resolve().parent / "slurm_local.sh"
+SPECIMENS = int(sys.argv[2]) if len(sys.argv) > 2 else 200
+NODES = 3
+
+
+def free_ports(count):
+    """The first of `count` neighbouring ports that nobody listens to."""
+    for first in range(20000 + os.getpid() % 5000, 60000, count):
+        sockets = []
+        try:
+            for port in range(first, first + count):
+                one = socket.socket()
+                sockets.append(one)
+                one.bind(("127.0.0.1", port))
+            return first
+        except OSError:
+            continue
+        finally:
+            for one in sockets:
+                one.close()
+    raise SystemExit("no free ports")
+
+
+class Slurm:
+    def __init__(self, folder):
+        self.folder = folder
+        started = subprocess.run([LOCAL, "start", folder, str(NODES), str(free_ports(NODES + 1))], check=False)
+        if started.returncode:
+            self.stop()
+            raise SystemExit(started.returncode)
+        os.environ["SLURM_CONF"] = str(folder / "slurm.conf")
+
+    def call(self, *words):
+        subprocess.run([LOCAL, words[0], self.folder, *words[1:]], check=True)
+
+    def stop(self):
+        subprocess.run([LOCAL, "stop", self.folder], check=False)
+
+    def kill(self, daemon):
+        os.kill(int((self.folder / f"pid/{daemon}.pid").read_text(encoding="utf-8")), signal.SIGKILL)
+
+
+def ask(*words):
+    """What a command of Slurm says, asked again while a controller is on its way back."""
+    for _ in range(60):
+        ended = subprocess.run(words, capture_output=True, text=True, check=False)
+        if ended.returncode == 0:
+            return ended.stdout
+        time.sleep(0.5)
+    raise AssertionError(f"{' '.join(words)}: {ended.stderr}")
+
+
+def processes_of(results):
+    """(process, parent) of every shard of these results that runs on this machine."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            if str(results).encode() in words and b"--shard" in words:
+                parent = int((entry / "stat").read_text(encoding="utf-8").rpartition(")")[2].split()[1])
+                found.append((int(entry.name), parent))
+        except (OSError, ValueError):
+            continue
+    return found
+
+
+def wait_until(holds, what, seconds=180):
+    deadline = time.monotonic() + seconds
+    while not holds():
+        hurry()
+        expect(time.monotonic() < deadline, f"waited {seconds} s for {what}:\n" + ask("squeue", "--array", "--states=all"))
+        time.sleep(0.02)
+
+
+def running_nodes():
+    return ask("squeue", "--noheader", "--states=RUNNING", "--format=%N").split()
+
+
+def harm_stepd(slurm, results):
+    def killed():
+        for process, parent in processes_of(results):
+            try:
+                if pathlib.Path(f"/proc/{parent}/comm").read_text(encoding="utf-8").startswith("slurmstepd"):
+                    os.kill(parent, signal.SIGKILL)
+                    os.kill(process, 0)
+                    return True
+            except OSError:
+                continue
+        return False
+    wait_until(killed, "a slurmstepd to kill")
+
+
+def harm_slurmd(slurm, results):
+    wait_until(running_nodes, "a node that works")
+    node = running_nodes()[0]
+    slurm.kill(f"slurmd.{node}")
+    wait_until(lambda: "down" in ask("sinfo", "--noheader", f"--nodes={node}", "--format=%T"), f"{node} to be seen down")
+    slurm.call("node", node[1:])
+
+
+def harm_slurmctld(slurm, results):
+    slurm.kill("slurmctld")
+    time.sleep(1)
+    said = tunica("cohort", "submit", "cohort.json", "-o", str(results), "--slurm", "--shards", "1", code=2)
+    expect("are alive" in said or "squeue ended with" in said, said)
+    slurm.call("controller")
+
+
+def harm_node(slurm, results):
+    wait_until(running_nodes, "a node that works")
+    node = running_nodes()[0]
+    ask("scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test")
+    time.sleep(2)
+    # Its slurmd is alive and may have brought it back by itself, which makes this an error.
+    subprocess.run(["scontrol", "update", f"NodeName={node}", "State=RESUME"], capture_output=True, check=False)
+
+
+def hurry():
+    """Slurm lets a requeued job wait for two minutes, which a test does not."""
+    for line in ask("squeue", "--noheader", "--array", "--states=PENDING", "--format=%i|%r").split():
+        job, _, reason = line.partition("|")
+        if reason == "BeginTime":
+            subprocess.run(["scontrol", "update", f"JobId={job}", "StartTime=now"], capture_output=True, check=False)
+
+
+def jobs_that_slurm_knows(name):
+    lines = ask("squeue", "--noheader", "--array", "--states=all", f"--name={name},{name}-merge", "--format=%F").split()
+    return sorted(set(lines), key=int)
+
+
+def harmed_cohort_is_that_of_one_machine(slurm, shards):
+    results = folder / f"of{shards}"
+    begin = time.monotonic()
+    print(tunica("cohort", "submit", "cohort.json", "-o", str(results), "--slurm", "--shards", str(shards), "--no-reports"), end="")
+    expect("are alive" in tunica("cohort", "submit", "cohort.json", "-o", str(results), "--slurm", code=2), "submitted twice")
+    harms = [harm_stepd, harm_node, harm_slurmctld, harm_slurmd]  # the last takes longest
+    for k, harm in enumerate(harms):
+        wanted = SPECIMENS * (k + 1) // 8
+        wait_until(lambda: len(records(results)) >= wanted, f"{wanted} records")
+        print(f"{harm.__name__} at {len(records(results))} of {SPECIMENS} records", flush=True)
+        expect(len(records(results)) < SPECIMENS, "the cohort was done before it could be harmed")
+        harm(slurm, results)
+    resubmitted = 0
+    deadline = time.monotonic() + 300
+    while True:
+        expect(time.monotonic() < deadline, "it does not come to an end:\n" + tunica("cohort", "status", "cohort.json", "-o", str(results), code=None))
+        view = json.loads(tunica("cohort", "status", "cohort.json", "-o", str(results), "--json", code=None))
+        alive = [one for one in view["shards"] if one["standing"] in ("running", "waiting")]
+        merge = view["merge"] and view["merge"]["standing"]
+        if not view["queue_problem"] and (view["missing"] or merge == "failed") and not alive and merge not in ("running", "waiting"):
+            print(tunica("cohort", "status", "cohort.json", "-o", str(results), code=None), end="")
+            if not view["missing"]:
+                tunica("cohort", "merge", "cohort.json", "-o", str(results))
+                break
+            print(tunica("cohort", "resubmit", "cohort.json", "-o", str(results)), end="")
+            resubmitted += 1
+        if merge == "ended" and not view["missing"]:
+            break
+        hurry()
+        time.sleep(0.3)
+    expect_same(folder / "whole", results, f"{shards} shards")
+    recorded = json.loads((results / "slurm/jobs.json").read_text(encoding="utf-8"))
+    known = jobs_that_slurm_knows(recorded["name"])
+    ids = sorted((job["id"] for job in recorded["jobs"]), key=int)
+    expect(known == ids, f"Slurm knows the jobs {known}, recorded are {ids}")
+    print(f"{shards} shards: same bytes after {len(harms)} harms, {resubmitted} resubmitted, jobs {' '.join(ids)}, "
+          f"{time.monotonic() - begin:.0f} s", flush=True)
+
+
+folder = pathlib.Path(tempfile.mkdtemp(prefix="cluster"))
+tunica = Program(sys.argv[1], folder)
+slurm = Slurm(folder / "slurm")
+try:
+    make_cohort(folder, SPECIMENS, realisations=12)
+    begin = time.monotonic()
+    tunica("cohort", "cohort.json", "-o", "whole", "--no-reports", "--quiet")
+    print(f"one machine: {time.monotonic() - begin:.0f} s", flush=True)
+    tunica.environment = dict(os.environ)
+    for shards in (1, 2, 7):
+        harmed_cohort_is_that_of_one_machine(slurm, shards)
+    shutil.rmtree(folder, ignore_errors=True)
+except AssertionError as problem:
+    raise SystemExit(f"{problem}\nSee {folder}") from None
+finally:
+    slurm.stop()
+    for process, _ in [one for shards in (1, 2, 7) for one in processes_of(folder / f"of{shards}")]:
+        os.kill(process, signal.SIGKILL)
