@@ -76,10 +76,10 @@ cluster::Pilot run_pilot(const cluster::Invocation& call, const ClusterOptions& 
   words.insert(words.end(), call.shard_options.begin(), call.shard_options.end());
   const cluster::Ended ended = cluster::run_command(words);
   if (!ended.well())
-    throw InputError(
-        fmt::format("the pilot ended with code {}: {}. It was `{}`; what is wrong with it would be wrong "
-                    "with every shard, so nothing was submitted",
-                    ended.code, cluster::last_line(ended.err), cluster::quoted(words)));
+    throw InputError(fmt::format(
+        "the pilot ended with code {}: {}. Nothing was submitted, for each shard would end so. Run it by itself "
+        "to see more: `{}`",
+        ended.code, cluster::last_line(ended.err), cluster::quoted(words)));
   cluster::Pilot pilot;
   double sum = 0;
   std::string reason;
@@ -119,9 +119,9 @@ cluster::Wishes plan(const ClusterOptions& options, const ClusterCohort& cohort,
   const std::size_t specimens = missing.size();
   if (options.shards > std::min(largest, specimens))
     throw InputError(fmt::format(
-        "--shards {}: there are {} specimens, and a job array of this cluster has at most {} tasks; ask for "
-        "no more shards than both",
-        options.shards, specimens, largest));
+        "--shards {}: there are {} specimens, and a job array of this cluster has at most {} tasks; give at "
+        "most {}",
+        options.shards, specimens, largest, std::min(largest, specimens)));
   cluster::Wishes wishes{options.shards, options.threads, options.time, options.memory, "", "", options.partition};
   std::size_t start_bytes = 0;
   if (options.shards == 0 || options.time.empty() || options.memory.empty()) {
@@ -173,7 +173,7 @@ void refuse_where_alive(const cluster::Submission& submission, const ClusterCoho
   if (!numbers.empty() && !merges.empty()) numbers += ' ';
   numbers += merges;
   throw InputError(fmt::format(
-      "{}: jobs of this cohort are alive: {} ({} tasks), so nothing was submitted. `{}` says how far they "
+      "{}: jobs of this cohort are alive: {} ({} tasks), so nothing was submitted. Look with `{}` how far they "
       "are; `{}` repeats shards that have stopped; `scancel {}` ends them all, and what they fitted stays",
       cohort.results.string(), numbers, alive, cohort.command("status"), cohort.command("resubmit"), numbers));
 }
@@ -206,7 +206,7 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
     cluster::store(submission, cohort.results);
     fmt::print("Job {}: the merge, when they have ended\nStatus:   {}\n", merge, cohort.command("status"));
   } catch (const InputError& refusal) {
-    throw InputError(fmt::format("the shards were submitted, but not the merge: {}. `{}` submits it",
+    throw InputError(fmt::format("the shards were submitted, but not the merge: {}. Run `{}`, which submits it",
                                  refusal.what(), cohort.command("resubmit")));
   }
 }
@@ -248,7 +248,7 @@ int resubmit_cohort(const GlobalOptions& global, const ClusterOptions& options) 
   const ClusterCohort cohort(global, options);
   auto stored = cluster::stored_submission(cohort.results);
   if (!stored)
-    throw InputError(fmt::format("{}: nothing was submitted from this folder; `{} --slurm` does it",
+    throw InputError(fmt::format("{}: nothing was submitted from this folder; start with `{} --slurm`",
                                  cohort.results.string(), cohort.command("submit")));
   const cluster::SubmissionLock lock(cohort.results);
   cluster::Submission submission = *cluster::stored_submission(cohort.results);

@@ -170,6 +170,7 @@ TEST(Submission, NamesItsJobsByTheirFolder) {
 
 TEST(Overview, AsksRecordsFirstAndThenTheQueue) {
   const trial::Folder folder;
+  std::filesystem::create_directories(queue_folder(folder.path()));
   folder.write("slurm/shard_2.txt", "50 %  5 of 10 specimens\nerror: no space\n");
   const Submission submission{"array", {5, 1, "30", "256M", "31", "1G", ""}, {{"9", "1-5"}, {"10", ""}}};
   std::vector<cohort::ShareProgress> progress;

@@ -52,10 +52,10 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-[[noreturn]] void refuse(const std::string& program, const Ended& ended, const char* cure) {
+/// "ended with code 1: Unable to contact slurm controller"
+std::string end_words(const Ended& ended) {
   const std::string said = last_line(ended.err.empty() ? ended.out : ended.err);
-  throw InputError(
-      fmt::format("{} ended with code {}: {}. {}", program, ended.code, said.empty() ? "it said nothing" : said, cure));
+  return fmt::format("ended with code {}: {}", ended.code, said.empty() ? "it said nothing" : said);
 }
 
 }  // namespace
@@ -84,9 +84,10 @@ std::vector<Task> queue(const std::vector<std::string>& names) {
   const Ended ended = run_command({"squeue", "--noheader", "--array", "--all", "--states=all",
                                    "--name=" + joined(names), "--format=%F|%K|%j|%T|%r|%N"});
   if (!ended.well())
-    refuse("squeue", ended,
-           "Without it nobody knows which jobs are alive. Try again where Slurm answers; `scontrol ping` says whether "
-           "it does");
+    throw InputError(
+        fmt::format("squeue {}, so nobody knows which jobs are alive. Look with `scontrol ping` whether Slurm answers, "
+                    "and try again",
+                    end_words(ended)));
   return tasks_of(ended.out);
 }
 
@@ -163,9 +164,10 @@ std::string submit(const Order& order) {
   // "4711", or "4711;cluster"
   const std::string line = last_line(ended.out), job = line.substr(0, line.find(';'));
   if (!ended.well() || !number_in(job))
-    refuse("sbatch", ended,
-           "Change --partition, --time or --memory where it names them; it also reads SBATCH_ACCOUNT, SBATCH_QOS and "
-           "its other variables");
+    throw InputError(
+        fmt::format("sbatch {}. Give it another --partition, --time or --memory where it names them; it also "
+                    "reads SBATCH_ACCOUNT, SBATCH_QOS and its other variables",
+                    end_words(ended)));
   return job;
 }
 
