@@ -112,16 +112,18 @@ Record unreadable(const Specimen& specimen) {
 Bound bind(const Specification& cohort, const Template& pattern, const Specimen& specimen,
            const plugins::Catalogue& catalogue) {
   const std::string text = pattern.of(specimen);
-  Bound bound{experiment::parse_experiment(text, cohort.experiment, catalogue), {}};
+  Bound bound{experiment::parse_experiment(text, cohort.experiment, catalogue), {}, {}};
   experiment::Experiment& experiment = bound.experiment;
   experiment.name = specimen.id;
   calibration::Overrides overrides;
   overrides.seed = derive_seed(cohort.seed, "specimen " + specimen.id);
   calibration::apply(overrides, experiment);
-  std::string all = fmt::format("{}\n{}\n{}\n", comparison::version(), *overrides.seed, text);
+  const std::string all = fmt::format("{}\n{}\n{}\n", comparison::version(), *overrides.seed, text);
+  std::string files;
   for (const experiment::TestEntry& test : experiment.tests)
-    for (const auto& file : test.data.files) all += data::sha256(data::read_bytes(file)) + "\n";
-  bound.inputs = data::sha256(all);
+    for (const auto& file : test.data.files) files += data::sha256(data::read_bytes(file)) + "\n";
+  bound.data = data::sha256(files);
+  bound.inputs = data::sha256(all + files);
   return bound;
 }
 
@@ -147,6 +149,7 @@ std::optional<Record> fit(const Specification& cohort, const Template& pattern, 
   try {
     const Bound bound = bind(cohort, pattern, specimen, catalogue);
     record.inputs = bound.inputs;
+    record.data = bound.data;
     if (auto stored = stored_record(settings.results, specimen);
         stored && stored->inputs == record.inputs && !stored->runs.empty())
       return stored;
