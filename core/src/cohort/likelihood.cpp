@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cohort/curve_reading.hpp"
+#include "cohort/index.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -14,8 +15,6 @@ namespace tunica::cohort {
 namespace {
 
 using RowMajorView = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-
-Eigen::Index index(std::size_t k) { return static_cast<Eigen::Index>(k); }
 
 }  // namespace
 
@@ -43,8 +42,28 @@ SpecimenLikelihood::SpecimenLikelihood(Bound bound, std::size_t run, const Recor
   residuals_.resize(whitening_.count());
   residual_jacobian_.resize(whitening_.count() * n);
   for (const assembly::MeasuredChannel& view : layout.channels)
-    if (view.weight > 0 && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end())
+    if (view.weight > 0 && std::find(view.fitted.begin(), view.fitted.end(), true) != view.fitted.end()) {
       channels_.push_back(view.test + ": " + view.observable);
+      stated_.push_back(view.sigma.stated());
+    }
+}
+
+double SpecimenLikelihood::noise(std::size_t channel) const {
+  double squares = 0;
+  for (std::size_t k = first()[channel]; k < first()[channel + 1]; ++k) squares += std::pow(whitening_.rows[k].sd, 2);
+  return std::sqrt(squares / static_cast<double>(first()[channel + 1] - first()[channel]));
+}
+
+bool SpecimenLikelihood::noise_is_stated(std::size_t channel) const { return stated_[channel]; }
+
+double SpecimenLikelihood::log_noise() const {
+  double sum = 0;
+  for (const assembly::Whitening::Row& row : whitening_.rows) sum += 2 * std::log(row.sd);
+  return sum;
+}
+
+void SpecimenLikelihood::scale_noise(std::size_t channel, double factor) {
+  for (std::size_t k = first()[channel]; k < first()[channel + 1]; ++k) whitening_.rows[k].sd *= factor;
 }
 
 void SpecimenLikelihood::move_to(const Eigen::VectorXd& xi) {

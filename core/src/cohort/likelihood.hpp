@@ -34,6 +34,12 @@ class SpecimenLikelihood {
   /// Rows [first[c], first[c + 1]) of the residuals are those of channel c; what follows is priors.
   [[nodiscard]] const std::vector<std::size_t>& first() const { return whitening_.first; }
   [[nodiscard]] std::size_t rows() const { return whitening_.count(); }
+  /// σ of a channel, quadratic mean over its rows; whether the file states it; Σ ln σ² of all rows.
+  [[nodiscard]] double noise(std::size_t channel) const;
+  [[nodiscard]] bool noise_is_stated(std::size_t channel) const;
+  [[nodiscard]] double log_noise() const;
+  /// From now on the σ of a channel is this many times as large.
+  void scale_noise(std::size_t channel, double factor);
   [[nodiscard]] const Eigen::VectorXd& best() const { return best_; }
 
   /// Whitened residuals and, unless null, their Jacobian by ξ.
@@ -52,6 +58,7 @@ class SpecimenLikelihood {
   assembly::WorkspacePointer workspace_;
   assembly::Whitening whitening_;
   std::vector<std::string> channels_;
+  std::vector<bool> stated_;
   Eigen::VectorXd best_;
   std::vector<double> free_, slope_, predictions_, jacobian_, residuals_, residual_jacobian_;
 };
