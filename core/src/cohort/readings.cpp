@@ -82,10 +82,12 @@ void analyse_reading(const Specification& cohort, const Design& design, const st
     const double xi = positive ? std::log(one.value) : one.value / scale;
     const double sd = std::sqrt(one.variance) / (positive ? one.value : scale);
     constexpr double least_sd = 1e-6;  // a reading that the fit knows exactly
-    individuals.push_back(
-        {{Eigen::MatrixXd::Constant(1, 1, std::pow(std::max(sd, least_sd), -2)), Eigen::VectorXd::Constant(1, xi), 0},
-         part.rows.row(index(k)).transpose(),
-         part.animals[k]});
+    population::Individual individual;
+    individual.data.information = Eigen::MatrixXd::Constant(1, 1, std::pow(std::max(sd, least_sd), -2));
+    individual.data.mode = Eigen::VectorXd::Constant(1, xi);
+    individual.design = part.rows.row(index(k)).transpose();
+    individual.animal = part.animals[k];
+    individuals.push_back(std::move(individual));
   }
   const population::Structure structure{false, part.nested()};
   const population::Estimates estimates = population::estimate(individuals, structure);

@@ -10,10 +10,19 @@
 namespace tunica::cohort {
 
 /// What a warning about a cohort is about. Scripts and the report decide by it, so that the sentences may change.
-enum class RemarkKind { not_fitted, factor_not_compared, few_specimens, same_data, far_off, often_at_bound };
-inline constexpr text::Codes<RemarkKind, 6> remark_codes{{{RemarkKind::not_fitted, "not_fitted"},
+enum class RemarkKind {
+  not_fitted,
+  factor_not_compared,
+  few_specimens,
+  few_animals,
+  same_data,
+  far_off,
+  often_at_bound
+};
+inline constexpr text::Codes<RemarkKind, 7> remark_codes{{{RemarkKind::not_fitted, "not_fitted"},
                                                           {RemarkKind::factor_not_compared, "factor_not_compared"},
                                                           {RemarkKind::few_specimens, "few_specimens"},
+                                                          {RemarkKind::few_animals, "few_animals"},
                                                           {RemarkKind::same_data, "same_data"},
                                                           {RemarkKind::far_off, "far_off"},
                                                           {RemarkKind::often_at_bound, "often_at_bound"}}};

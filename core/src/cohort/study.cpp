@@ -135,7 +135,16 @@ Study study(const Specification& cohort, const SpecimenTable& table, const Templ
     result.populations.push_back(population_of(cohort, table, pattern, found, run, catalogue));
   }
   if (result.populations.empty()) return result;
-  for (const std::string& refusal : result.populations.front().design.refusals)
+  const Design& design = result.populations.front().design;
+  constexpr std::size_t enough_animals = 4;
+  if (design.nested() && design.animal_count < enough_animals)
+    result.remarks.push_back(
+        {RemarkKind::few_animals,
+         fmt::format("the specimens come from {} animals: intervals of a typical specimen are wide, "
+                     "because they are to hold for other animals too. Effects within animals are "
+                     "known better",
+                     design.animal_count)});
+  for (const std::string& refusal : design.refusals)
     result.remarks.push_back({RemarkKind::factor_not_compared, refusal});
   return result;
 }

@@ -41,24 +41,35 @@ std::string effect_line(const Effect& effect, const std::string& unit) {
   return fmt::format("  {} {}   {}\n", text::pad(effect.of, 26), size, p);
 }
 
-void add_effects(const Analysis& analysis, std::string& words) {
-  for (const FactorTest& test : analysis.factors) {
-    std::string level;
-    for (const Effect& effect : analysis.effects) {
-      if (effect.factor != test.factor) continue;
-      if (effect.level != level)
-        words += fmt::format("\n{}: {} against {} (95 % interval; p by permutation)\n", effect.factor, effect.level,
-                             effect.reference);
-      level = effect.level;
-      for (const Coordinate& coordinate : analysis.coordinates)
+/// Effects on parameters and on readings under one heading a level.
+void add_level(const std::vector<const Analysis*>& analyses, const std::string& factor, const std::string& level,
+               std::string& words) {
+  bool headed = false;
+  for (const Analysis* analysis : analyses)
+    for (const Effect& effect : analysis->effects) {
+      if (effect.factor != factor || effect.level != level) continue;
+      if (!headed)
+        words +=
+            fmt::format("\n{}: {} against {} (95 % interval; p by permutation)\n", factor, level, effect.reference);
+      headed = true;
+      for (const Coordinate& coordinate : analysis->coordinates)
         if (coordinate.name == effect.of) words += effect_line(effect, coordinate.unit);
     }
+}
+
+void add_factors(const PopulationStudy& one, std::string& words) {
+  std::vector<const Analysis*> analyses{&one.parameters};
+  for (const ReadingStudy& reading : one.readings)
+    if (reading.analysis) analyses.push_back(&*reading.analysis);
+  for (const DesignFactor& factor : one.design.factors)
+    for (std::size_t level = 1; level < factor.levels.size(); ++level)
+      add_level(analyses, factor.name, factor.levels[level], words);
+  for (const FactorTest& test : one.parameters.factors)
     if (test.permutation.made > 0 && test.permutation.smallest_p > 0.05)
-      words += text::hanging("  ! ", fmt::format("{} arrangements of the labels cannot give p below {:.2g}. More "
+      words += text::hanging("  ! ", fmt::format("{}: {} arrangements of the labels cannot give p below {:.2g}. More "
                                                  "specimens are needed for a finding",
-                                                 test.permutation.made, test.permutation.smallest_p)) +
+                                                 test.factor, test.permutation.made, test.permutation.smallest_p)) +
                "\n";
-  }
 }
 
 void add_population(const PopulationStudy& one, const SpecimenTable& table, std::string& words) {
@@ -81,9 +92,7 @@ void add_population(const PopulationStudy& one, const SpecimenTable& table, std:
   words += "\nspread between specimens (standard deviation, 95 % interval)\n";
   for (std::size_t j = 0; j < analysis.coordinates.size(); ++j)
     words += spread_words(analysis.coordinates[j], analysis.spreads[j], one.nested);
-  add_effects(analysis, words);
-  for (const ReadingStudy& reading : one.readings)
-    if (reading.analysis) add_effects(*reading.analysis, words);
+  add_factors(one, words);
   for (const Outlier& outlier : one.outliers)
     words += text::hanging("  ! ", fmt::format("{} is unlike the others (p {}, for all specimens together)",
                                                table.specimens[outlier.specimen].id, p_words(outlier.p))) +
