@@ -42,6 +42,7 @@ SUBJECTS = [
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
     ("Diagnosis", "", ["core/src/diagnosis/"]),
+    ("Cohorts", "", ["core/src/cohort/"]),
     ("Reports", "", ["core/src/report/"]),
     ("Plugins that are refused", "Exit code 3 where the file was named with --plugin-path, else a warning.",
      ["core/src/plugins/"]),
@@ -58,7 +59,7 @@ NOT_MESSAGES = ["core/src/conformance/function", "core/src/conformance/constrain
 RETURNS = ("core/src/plugins/", "core/src/execution/files", "apps/tunica/session")
 
 # A clause that begins so tells what to do or what is expected.
-DO = ("Add Allow Check Choose Close Correct Define Enlarge Expected Finish Fit Fix Free Give Hold Impose "
+DO = ("Add Allow Bind Check Choose Close Correct Define Enlarge Expected Fill Finish Fit Fix Free Give Hold Impose "
       "Install Keep Leave Let Link List Look Make Map Mend Mount Move Name Narrow Pass Put Raise Rebuild Remove "
       "Rename Resume Run Save Say See Select Set Share Start State Strike Swap Take Use Wait Widen Write").split()
 EXPECT = ["0 leaves it", "A fixed parameter is", "A map has", "A stage is", "A standard deviation is", "A stretch is",

@@ -20,7 +20,6 @@ namespace tunica::cohort {
 struct Bound {
   experiment::Experiment experiment;
   std::string inputs;
-  std::string data;  ///< hash of the data files alone
 };
 Bound bind(const Specification& cohort, const Template& pattern, const Specimen& specimen,
            const plugins::Catalogue& catalogue);

@@ -36,7 +36,7 @@ void remark_few(const Collection& found, std::vector<Remark>& remarks) {
                                  text::counted(count, "specimen", "specimens"), text::agreeing(count, "was", "were"))});
 }
 
-/// Two specimens with the same bytes are one, entered twice.
+/// Two specimens with the same curves are one, entered twice.
 void remark_same_data(const Collection& found, std::vector<Remark>& remarks) {
   std::map<std::string, std::vector<std::string>> by_data;
   std::vector<std::string> order;
@@ -48,7 +48,7 @@ void remark_same_data(const Collection& found, std::vector<Remark>& remarks) {
   for (const std::string& data : order)
     if (const auto& ids = by_data[data]; ids.size() > 1)
       remarks.push_back({RemarkKind::same_data,
-                         fmt::format("{} have the same data, byte for byte. One measurement counts several times; take "
+                         fmt::format("{} have the same measured values. One measurement counts several times; take "
                                      "all but one of them out with \"where\"",
                                      text::joined(ids)),
                          ids});
