@@ -18,6 +18,7 @@
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "report/report.hpp"
 #include "stages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -79,8 +80,9 @@ int merge(const GlobalOptions& global, const Session& session, const Opened& ope
                           [&stages](const std::string& what, double share) { stages.tell(what, share); });
   }
   write_results(opened, found, study, results);
-  fmt::print("{}{}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
-             cohort::study_words(opened.table, study), results.string());
+  const auto page = report::write_report(results);
+  fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
+             cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
