@@ -173,12 +173,8 @@ Cohort linear(const std::vector<Eigen::VectorXd>& values, const std::vector<Eige
   for (std::size_t i = 0; i < values.size(); ++i) result.specimens.push_back({fmt::format("s{:03}", i), {}, 0});
   result.channels.push_back({"known", false});
   result.start = Eigen::VectorXd::Zero(p);
-  result.expand = [=](std::size_t i, const Prior& prior) -> std::optional<Expansion> {
-    const Eigen::VectorXd away = prior.mean - values[i];
-    return Expansion{
-        prior.mean,
-        {{informations[i], informations[i] * away, away.dot(informations[i] * away), static_cast<double>(p)}},
-        0};
+  result.expand = [=](std::size_t i, const Prior&) -> std::optional<Expansion> {
+    return Expansion{values[i], {{informations[i], Eigen::VectorXd::Zero(p), 0, static_cast<double>(p)}}, 0};
   };
   return result;
 }
