@@ -35,7 +35,7 @@ Cohort exact(const std::vector<double>& values, const std::vector<std::size_t>& 
 }
 
 FactorTest tested(const Cohort& cohort, const FactorTestOptions& options = {}) {
-  return test_factor(cohort, population::population(cohort, with_factor()), 0, options);
+  return test_factor(cohort, estimate(cohort, with_factor()), 0, options);
 }
 
 double difference(const std::vector<double>& values, const std::vector<std::size_t>& group) {

@@ -69,7 +69,7 @@ Options diagonal(std::vector<std::size_t> factors) {
 
 // The peer: nlme 3.1-162 of R 4.2.2, figures of nlme_reference.R. It says which function gives which figure, and why.
 TEST(Nlme, AgreesOnMeansErrorsAndSpreadsOfTwoGroups) {
-  const Population found = population::population(nlme_cohort(false), diagonal({0}));
+  const Population found = estimate(nlme_cohort(false), diagonal({0}));
   const auto reference = nlme_figures()["treated"];
   expect_means(found, reference);
   for (std::size_t j = 0; j < 2; ++j)
@@ -79,7 +79,7 @@ TEST(Nlme, AgreesOnMeansErrorsAndSpreadsOfTwoGroups) {
 }
 
 TEST(Nlme, AgreesOnSpecimensWithinAnimals) {
-  const Population found = population::population(nlme_cohort(true), diagonal({}));
+  const Population found = estimate(nlme_cohort(true), diagonal({}));
   const auto reference = nlme_figures()["nested"];
   expect_means(found, reference);
   for (const Spread& spread : found.spreads) {

@@ -48,7 +48,7 @@ void expect_same_bits(const Population& a, const Population& b) {
 
 TEST(Population, OfExactValuesIsSampleMeanAndVarianceWithStudentsInterval) {
   const auto xs = values(9);
-  const Population found = population::population(simulated::linear(xs, {9, precise(1e10)}));
+  const Population found = estimate(simulated::linear(xs, {9, precise(1e10)}));
   double mean = 0, variance = 0;
   for (const auto& x : xs) mean += x[0] / 9;
   for (const auto& x : xs) variance += (x[0] - mean) * (x[0] - mean) / 8;
@@ -62,7 +62,7 @@ TEST(Population, OfExactValuesIsSampleMeanAndVarianceWithStudentsInterval) {
 
 // (n − 1)(v̂/v − 1 − log(v̂/v)) is the restricted deviance of a variance.
 TEST(Population, ProfileOfASpreadIsTheClosedFormOfExactValues) {
-  const Population found = population::population(simulated::linear(values(9), {9, precise(1e10)}));
+  const Population found = estimate(simulated::linear(values(9), {9, precise(1e10)}));
   const double variance = found.omega(0, 0), level = numerics::chi_squared_quantile(0.95, 1);
   for (const double end : {found.spreads[0].interval.lower, found.spreads[0].interval.upper}) {
     const double ratio = variance / (end * end);
@@ -87,7 +87,7 @@ TEST(Population, NestedBalancedIsTheAnalysisOfVariance) {
   Cohort cohort = simulated::linear(xs, {animals * each, precise(1e10)});
   for (std::size_t k = 0; k < animals; ++k) cohort.animals.push_back("animal " + std::to_string(k));
   for (std::size_t i = 0; i < xs.size(); ++i) cohort.specimens[i].animal = i / each;
-  const Population found = population::population(cohort);
+  const Population found = estimate(cohort);
   double mean = 0, between = 0, within = 0;
   for (const double own : means) mean += own / animals;
   for (const double own : means) between += each * (own - mean) * (own - mean) / (animals - 1);
@@ -112,7 +112,7 @@ TEST(Population, SingularInformationGivesGeneralisedLeastSquares) {
     const Eigen::Vector2d u = i < 6 ? sum : second;
     As.push_back(4.0 * u * u.transpose());
   }
-  const Population found = population::population(simulated::linear(xs, As));
+  const Population found = estimate(simulated::linear(xs, As));
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < 12; ++i) {
@@ -129,7 +129,7 @@ TEST(Population, ASpreadOfZeroIsSaidToBeAtTheBoundary) {
   // Values nearer to each other than their own errors would scatter them.
   std::vector<Eigen::VectorXd> xs;
   for (int i = 0; i < 8; ++i) xs.push_back(one(1 + 0.01 * i));
-  const Population found = population::population(simulated::linear(xs, {8, precise(1)}));
+  const Population found = estimate(simulated::linear(xs, {8, precise(1)}));
   EXPECT_TRUE(found.spreads[0].at_zero);
   EXPECT_EQ(found.omega(0, 0), 0);
   EXPECT_EQ(found.spreads[0].interval.lower, 0);
@@ -139,7 +139,7 @@ TEST(Population, ASpreadOfZeroIsSaidToBeAtTheBoundary) {
 }
 
 TEST(Population, TwoSpecimensHaveOneDegreeOfFreedom) {
-  const Population found = population::population(simulated::linear({one(1), one(2)}, {2, precise(1e8)}));
+  const Population found = estimate(simulated::linear({one(1), one(2)}, {2, precise(1e8)}));
   EXPECT_NEAR(found.beta[0], 1.5, 1e-9);
   EXPECT_NEAR(found.omega(0, 0), 0.5, 1e-5);
   EXPECT_EQ(found.coefficients[0].freedom, 1);
@@ -149,7 +149,7 @@ TEST(Population, TwoSpecimensHaveOneDegreeOfFreedom) {
 TEST(Population, TakesTheShapeThatTheSpecimensCarry) {
   simulated::Normal normal(5);
   for (const auto& [n, shape] : {std::pair(8, Shape::diagonal), std::pair(20, Shape::full)}) {
-    const Population found = population::population(
+    const Population found = estimate(
         simulated::cohort(simulated::strip(), strips(static_cast<std::size_t>(n), 0.3, normal), normal));
     EXPECT_EQ(found.within.shape, shape);
     EXPECT_TRUE(found.converged);
@@ -161,7 +161,7 @@ TEST(Population, IsTheSameBitsInAnyOrderAndWithAnyThreads) {
   Cohort cohort = simulated::cohort(simulated::strip(), strips(7, 0.3, normal), normal);
   cohort.animals = {"x", "y", "z"};
   for (std::size_t i = 0; i < 7; ++i) cohort.specimens[i].animal = i % 3;
-  const Population found = population::population(cohort);
+  const Population found = estimate(cohort);
   Cohort turned = cohort;
   turned.animals = {"z", "y", "x"};
   for (std::size_t i = 0; i < 7; ++i) {
@@ -169,18 +169,18 @@ TEST(Population, IsTheSameBitsInAnyOrderAndWithAnyThreads) {
     turned.specimens[i].animal = 2 - turned.specimens[i].animal;
   }
   turned.expand = [expand = cohort.expand](std::size_t i, const Prior& prior) { return expand(6 - i, prior); };
-  const Population again = population::population(turned);
+  const Population again = estimate(turned);
   expect_same_bits(found, again);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(found.individuals[i].mean, again.individuals[6 - i].mean);
   EXPECT_EQ(found.animals[0], again.animals[2]);
   const oneapi::tbb::global_control serial(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  expect_same_bits(found, population::population(cohort));
+  expect_same_bits(found, estimate(cohort));
 }
 
 TEST(Population, RefusesWhatItCannotEstimate) {
   const auto message = [](const Cohort& cohort, const Options& options = {}) {
     try {
-      population::population(cohort, options);
+      estimate(cohort, options);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

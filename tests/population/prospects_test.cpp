@@ -48,13 +48,13 @@ TEST(Power, CountsTheErrorsOfSpecimensBesideTheirSpread) {
   std::vector<Eigen::VectorXd> xi;
   for (int i = 0; i < 10; ++i) xi.push_back(Eigen::VectorXd::Constant(1, 0.4 * (i % 5)));
   const Population found =
-      population::population(simulated::linear(xi, {10, Eigen::MatrixXd::Constant(1, 1, 25)}), quick());
+      estimate(simulated::linear(xi, {10, Eigen::MatrixXd::Constant(1, 1, 25)}), quick());
   EXPECT_NEAR(deviations(found)[0].deviation, std::sqrt(found.omega(0, 0) + 1.0 / 25), 1e-9);
 }
 
 TEST(Predictive, CoversANewSpecimenAsStudentsPredictionIntervalDoes) {
   simulated::Normal normal(2);
-  const Population found = population::population(exact_normal(7, 1, normal), quick());
+  const Population found = estimate(exact_normal(7, 1, normal), quick());
   const Predictive next = predictive(found, {});
   EXPECT_NEAR(next.covariance(0, 0), found.omega(0, 0) * (1 + 1.0 / 7), 1e-6);
   // 20 000 draws: the share beyond Student's 97.5 % point lies within 0.025 ± 0.0045 with probability 0.99995.
@@ -68,8 +68,8 @@ TEST(Outliers, OneAmongExactValuesHasTheDeletedStudentResidual) {
   simulated::Normal normal(9);
   Cohort cohort = exact_normal(8, 1, normal);
   std::vector<double> values;
-  for (std::size_t i = 0; i < 8; ++i) values.push_back(population::population(cohort, quick()).individuals[i].mean[0]);
-  const auto standings = outliers(cohort, population::population(cohort, quick()));
+  for (std::size_t i = 0; i < 8; ++i) values.push_back(estimate(cohort, quick()).individuals[i].mean[0]);
+  const auto standings = outliers(cohort, estimate(cohort, quick()));
   ASSERT_EQ(standings.size(), 8u);
   for (const Standing& standing : standings) {
     double mean = 0, variance = 0;
@@ -89,7 +89,7 @@ TEST(Outliers, AStrangerIsFoundAndItsParameterNamed) {
   for (int i = 0; i < 12; ++i) xi.push_back(simulated::strip().typical + 0.2 * normal.vector(3));
   xi[4][1] += 2;
   const Cohort cohort = simulated::cohort(simulated::strip(), xi, normal);
-  const auto standings = outliers(cohort, population::population(cohort, quick()));
+  const auto standings = outliers(cohort, estimate(cohort, quick()));
   EXPECT_EQ(standings[0].specimen, 4u);
   EXPECT_EQ(standings[0].farthest, 1u);
   EXPECT_TRUE(standings[0].outlying);
@@ -102,7 +102,7 @@ TEST(Outliers, AreRarelyFoundWhereThereAreNone) {
   for (std::uint64_t seed = 1000; seed < 1400; ++seed) {
     simulated::Normal normal(seed);
     const Cohort cohort = exact_normal(8, 3, normal);
-    found += outliers(cohort, population::population(cohort, quick()))[0].outlying;
+    found += outliers(cohort, estimate(cohort, quick()))[0].outlying;
   }
   EXPECT_LE(found, 35);
   RecordProperty("found", found);

@@ -66,7 +66,7 @@ void fill_animals(const Cohort& given, const Sorted& sorted, Population& result)
 
 }  // namespace
 
-Population population(const Cohort& given, const Options& options) {
+Population estimate(const Cohort& given, const Options& options) {
   const Sorted sorted = population::sorted(given);
   const Cohort& cohort = sorted.cohort;
   const std::size_t p = cohort.parameters.size(), n = cohort.specimens.size(), animals = cohort.animals.size();

@@ -77,6 +77,6 @@ struct Population {
 /// The population that the specimens come from: ξ_i = B x_i + a + b_i, y = f(ξ_i) + e; see docs/cohort_statistics.md.
 /// The same bits for any number of threads and any order of specimens. Throws InputError as sorted(), design(),
 /// alternate().
-Population population(const Cohort& cohort, const Options& options = {});
+Population estimate(const Cohort& cohort, const Options& options = {});
 
 }  // namespace tunica::population

@@ -15,7 +15,7 @@ struct Reading {
   std::vector<std::optional<Value>> values;  ///< by specimen
 };
 
-/// The same specimens, animals and factors with the readings as parameters, so that population() and test_factor()
+/// The same specimens, animals and factors with the readings as parameters, so that estimate() and test_factor()
 /// treat them alike, multiplicity included: ξ_ij is known with its own, stated variance. A standard error of zero
 /// counts as 1e-6 of the spread of the values. Throws InputError where a reading has fewer than two values, or a
 /// logarithm none.
