@@ -149,8 +149,8 @@ TEST(Population, TwoSpecimensHaveOneDegreeOfFreedom) {
 TEST(Population, TakesTheShapeThatTheSpecimensCarry) {
   simulated::Normal normal(5);
   for (const auto& [n, shape] : {std::pair(8, Shape::diagonal), std::pair(20, Shape::full)}) {
-    const Population found = estimate(
-        simulated::cohort(simulated::strip(), strips(static_cast<std::size_t>(n), 0.3, normal), normal));
+    const Population found =
+        estimate(simulated::cohort(simulated::strip(), strips(static_cast<std::size_t>(n), 0.3, normal), normal));
     EXPECT_EQ(found.within.shape, shape);
     EXPECT_TRUE(found.converged);
   }

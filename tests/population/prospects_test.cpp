@@ -47,8 +47,7 @@ TEST(Power, DetectableIsWhereThePowerIsReached) {
 TEST(Power, CountsTheErrorsOfSpecimensBesideTheirSpread) {
   std::vector<Eigen::VectorXd> xi;
   for (int i = 0; i < 10; ++i) xi.push_back(Eigen::VectorXd::Constant(1, 0.4 * (i % 5)));
-  const Population found =
-      estimate(simulated::linear(xi, {10, Eigen::MatrixXd::Constant(1, 1, 25)}), quick());
+  const Population found = estimate(simulated::linear(xi, {10, Eigen::MatrixXd::Constant(1, 1, 25)}), quick());
   EXPECT_NEAR(deviations(found)[0].deviation, std::sqrt(found.omega(0, 0) + 1.0 / 25), 1e-9);
 }
 

@@ -68,9 +68,8 @@ bool covers(const Interval& interval, double truth) { return interval.lower <= t
 Outcome study(const Setting& setting, std::size_t cohorts, std::uint64_t first_seed, std::size_t permutations) {
   const auto p = static_cast<std::size_t>(setting.curve->typical.size());
   std::vector<One> all(cohorts);
-  tbb::parallel_for(std::size_t{0}, cohorts, [&](std::size_t k) {
-    all[k] = run(setting, first_seed + k, permutations);
-  });
+  tbb::parallel_for(std::size_t{0}, cohorts,
+                    [&](std::size_t k) { all[k] = run(setting, first_seed + k, permutations); });
   Outcome result;
   result.means.resize(p);
   result.effects.resize(p);

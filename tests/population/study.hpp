@@ -13,9 +13,9 @@ struct Setting {
   const Curve* curve;
   std::string name;
   std::size_t specimens;
-  double spread;           ///< of every log θ
+  double spread;            ///< of every log θ
   bool correlated = false;  ///< 0.5 between all, else none
-  double effect = 0.3;     ///< of the second half of the specimens, on every log θ, in cohorts with an effect
+  double effect = 0.3;      ///< of the second half of the specimens, on every log θ, in cohorts with an effect
 };
 
 struct Share {
@@ -35,8 +35,8 @@ struct Outcome {
   std::size_t unconverged = 0;
 };
 
-/// Cohort k has the seed first_seed + k: half of the specimens in each group. Each cohort is simulated twice with the same
-/// draws, without and with the effect. The means of a cohort without groups are of the same specimens.
+/// Cohort k has the seed first_seed + k: half of the specimens in each group. Each cohort is simulated twice with the
+/// same draws, without and with the effect. The means of a cohort without groups are of the same specimens.
 Outcome study(const Setting& setting, std::size_t cohorts, std::uint64_t first_seed, std::size_t permutations);
 
 }  // namespace simulated

@@ -14,8 +14,10 @@
 namespace tunica::population {
 namespace {
 
-constexpr std::size_t most_rounds = 50;
+constexpr std::size_t most_rounds = 80;
 constexpr double agreed = 1e-4;
+constexpr std::size_t patient = 5;  // rounds before a slow approach counts as a cycle
+constexpr double slow = 0.7, damping = 0.7, least_part = 0.1;
 constexpr double narrowest = 1e-3;  // of a prior, in scales
 
 Eigen::MatrixXd precision(const Cohort& cohort, const Variances& variances) {
@@ -28,6 +30,14 @@ Eigen::MatrixXd precision(const Cohort& cohort, const Variances& variances) {
   return pairs.vectors * pairs.values.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
 }
 
+bool finite(const Expansion& expansion) {
+  for (const Quadratic& channel : expansion.channels)
+    if (channel.rows > 0 &&
+        !(channel.information.allFinite() && channel.score.allFinite() && std::isfinite(channel.squares)))
+      return false;
+  return expansion.point.allFinite();
+}
+
 void expand(const Cohort& cohort, const std::vector<Prior>& priors, Alternation& state) {
   const std::size_t n = cohort.specimens.size();
   std::vector<std::optional<Expansion>> fresh(n);
@@ -36,7 +46,7 @@ void expand(const Cohort& cohort, const std::vector<Prior>& priors, Alternation&
   const bool first = state.expansions.empty();
   if (first) state.expansions.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (fresh[i]) {
+    if (fresh[i] && finite(*fresh[i])) {
       state.expansions[i] = std::move(*fresh[i]);
       continue;
     }
@@ -95,13 +105,46 @@ void solve(const Cohort& cohort, const Form& form, const Coordinates& coordinate
                                  cohort.specimens.size()));
 }
 
-bool agree(const Alternation& before, const Alternation& now) {
-  for (std::size_t k = 0; k < now.maximum.x.size(); ++k)
-    if (!(std::abs(now.maximum.x[k] - before.maximum.x[k]) < agreed)) return false;
-  for (Eigen::Index k = 0; k < now.means.beta.size(); ++k)
-    if (!(std::abs(now.means.beta[k] - before.means.beta[k]) < agreed * std::sqrt(now.means.covariance(k, k))))
-      return false;
-  return true;
+/// What the priors are made of: coordinates of the variances, and the mean of every specimen.
+struct Belief {
+  std::vector<double> x;
+  std::vector<Eigen::VectorXd> means;
+};
+
+/// The largest difference from the estimates, in tolerances.
+double disagreement(const Belief& belief, const Alternation& state) {
+  double worst = 0;
+  for (std::size_t k = 0; k < belief.x.size(); ++k)
+    worst = std::max(worst, std::abs(state.maximum.x[k] - belief.x[k]) / agreed);
+  const Eigen::Index p = belief.means.front().size();
+  const Eigen::ArrayXd error = state.means.covariance.diagonal().head(p).array().sqrt();
+  for (std::size_t i = 0; i < belief.means.size(); ++i)
+    worst =
+        std::max(worst, ((state.means.of_specimen[i] - belief.means[i]).array().abs() / (agreed * error)).maxCoeff());
+  return worst;
+}
+
+/// Moves the belief a `part` of the way to the estimates, within what the points of expansion allow.
+void follow(const Cohort& cohort, const Coordinates& coordinates, const Alternation& state, double part,
+            Belief& belief) {
+  Eigen::ArrayXd low = state.expansions.front().point, high = low;
+  for (const Expansion& expansion : state.expansions) {
+    low = low.min(expansion.point.array());
+    high = high.max(expansion.point.array());
+  }
+  Eigen::ArrayXd scale(low.size());
+  for (Eigen::Index j = 0; j < scale.size(); ++j) scale[j] = cohort.parameters[static_cast<std::size_t>(j)].scale;
+  for (std::size_t i = 0; i < belief.means.size(); ++i)
+    belief.means[i] = (belief.means[i] + part * (state.means.of_specimen[i] - belief.means[i]))
+                          .array()
+                          .max(low - scale)
+                          .min(high + scale);
+  for (std::size_t k = 0; k < belief.x.size(); ++k) belief.x[k] += part * (state.maximum.x[k] - belief.x[k]);
+  for (const Coordinates::Spread& spread : coordinates.spreads()) {
+    const auto j = static_cast<Eigen::Index>(spread.parameter);
+    double& value = belief.x[spread.coordinate];
+    value = std::min(value, 0.5 + 2 * (high[j] - low[j]) / scale[j]);
+  }
 }
 
 }  // namespace
@@ -121,15 +164,22 @@ Alternation alternate(const Cohort& cohort, const Form& form, const Alternation*
   }
   check_information(cohort, state.expansions);
   solve(cohort, form, coordinates, coordinates.start(noise(cohort, state.expansions)), state);
-  for (state.rounds = 1; state.rounds < most_rounds && !state.converged; ++state.rounds) {
-    const Alternation before = state;
-    const Eigen::MatrixXd sharpness = precision(cohort, state.variances);
+  Belief belief{state.maximum.x, state.means.of_specimen};
+  follow(cohort, coordinates, state, 1, belief);
+  double part = 1, before = HUGE_VAL;
+  while (!state.converged && state.rounds < most_rounds) {
+    ++state.rounds;
+    const Variances variances = coordinates.variances(belief.x);
+    const Eigen::MatrixXd sharpness = precision(cohort, variances);
     std::vector<Prior> priors;
-    for (std::size_t i = 0; i < n; ++i)
-      priors.push_back({state.means.of_specimen[i], sharpness, state.variances.noise});
+    for (std::size_t i = 0; i < n; ++i) priors.push_back({belief.means[i], sharpness, variances.noise});
     expand(cohort, priors, state);
     solve(cohort, form, coordinates, state.maximum.x, state);
-    state.converged = agree(before, state);
+    const double now = disagreement(belief, state);
+    state.converged = now < 1;
+    if (state.rounds > patient && now > slow * before) part = std::max(part * damping, least_part);
+    before = now;
+    follow(cohort, coordinates, state, part, belief);
   }
   return state;
 }

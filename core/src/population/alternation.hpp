@@ -28,8 +28,10 @@ struct Alternation {
 /// side; (2) the linear mixed model of the expansions; again until β moves by less than 1e-4 of its standard error and
 /// spreads and log φ by less than 1e-4. −2 log L of the last round is Laplace's approximation with J·J as curvature.
 ///
-/// A prior is 1e-3 scales wide at least, so that it has a precision where a spread is zero. That moves a point of
-/// expansion, not the model: step 2 takes the spread as it is.
+/// Priors are safer than estimates, and equal to them where the steps agree. A prior is 1e-3 scales wide at least, so
+/// that it has a precision where a spread is zero; step 2 takes the spread as it is. Its mean stays within a scale of
+/// the points of expansion: a quadratic about a point where a parameter hardly acts leads anywhere. And where the steps
+/// answer each other in a cycle, priors go a part of the way only, a smaller one each time.
 ///
 /// `from`: an alternation of the same cohort to start at. Throws InputError where a specimen cannot be expanded at all,
 /// or where all specimens together do not fix a parameter.
