@@ -4,12 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
-#include <fmt/format.h>
-
 #include "cohort/index.hpp"
+#include "population/predictive.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::cohort {
@@ -26,36 +22,28 @@ double band_quantile(std::vector<double>& sorted, double probability) {
 }
 
 /// Predictions of new specimens, one a draw; draws that cannot be evaluated are left out.
-std::vector<Eigen::VectorXd> new_specimens(SpecimenLikelihood& specimen, const Eigen::VectorXd& mean,
-                                           const Eigen::MatrixXd& covariance, std::size_t draws, std::uint64_t seed) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  const Eigen::MatrixXd factor = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  boost::random::mt19937_64 generator(seed);
-  boost::random::normal_distribution<double> normal;
+std::vector<Eigen::VectorXd> new_specimens(SpecimenLikelihood& specimen, const Eigen::MatrixXd& draws) {
   std::vector<Eigen::VectorXd> curves;
-  Eigen::VectorXd z(mean.size()), predictions;
-  for (std::size_t draw = 0; draw < draws; ++draw) {
-    for (double& one : z) one = normal(generator);
-    if (specimen.predict(mean + factor * z, predictions, nullptr).ok()) curves.push_back(predictions);
-  }
+  Eigen::VectorXd predictions;
+  for (Eigen::Index k = 0; k < draws.cols(); ++k)
+    if (specimen.predict(draws.col(k), predictions, nullptr).ok()) curves.push_back(predictions);
   return curves;
 }
 
 }  // namespace
 
-std::vector<Band> bands_of(const Design& design, const PopulationFit& fit, const Likelihoods& likelihoods,
-                           std::uint64_t seed) {
+std::vector<Band> bands_of(const Members& members, const population::Population& population,
+                           const Likelihoods& likelihoods, std::uint64_t seed) {
   std::vector<Band> bands;
-  for (const Design::Group& group : design.groups()) {
+  for (const Group& group : members.groups) {
     const auto specimen = likelihoods.make(group.specimens.front());
-    const Eigen::VectorXd mean = fit.estimates.mean(group.row);
-    const Eigen::MatrixXd covariance =
-        fit.estimates.omega + fit.estimates.omega_animals + fit.estimates.mean_covariance(group.row);
+    const population::Predictive next = population::predictive(population, group.levels);
     Eigen::VectorXd of_mean;
-    if (!specimen->predict(mean, of_mean, nullptr).ok()) continue;
-    const std::size_t draws = specimen->layout().has_costly_tests ? costly_draws : band_draws;
-    const auto curves = new_specimens(*specimen, mean, covariance, draws, derive_seed(seed, "band of " + group.name));
-    if (2 * curves.size() < draws) continue;  // most new specimens cannot be evaluated: no band to speak of
+    if (!specimen->predict(next.mean, of_mean, nullptr).ok()) continue;
+    const std::size_t count = specimen->layout().has_costly_tests ? costly_draws : band_draws;
+    const auto curves =
+        new_specimens(*specimen, population::draws(next, derive_seed(seed, "band of " + group.name), count));
+    if (2 * curves.size() < count) continue;  // most new specimens cannot be evaluated: no band to speak of
     for (const assembly::MeasuredChannel& view : specimen->layout().channels) {
       Band band{view.test,
                 view.observable,

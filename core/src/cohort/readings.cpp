@@ -7,7 +7,8 @@
 #include <Eigen/QR>
 
 #include "cohort/index.hpp"
-#include "tunica/random.hpp"
+#include "population/readings.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::cohort {
 
@@ -40,107 +41,74 @@ OwnReading own_reading(const ReadingEntry& entry, SpecimenLikelihood& specimen) 
   return own;
 }
 
-/// The design of some of the specimens. Factors that lose all but one level are dropped with them.
-Design part_of(const Design& design, const std::vector<std::size_t>& chosen) {
-  Design part = design;
-  part.rows.resize(index(chosen.size()), design.rows.cols());
-  part.specimens.clear();
-  part.animals.clear();
-  for (DesignFactor& factor : part.factors) factor.columns.of.clear();
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    part.rows.row(index(k)) = design.rows.row(index(chosen[k]));
-    part.specimens.push_back(design.specimens[chosen[k]]);
-    part.animals.push_back(design.animals[chosen[k]]);
-    for (std::size_t f = 0; f < design.factors.size(); ++f)
-      part.factors[f].columns.of.push_back(design.factors[f].columns.of[chosen[k]]);
-  }
-  std::vector<std::size_t> animals = part.animals;
-  std::sort(animals.begin(), animals.end());
-  part.animal_count = static_cast<std::size_t>(std::unique(animals.begin(), animals.end()) - animals.begin());
-  for (std::size_t f = part.factors.size(); f-- > 0;) {
-    const auto& of = part.factors[f].columns.of;
-    std::vector<bool> present(part.factors[f].levels.size(), false);
-    for (const std::size_t level : of) present[level] = true;
-    if (std::find(present.begin(), present.end(), false) != present.end()) part = part.without(f);
-  }
-  return part;
-}
+/// The readings that two specimens have at least, in the form of the population.
+struct Usable {
+  std::vector<population::Reading> readings;
+  std::vector<Coordinate> coordinates;
+};
 
-void analyse_reading(const Specification& cohort, const Design& design, const std::vector<OwnReading>& own,
-                     const std::vector<std::size_t>& chosen, ReadingStudy& study) {
-  const Design part = part_of(design, chosen);
-  if (chosen.size() < 2 || part.rows.colPivHouseholderQr().rank() < part.rows.cols() ||
-      part.rows.cols() >= part.rows.rows())
-    return;
-  const bool positive = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t i) { return own[i].value > 0; });
-  double scale = 0;  // spreads are searched for between fixed limits
-  for (const std::size_t i : chosen) scale = std::max(scale, std::abs(own[i].value));
-  if (positive || scale == 0) scale = 1;
-  std::vector<population::Individual> individuals;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const OwnReading& one = own[chosen[k]];
-    const double xi = positive ? std::log(one.value) : one.value / scale;
-    const double sd = std::sqrt(one.variance) / (positive ? one.value : scale);
-    constexpr double least_sd = 1e-6;  // a reading that the fit knows exactly
-    population::Individual individual;
-    individual.data.information = Eigen::MatrixXd::Constant(1, 1, std::pow(std::max(sd, least_sd), -2));
-    individual.data.mode = Eigen::VectorXd::Constant(1, xi);
-    individual.design = part.rows.row(index(k)).transpose();
-    individual.animal = part.animals[k];
-    individuals.push_back(std::move(individual));
+Usable usable(const Specification& cohort, const std::vector<std::vector<OwnReading>>& own) {
+  Usable result;
+  for (std::size_t r = 0; r < own.size(); ++r) {
+    population::Reading reading{cohort.readings[r].name, true, {}};
+    std::size_t count = 0;
+    std::string unit;
+    for (const OwnReading& one : own[r]) {
+      if (!one.problem.empty()) {
+        reading.values.emplace_back();
+        continue;
+      }
+      ++count;
+      unit = one.unit;
+      reading.logarithmic = reading.logarithmic && one.value > 0;
+      reading.values.push_back(population::Reading::Value{one.value, std::sqrt(one.variance)});
+    }
+    if (count < 2) continue;
+    result.coordinates.push_back({reading.name, unit, reading.logarithmic ? Scale::log : Scale::linear});
+    result.readings.push_back(std::move(reading));
   }
-  const population::Structure structure{false, part.nested()};
-  const population::Estimates estimates = population::estimate(individuals, structure);
-  const auto null = [&](std::size_t factor) {
-    NullModel without{individuals, {}};
-    const Design reduced = part.without(factor);
-    for (std::size_t k = 0; k < individuals.size(); ++k)
-      without.individuals[k].design = reduced.rows.row(index(k)).transpose();
-    without.estimates = population::estimate(without.individuals, structure);
-    return without;
-  };
-  study.analysis = analyse({{study.entry.name, own[chosen.front()].unit, positive ? Scale::log : Scale::linear}},
-                           {part, structure, individuals, estimates, null, cohort.permutations,
-                            derive_seed(cohort.seed, "permutations of reading " + study.entry.name)});
-  if (positive) return;
-  const auto enlarge = [scale](Estimated& one) { one = {one.value * scale, one.lower * scale, one.upper * scale}; };
-  for (Estimated& one : study.analysis->means.front()) enlarge(one);
-  for (Effect& effect : study.analysis->effects) enlarge(effect.size);
-  for (Spread& spread : study.analysis->spreads) {
-    spread.sd *= scale;
-    spread.lower *= scale;
-    if (spread.upper) *spread.upper *= scale;
-    spread.of_animals *= scale;
-  }
-  for (Planning& planning : study.analysis->planning) planning.detectable *= scale;
+  return result;
 }
 
 }  // namespace
 
-std::vector<ReadingStudy> study_readings(const Specification& cohort, const Design& design, Likelihoods& likelihoods) {
+ReadingsStudy study_readings(const Specification& cohort, const Members& members, Likelihoods& likelihoods,
+                             std::uint64_t seed) {
   std::vector<std::vector<OwnReading>> own(cohort.readings.size(), std::vector<OwnReading>(likelihoods.count()));
   likelihoods.for_each([&](std::size_t i, SpecimenLikelihood& specimen) {
     for (std::size_t r = 0; r < cohort.readings.size(); ++r) own[r][i] = own_reading(cohort.readings[r], specimen);
   });
-  std::vector<ReadingStudy> studies;
+  ReadingsStudy study;
   for (std::size_t r = 0; r < cohort.readings.size(); ++r) {
-    ReadingStudy study{cohort.readings[r], {}, {}, {}, {}};
-    std::vector<std::size_t> chosen;
+    ReadingStudy one{cohort.readings[r], {}, {}, {}};
     for (std::size_t i = 0; i < own[r].size(); ++i) {
-      const OwnReading& one = own[r][i];
-      if (!one.problem.empty()) {
-        study.missing.emplace_back(design.specimens[i], one.problem);
+      if (!own[r][i].problem.empty()) {
+        one.missing.emplace_back(members.specimens[i], own[r][i].problem);
         continue;
       }
-      chosen.push_back(i);
-      const double half = 1.96 * std::sqrt(one.variance);
-      study.specimens.push_back(design.specimens[i]);
-      study.values.push_back({one.value, one.value - half, one.value + half});
+      const double half = 1.96 * std::sqrt(own[r][i].variance);
+      one.specimens.push_back(members.specimens[i]);
+      one.values.push_back({own[r][i].value, own[r][i].value - half, own[r][i].value + half});
     }
-    analyse_reading(cohort, design, own[r], chosen, study);
-    studies.push_back(std::move(study));
+    study.readings.push_back(std::move(one));
   }
-  return studies;
+  const Usable all = usable(cohort, own);
+  if (all.readings.empty()) {
+    study.problem = cohort.readings.empty() ? "" : "no reading was made in two specimens";
+    return study;
+  }
+  try {
+    const population::Cohort of_readings = population::cohort_of_readings(members.cohort(), all.readings);
+    population::Options options;
+    options.factors = members.all_factors();
+    options.within = population::Shape::diagonal;
+    options.maximum_likelihood = false;
+    study.analysis = analyse(all.coordinates, members, of_readings, population::estimate(of_readings, options),
+                             cohort.permutations, seed);
+  } catch (const InputError& reason) {
+    study.problem = reason.what();
+  }
+  return study;
 }
 
 }  // namespace tunica::cohort

@@ -8,8 +8,9 @@
 
 #include "cohort/bands.hpp"
 #include "cohort/index.hpp"
+#include "cohort/likelihoods.hpp"
 #include "cohort/readings.hpp"
-#include "numerics/distributions.hpp"
+#include "population/outliers.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 
@@ -17,43 +18,29 @@ namespace tunica::cohort {
 
 namespace {
 
-constexpr std::size_t fewest_specimens = 2;
-
 std::vector<std::vector<ShrunkenParameter>> shrunken_parameters(const std::vector<Coordinate>& coordinates,
-                                                                const PopulationFit& fit) {
+                                                                const population::Population& population) {
   std::vector<std::vector<ShrunkenParameter>> all;
-  for (std::size_t i = 0; i < fit.individuals.size(); ++i) {
-    const population::Gaussian known = fit.shrunken(i);
-    const Eigen::MatrixXd weight = Eigen::MatrixXd::Identity(known.mean.size(), known.mean.size()) -
-                                   known.covariance * fit.individuals[i].data.information;
+  for (const population::Individual& one : population.individuals) {
     auto& of_specimen = all.emplace_back();
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
-      const double xi = known.mean[index(j)];
-      const double half = 1.96 * std::sqrt(std::max(0.0, known.covariance(index(j), index(j))));
+      const double xi = one.mean[index(j)];
+      const double half = 1.96 * std::sqrt(std::max(0.0, one.covariance(index(j), index(j))));
       const Scale scale = coordinates[j].scale;
       of_specimen.push_back(
           {{from_coordinate(scale, xi), from_coordinate(scale, xi - half), from_coordinate(scale, xi + half)},
-           std::clamp(weight(index(j), index(j)), 0.0, 1.0)});
+           std::clamp(one.borrowed[index(j)], 0.0, 1.0)});
     }
   }
   return all;
 }
 
-/// Of the distance of a specimen's own mode from its mean, with the covariance A⁻¹ + Ω:
-/// d² = (m − μ)ᵀ W (m − μ), against χ² with the rank of W; Bonferroni over the specimens.
-std::vector<Outlier> outliers_of(const Design& design, const PopulationFit& fit) {
+std::vector<Outlier> outliers_of(const Members& members, const population::Cohort& cohort,
+                                 const population::Population& population) {
   std::vector<Outlier> outliers;
-  const auto n = static_cast<double>(fit.individuals.size());
-  for (std::size_t i = 0; i < fit.individuals.size(); ++i) {
-    const population::Individual& one = fit.individuals[i];
-    const Eigen::MatrixXd W = population::about_mean(one.data, fit.estimates.omega).information;
-    const Eigen::VectorXd away = one.data.mode - fit.estimates.mean(one.design) - fit.animal[i];
-    const double distance = away.dot(W * away);
-    const auto rank = static_cast<double>(W.fullPivLu().rank());
-    if (rank < 1) continue;
-    const double p = std::min(1.0, n * numerics::chi_squared_above(distance, rank));
-    if (p < 0.05) outliers.push_back({design.specimens[i], p});
-  }
+  for (const population::Standing& one : population::outliers(cohort, population))
+    if (one.outlying)
+      outliers.push_back({members.specimens[one.specimen], one.holm, cohort.parameters[one.farthest].name});
   return outliers;
 }
 
@@ -63,61 +50,63 @@ std::vector<Coordinate> coordinates_of(const Record::Run& run) {
   return coordinates;
 }
 
-void add_information(const PopulationFit& fit, PopulationStudy& result) {
-  // Of maximum likelihood, so that models with other means can be compared.
-  const population::Estimates ml = population::estimate(fit.individuals, fit.structure, {}, false);
-  const auto parameters = static_cast<double>(ml.B.size()) + static_cast<double>(ml.spread_parameters);
-  result.neg2_likelihood = ml.neg2_likelihood;
-  result.aic = ml.neg2_likelihood + 2 * parameters;
-  result.bic = ml.neg2_likelihood + parameters * std::log(static_cast<double>(fit.individuals.size()));
+population::Options options_of(const Specification& cohort, const Members& members) {
+  population::Options options;
+  options.factors = members.all_factors();
+  if (cohort.spread == SpreadStructure::full) options.within = population::Shape::full;
+  if (cohort.spread == SpreadStructure::diagonal) options.within = population::Shape::diagonal;
+  return options;
+}
+
+void add_population(const Specification& cohort, Likelihoods& likelihoods, PopulationStudy& result) {
+  const Members& members = result.members;
+  population::Cohort of_parameters = members.cohort();
+  add_expansions(likelihoods, cohort.noise, of_parameters);
+  const population::Population population = population::estimate(of_parameters, options_of(cohort, members));
+  result.full = population.within.shape == population::Shape::full;
+  result.nested = population.between.has_value();
+  result.converged = population.converged;
+  result.rounds = population.rounds;
+  result.parameters = analyse(result.parameters.coordinates, members, of_parameters, population, cohort.permutations,
+                              derive_seed(cohort.seed, "permutations of " + result.run));
+  result.shrunken = shrunken_parameters(result.parameters.coordinates, population);
+  result.outliers = outliers_of(members, of_parameters, population);
+  result.bands = bands_of(members, population, likelihoods, derive_seed(cohort.seed, "bands of " + result.run));
+  if (cohort.noise == NoisePool::cohort)
+    for (std::size_t c = 0; c < of_parameters.channels.size(); ++c)
+      if (of_parameters.channels[c].estimated)
+        result.noise.emplace_back(of_parameters.channels[c].name, std::sqrt(population.noise[c]));
+  if (population.ml) {
+    result.neg2_likelihood = population.ml->deviance;
+    result.aic = population.ml->aic;
+    result.bic = population.ml->bic;
+  }
 }
 
 PopulationStudy population_of(const Specification& cohort, const SpecimenTable& table, const Template& pattern,
                               const Collection& found, std::size_t run, const plugins::Catalogue& catalogue) {
   PopulationStudy result;
-  result.design = design_of(table, found);
-  const Design& design = result.design;
-  if (design.specimens.empty()) {
+  result.members = members_of(table, found);
+  const std::vector<std::size_t>& members = result.members.specimens;
+  if (members.empty()) {
     result.problem = "no specimen was fitted";
     return result;
   }
-  const Record::Run& first = found.records[design.specimens.front()].runs[run];
+  const Record::Run& first = found.records[members.front()].runs[run];
   result.run = first.label;
   result.model = first.model;
   result.parameters.coordinates = coordinates_of(first);
-  if (design.specimens.size() < fewest_specimens) {
-    result.problem = "one specimen says nothing of how specimens differ. Add others to the table";
-    return result;
-  }
-  Likelihoods likelihoods(design.specimens.size(), [&](std::size_t i) {
-    const std::size_t at = design.specimens[i];
-    return std::make_unique<SpecimenLikelihood>(bind(cohort, pattern, table.specimens[at], catalogue), run,
-                                                found.records[at].runs[run], catalogue);
+  Likelihoods likelihoods(members.size(), [&](std::size_t i) {
+    return std::make_unique<SpecimenLikelihood>(bind(cohort, pattern, table.specimens[members[i]], catalogue), run,
+                                                found.records[members[i]].runs[run], catalogue);
   });
-  const PopulationSettings settings{cohort.spread, cohort.noise};
-  const PopulationFit fit = fit_population(likelihoods, design, settings);
-  result.full = fit.structure.full;
-  result.nested = fit.structure.nested;
-  result.converged = fit.converged && fit.estimates.converged;
-  result.rounds = fit.rounds;
-  const auto null = [&](std::size_t factor) {
-    PopulationSettings same = settings;
-    same.spread = fit.structure.full ? SpreadStructure::full : SpreadStructure::diagonal;
-    PopulationFit without = fit_population(likelihoods, design.without(factor), same);
-    return NullModel{std::move(without.individuals), without.estimates};
-  };
-  result.parameters =
-      analyse(coordinates_of(first), {design, fit.structure, fit.individuals, fit.estimates, null, cohort.permutations,
-                                      derive_seed(cohort.seed, "permutations of " + result.run)});
-  result.shrunken = shrunken_parameters(result.parameters.coordinates, fit);
-  result.outliers = outliers_of(design, fit);
-  result.readings = study_readings(cohort, design, likelihoods);
-  result.bands = bands_of(design, fit, likelihoods, derive_seed(cohort.seed, "bands of " + result.run));
-  if (cohort.noise == NoisePool::cohort) {
-    const auto one = likelihoods.make(0);
-    for (std::size_t c = 0; c < fit.noise.size(); ++c) result.noise.emplace_back(one->channels()[c], fit.noise[c]);
+  result.readings = study_readings(cohort, result.members, likelihoods,
+                                   derive_seed(cohort.seed, "permutations of readings of " + result.run));
+  try {
+    add_population(cohort, likelihoods, result);
+  } catch (const InputError& reason) {
+    result.problem = reason.what();
   }
-  add_information(fit, result);
   return result;
 }
 
@@ -135,16 +124,16 @@ Study study(const Specification& cohort, const SpecimenTable& table, const Templ
     result.populations.push_back(population_of(cohort, table, pattern, found, run, catalogue));
   }
   if (result.populations.empty()) return result;
-  const Design& design = result.populations.front().design;
+  const Members& members = result.populations.front().members;
   constexpr std::size_t enough_animals = 4;
-  if (design.nested() && design.animal_count < enough_animals)
+  if (!members.animals.empty() && members.animals.size() < enough_animals)
     result.remarks.push_back(
         {RemarkKind::few_animals,
          fmt::format("the specimens come from {} animals: intervals of a typical specimen are wide, "
                      "because they are to hold for other animals too. Effects within animals are "
                      "known better",
-                     design.animal_count)});
-  for (const std::string& refusal : design.refusals)
+                     members.animals.size())});
+  for (const std::string& refusal : members.refusals)
     result.remarks.push_back({RemarkKind::factor_not_compared, refusal});
   return result;
 }

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cohort/analysis.hpp"
-#include "cohort/population_fit.hpp"
 #include "cohort/remarks.hpp"
 
 namespace tunica::cohort {
@@ -13,7 +12,8 @@ namespace tunica::cohort {
 /// A specimen that is unlike the others.
 struct Outlier {
   std::size_t specimen = 0;  ///< position in the table
-  double p = 1;              ///< of so far a specimen of this population, times the number of specimens
+  double p = 1;              ///< of one so far from what the others predict, for all specimens together (Holm)
+  std::string farthest;      ///< the parameter that it is farthest in
 };
 
 /// One specimen with the help of the others.
@@ -28,27 +28,34 @@ struct Band {
   std::vector<double> abscissa, mean, lower, upper;
 };
 
-/// One reading over the cohort.
+/// One reading of the specimens.
 struct ReadingStudy {
   ReadingEntry entry;
   std::vector<std::size_t> specimens;  ///< positions in the table, of those that have it
   std::vector<Estimated> values;
   std::vector<std::pair<std::size_t, std::string>> missing;  ///< and those that do not, with the reason
-  std::optional<Analysis> analysis;                          ///< none with fewer than two
+};
+
+/// All readings, and what they say of all specimens together.
+struct ReadingsStudy {
+  std::vector<ReadingStudy> readings;
+  std::optional<Analysis> analysis;  ///< of those that two specimens have at least
+  std::string problem;               ///< why there is no analysis
 };
 
 /// What one run of the experiment says of all specimens together.
 struct PopulationStudy {
   std::string run, model;
-  Design design;
+  Members members;
   bool full = false, nested = false, converged = false;
   std::size_t rounds = 0;
   Analysis parameters;
-  std::vector<std::vector<ShrunkenParameter>> shrunken;  ///< by specimen of the design, and parameter
+  std::vector<std::vector<ShrunkenParameter>> shrunken;  ///< by member, and parameter
   std::vector<Outlier> outliers;                         ///< p < 0.05 only
-  std::vector<ReadingStudy> readings;
+  ReadingsStudy readings;
   std::vector<Band> bands;
-  std::vector<std::pair<std::string, double>> noise;  ///< σ factor by channel, with noise of the cohort
+  std::vector<std::pair<std::string, double>>
+      noise;  ///< σ by channel over what the specimens' own fits say, with noise of the cohort
   double neg2_likelihood = 0, aic = 0, bic = 0;
   std::string problem;  ///< why there is no population; empty = there is
 };

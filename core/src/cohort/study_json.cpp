@@ -24,7 +24,7 @@ Json interval(const Estimated& one) {
   return {{"value", finite(one.value)}, {"ci95", {finite(one.lower), finite(one.upper)}}};
 }
 
-Json spread_json(const Coordinate& coordinate, const Spread& spread, bool nested) {
+Json spread_json(const Coordinate& coordinate, const SpreadSummary& spread, bool nested) {
   Json json = {{"scale", coordinate.scale == Scale::log ? "log" : "linear"},
                {"sd", finite(spread.sd)},
                {"ci95", {spread.lower, optional(spread.upper)}}};
@@ -41,25 +41,12 @@ Json planning_json(const Planning& planning, Scale scale) {
   return json;
 }
 
-const char* exchange_code(population::Exchange exchange) {
-  switch (exchange) {
-    case population::Exchange::specimens:
-      return "specimens";
-    case population::Exchange::within:
-      return "within_animals";
-    case population::Exchange::animals:
-      return "animals";
-  }
-  return "";
-}
-
 Json analysis_json(const Analysis& analysis, bool nested) {
   Json of = Json::object(), effects = Json::array(), factors = Json::array();
   for (std::size_t j = 0; j < analysis.coordinates.size(); ++j) {
     const Coordinate& coordinate = analysis.coordinates[j];
     Json means = Json::object();
-    for (std::size_t g = 0; g < analysis.groups.size(); ++g)
-      means[analysis.groups[g].name] = interval(analysis.means[j][g]);
+    for (std::size_t g = 0; g < analysis.groups.size(); ++g) means[analysis.groups[g]] = interval(analysis.means[j][g]);
     of[coordinate.name] = {
         {"unit", coordinate.unit}, {"means", means}, {"spread", spread_json(coordinate, analysis.spreads[j], nested)}};
     if (j < analysis.planning.size())
@@ -76,43 +63,48 @@ Json analysis_json(const Analysis& analysis, bool nested) {
                        {"freedom", one.freedom},
                        {"p", one.p},
                        {"p_holm", one.p_holm},
-                       {"p_permutation", optional(one.p_permutation)},
-                       {"p_adjusted", optional(one.p_adjusted)}});
-  for (const FactorTest& one : analysis.factors)
+                       {"p_permutation", one.p_permutation},
+                       {"p_adjusted", one.p_adjusted}});
+  for (const FactorSummary& one : analysis.factors)
     factors.push_back({{"factor", one.factor},
-                       {"likelihood_ratio", one.likelihood_ratio},
-                       {"freedom", one.freedom},
-                       {"p", one.p},
-                       {"permutations", one.permutation.made},
-                       {"all_arrangements", one.permutation.all},
-                       {"exchanged", exchange_code(one.permutation.exchange)},
-                       {"smallest_p", one.permutation.smallest_p}});
+                       {"likelihood_ratio", one.likelihood_ratio.statistic},
+                       {"freedom", one.likelihood_ratio.freedom},
+                       {"p", one.likelihood_ratio.p_value},
+                       {"p_permutation", one.permutation.p_value},
+                       {"permutations", one.permutation.used},
+                       {"all_arrangements", one.permutation.exhaustive},
+                       {"exchanged", std::string(text::code_of(population::scheme_codes, one.permutation.scheme))},
+                       {"smallest_p", one.permutation.smallest}});
   return {{"of", of}, {"effects", effects}, {"factors", factors}};
 }
 
-Json reading_json(const ReadingStudy& reading, const SpecimenTable& table, bool nested) {
-  Json values = Json::object(), missing = Json::object();
-  for (std::size_t k = 0; k < reading.specimens.size(); ++k)
-    values[table.specimens[reading.specimens[k]].id] = interval(reading.values[k]);
-  for (const auto& [specimen, reason] : reading.missing) missing[table.specimens[specimen].id] = reason;
-  Json json = {{"name", reading.entry.name},
-               {"test", reading.entry.test},
-               {"channel", reading.entry.channel},
-               {"kind", std::string(text::code_of(reading_codes, reading.entry.kind))},
-               {"at", reading.entry.at},
-               {"specimens", values},
-               {"missing", missing}};
-  if (reading.analysis) json.update(analysis_json(*reading.analysis, nested));
+Json readings_json(const ReadingsStudy& study, const SpecimenTable& table, bool nested) {
+  Json json = study.analysis ? analysis_json(*study.analysis, nested) : Json{{"of", Json::object()}};
+  if (!study.problem.empty()) json["problem"] = study.problem;
+  for (const ReadingStudy& reading : study.readings) {
+    Json values = Json::object(), missing = Json::object();
+    for (std::size_t k = 0; k < reading.specimens.size(); ++k)
+      values[table.specimens[reading.specimens[k]].id] = interval(reading.values[k]);
+    for (const auto& [specimen, reason] : reading.missing) missing[table.specimens[specimen].id] = reason;
+    Json& of = json["of"][reading.entry.name];
+    of["test"] = reading.entry.test;
+    of["channel"] = reading.entry.channel;
+    of["kind"] = std::string(text::code_of(reading_codes, reading.entry.kind));
+    of["at"] = reading.entry.at;
+    of["specimens"] = values;
+    of["missing"] = missing;
+  }
   return json;
 }
 
 Json population_json(const PopulationStudy& one, const SpecimenTable& table) {
-  Json json = {{"run", one.run}, {"model", one.model}, {"specimens", one.design.specimens.size()}};
+  Json json = {{"run", one.run}, {"model", one.model}, {"specimens", one.members.specimens.size()}};
+  json["readings"] = readings_json(one.readings, table, !one.members.animals.empty());
   if (!one.problem.empty()) {
     json["problem"] = one.problem;
     return json;
   }
-  json["animals"] = one.design.animal_count;
+  json["animals"] = one.members.animals.empty() ? one.members.specimens.size() : one.members.animals.size();
   json["spread_structure"] = one.full ? "full" : "diagonal";
   json["nested"] = one.nested;
   json["converged"] = one.converged;
@@ -121,11 +113,10 @@ Json population_json(const PopulationStudy& one, const SpecimenTable& table) {
   json["aic"] = finite(one.aic);
   json["bic"] = finite(one.bic);
   json["parameters"] = analysis_json(one.parameters, one.nested);
-  json["readings"] = Json::array();
-  for (const ReadingStudy& reading : one.readings) json["readings"].push_back(reading_json(reading, table, one.nested));
   json["outlying"] = Json::array();
   for (const Outlier& outlier : one.outliers)
-    json["outlying"].push_back({{"specimen", table.specimens[outlier.specimen].id}, {"p", outlier.p}});
+    json["outlying"].push_back(
+        {{"specimen", table.specimens[outlier.specimen].id}, {"p", outlier.p}, {"farthest_in", outlier.farthest}});
   if (!one.noise.empty())
     for (const auto& [channel, factor] : one.noise) json["noise_factor"][channel] = factor;
   return json;

@@ -25,10 +25,10 @@ void append_rows(const std::string& run, const std::string& before, const Analys
   for (std::size_t j = 0; j < analysis.coordinates.size(); ++j) {
     for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
       const Estimated& mean = analysis.means[j][g];
-      text += begin("mean", analysis.coordinates[j], "", analysis.groups[g].name) +
+      text += begin("mean", analysis.coordinates[j], "", analysis.groups[g]) +
               fmt::format("{},{},{},,,,,\n", mean.value, mean.lower, mean.upper);
     }
-    const Spread& spread = analysis.spreads[j];
+    const SpreadSummary& spread = analysis.spreads[j];
     text += begin("spread", analysis.coordinates[j], "", "") +
             fmt::format("{},{},{},,,,,\n", spread.sd, spread.lower, figure_cell(spread.upper));
   }
@@ -37,7 +37,7 @@ void append_rows(const std::string& run, const std::string& before, const Analys
       if (of.name == one.of)
         text += begin("effect", of, one.factor, one.level) +
                 fmt::format("{},{},{},{},{},{},{},{}\n", one.size.value, one.size.lower, one.size.upper, one.freedom,
-                            one.p, one.p_holm, figure_cell(one.p_permutation), figure_cell(one.p_adjusted));
+                            one.p, one.p_holm, one.p_permutation, one.p_adjusted);
 }
 
 }  // namespace
@@ -45,10 +45,8 @@ void append_rows(const std::string& run, const std::string& before, const Analys
 std::string population_table(const Study& study) {
   std::string text = "run,kind,of,unit,factor,group,estimate,lower,upper,freedom,p,p_holm,p_permutation,p_adjusted\n";
   for (const PopulationStudy& one : study.populations) {
-    if (!one.problem.empty()) continue;
-    append_rows(one.run, "", one.parameters, text);
-    for (const ReadingStudy& reading : one.readings)
-      if (reading.analysis) append_rows(one.run, "reading_", *reading.analysis, text);
+    if (one.problem.empty()) append_rows(one.run, "", one.parameters, text);
+    if (one.readings.analysis) append_rows(one.run, "reading_", *one.readings.analysis, text);
   }
   return text;
 }
@@ -60,7 +58,7 @@ std::string shrunken_table(const SpecimenTable& table, const Study& study) {
       for (std::size_t j = 0; j < one.shrunken[i].size(); ++j) {
         const ShrunkenParameter& of = one.shrunken[i][j];
         const Coordinate& coordinate = one.parameters.coordinates[j];
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", text::csv_cell(table.specimens[one.design.specimens[i]].id),
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", text::csv_cell(table.specimens[one.members.specimens[i]].id),
                             text::csv_cell(one.run), text::csv_cell(coordinate.name), text::csv_cell(coordinate.unit),
                             of.estimate.value, of.estimate.lower, of.estimate.upper, of.borrowed);
       }

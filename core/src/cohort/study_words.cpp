@@ -14,13 +14,12 @@ namespace {
 
 std::string p_words(double p) { return p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", p); }
 
-std::string mean_line(const Coordinate& coordinate, const Estimated& mean, const std::string& group) {
-  return fmt::format("  {} {:>11.5g}   {:.4g} … {:.4g}{}\n",
-                     text::pad(text::titled(coordinate.name, coordinate.unit), 26), mean.value, mean.lower, mean.upper,
-                     group);
+std::string mean_line(const Coordinate& coordinate, const Estimated& mean) {
+  return fmt::format("  {} {:>11.5g}   {:.4g} … {:.4g}\n",
+                     text::pad(text::titled(coordinate.name, coordinate.unit), 26), mean.value, mean.lower, mean.upper);
 }
 
-std::string spread_words(const Coordinate& coordinate, const Spread& spread, bool nested) {
+std::string spread_words(const Coordinate& coordinate, const SpreadSummary& spread, bool nested) {
   const bool log = coordinate.scale == Scale::log;
   const double factor = log ? 100 : 1;
   std::string words =
@@ -35,9 +34,7 @@ std::string effect_line(const Effect& effect, const std::string& unit) {
       effect.ratio ? fmt::format("× {:.3g}   {:.3g} … {:.3g}", effect.size.value, effect.size.lower, effect.size.upper)
                    : fmt::format("{:+.3g}{}   {:.3g} … {:.3g}", effect.size.value, text::unit_suffix(unit),
                                  effect.size.lower, effect.size.upper);
-  const std::string p = effect.p_permutation ? fmt::format("p {}, adjusted {}", p_words(*effect.p_permutation),
-                                                           p_words(effect.p_adjusted.value_or(1)))
-                                             : fmt::format("p {}, Holm {}", p_words(effect.p), p_words(effect.p_holm));
+  const std::string p = fmt::format("p {}, adjusted {}", p_words(effect.p_permutation), p_words(effect.p_adjusted));
   return fmt::format("  {} {}   {}\n", text::pad(effect.of, 26), size, p);
 }
 
@@ -58,45 +55,41 @@ void add_level(const std::vector<const Analysis*>& analyses, const std::string& 
 }
 
 void add_factors(const PopulationStudy& one, std::string& words) {
-  std::vector<const Analysis*> analyses{&one.parameters};
-  for (const ReadingStudy& reading : one.readings)
-    if (reading.analysis) analyses.push_back(&*reading.analysis);
-  for (const DesignFactor& factor : one.design.factors)
+  std::vector<const Analysis*> analyses;
+  if (one.problem.empty()) analyses.push_back(&one.parameters);
+  if (one.readings.analysis) analyses.push_back(&*one.readings.analysis);
+  for (const population::Factor& factor : one.members.factors)
     for (std::size_t level = 1; level < factor.levels.size(); ++level)
       add_level(analyses, factor.name, factor.levels[level], words);
-  for (const FactorTest& test : one.parameters.factors)
-    if (test.permutation.made > 0 && test.permutation.smallest_p > 0.05)
+  if (analyses.empty()) return;
+  for (const FactorSummary& test : analyses.front()->factors)
+    if (test.permutation.smallest > 0.05)
       words += text::hanging("  ! ", fmt::format("{}: {} arrangements of the labels cannot give p below {:.2g}. More "
                                                  "specimens are needed for a finding",
-                                                 test.factor, test.permutation.made, test.permutation.smallest_p)) +
+                                                 test.factor, test.permutation.used, test.permutation.smallest)) +
                "\n";
 }
 
 void add_population(const PopulationStudy& one, const SpecimenTable& table, std::string& words) {
   words += fmt::format("\n{}: ", one.run);
-  if (!one.problem.empty()) {
-    words += one.problem + "\n";
-    return;
-  }
-  words += fmt::format("population of {}{}\n", text::counted(one.design.specimens.size(), "specimen", "specimens"),
-                       one.nested ? fmt::format(" from {} animals", one.design.animal_count) : "");
+  words += fmt::format("population of {}{}\n", text::counted(one.members.specimens.size(), "specimen", "specimens"),
+                       one.members.animals.empty() ? "" : fmt::format(" from {} animals", one.members.animals.size()));
+  if (!one.problem.empty()) words += text::hanging("  ! ", "no population of the parameters: " + one.problem) + "\n";
   const Analysis& analysis = one.parameters;
-  for (std::size_t g = 0; g < analysis.groups.size(); ++g) {
-    words += fmt::format("\ntypical specimen, {} (95 % interval)\n", analysis.groups[g].name);
-    for (std::size_t j = 0; j < analysis.coordinates.size(); ++j)
-      words += mean_line(analysis.coordinates[j], analysis.means[j][g], "");
-    for (const ReadingStudy& reading : one.readings)
-      if (reading.analysis && g < reading.analysis->groups.size())
-        words += mean_line(reading.analysis->coordinates[0], reading.analysis->means[0][g], "");
+  for (std::size_t g = 0; g < one.members.groups.size(); ++g) {
+    words += fmt::format("\ntypical specimen, {} (95 % interval)\n", one.members.groups[g].name);
+    for (const Analysis* of : {&analysis, one.readings.analysis ? &*one.readings.analysis : nullptr})
+      for (std::size_t j = 0; of && j < of->means.size(); ++j) words += mean_line(of->coordinates[j], of->means[j][g]);
   }
-  words += "\nspread between specimens (standard deviation, 95 % interval)\n";
-  for (std::size_t j = 0; j < analysis.coordinates.size(); ++j)
+  if (!analysis.spreads.empty()) words += "\nspread between specimens (standard deviation, 95 % interval)\n";
+  for (std::size_t j = 0; j < analysis.spreads.size(); ++j)
     words += spread_words(analysis.coordinates[j], analysis.spreads[j], one.nested);
   add_factors(one, words);
   for (const Outlier& outlier : one.outliers)
-    words += text::hanging("  ! ", fmt::format("{} is unlike the others (p {}, for all specimens together)",
-                                               table.specimens[outlier.specimen].id, p_words(outlier.p))) +
-             "\n";
+    words +=
+        text::hanging("  ! ", fmt::format("{} is unlike the others, most in {} (p {}, for all specimens together)",
+                                          table.specimens[outlier.specimen].id, outlier.farthest, p_words(outlier.p))) +
+        "\n";
 }
 
 }  // namespace
