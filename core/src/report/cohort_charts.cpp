@@ -128,15 +128,13 @@ void add_readings_of(Page& page, const Folder& folder, const Json& population) {
   std::map<std::string, std::string> group;
   for (std::size_t row = 0; row < table->rows(); ++row)
     group[table->text(row, "specimen")] = group_of(*table, row, factors);
-  for (const Json& reading : list(population, "readings")) {
-    const Json& of = member(reading, "of");
-    if (of.empty()) continue;
+  for (const auto& [name, one] : member(member(population, "readings"), "of").items()) {
+    if (!member(one, "means").is_object()) continue;
     std::vector<Point> points;
-    for (const auto& [specimen, value] : member(reading, "specimens").items())
+    for (const auto& [specimen, value] : member(one, "specimens").items())
       points.push_back({specimen, group[specimen], number(value, "value"), NAN, NAN, NAN});
-    const Json& one = of.begin().value();
-    Chart chart = estimate_chart(word(reading, "name"), word(one, "unit"),
-                                 word(member(one, "spread"), "scale") == "log", points, member(one, "means"));
+    Chart chart = estimate_chart(name, word(one, "unit"), word(member(one, "spread"), "scale") == "log", points,
+                                 member(one, "means"));
     chart.id += "_" + word(population, "run");
     chart.files = {"population.csv"};
     page.chart(std::move(chart), folder.address());

@@ -37,6 +37,7 @@ std::string spread_text(const Json& spread) {
 
 void add_of(const Json& analysis, std::vector<std::vector<Cell>>& rows) {
   for (const auto& [name, one] : member(analysis, "of").items()) {
+    if (!member(one, "means").is_object()) continue;  // a reading of fewer than two specimens
     std::vector<Cell> row{{text::titled(name, word(one, "unit"))}};
     for (const auto& [group, mean] : member(one, "means").items()) row.push_back({with_interval(mean), true});
     row.push_back({spread_text(member(one, "spread")), true});
@@ -52,7 +53,7 @@ void add_typical(Page& page, const Json& population) {
   head.emplace_back("spread of specimens");
   std::vector<std::vector<Cell>> rows;
   add_of(member(population, "parameters"), rows);
-  for (const Json& reading : list(population, "readings")) add_of(reading, rows);
+  add_of(member(population, "readings"), rows);
   page.heading("Typical specimen, with 95 % intervals");
   page.html(table_html(head, rows));
 }
@@ -75,7 +76,7 @@ void add_effect_rows(const Json& analysis, std::vector<std::vector<Cell>>& rows)
 void add_groups(Page& page, const Json& population) {
   std::vector<std::vector<Cell>> rows;
   add_effect_rows(member(population, "parameters"), rows);
-  for (const Json& reading : list(population, "readings")) add_effect_rows(reading, rows);
+  add_effect_rows(member(population, "readings"), rows);
   if (rows.empty()) return;
   page.heading("Effects of groups");
   page.html(table_html(
@@ -116,8 +117,8 @@ void add_population(Page& page, const Json& population) {
   add_groups(page, population);
   std::vector<std::string> outlying;
   for (const Json& one : list(population, "outlying"))
-    outlying.push_back(
-        fmt::format("{} ({} for all specimens together)", word(one, "specimen"), chance(number(one, "p"))));
+    outlying.push_back(fmt::format("{}, most in {} ({} for all specimens together)", word(one, "specimen"),
+                                   word(one, "farthest_in"), chance(number(one, "p"))));
   if (!outlying.empty()) page.box("bad", "Unlike the others", outlying);
 }
 
