@@ -36,6 +36,8 @@ SUBJECTS = [
       "core/src/assembly/objective", "core/src/calibration/", "core/src/search/calibration_problem", "core/src/execution/plan",
       "core/src/comparison/uncertainty", "core/src/comparison/stability_map"]),
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
+    ("Statistics of a cohort", "The cohort is refused as a whole; a specimen that fails alone is listed instead.",
+     ["core/src/population/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
      ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),

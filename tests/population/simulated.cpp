@@ -71,6 +71,11 @@ const Curve& strip() {
   return curve;
 }
 
+const Curve& precise_strip() {
+  static const Curve curve{{"mu", "k1", "k2"}, {25}, strip_at, logs({8, 5, 1.5}), {0.1}};
+  return curve;
+}
+
 const Curve& sheet() {
   static const Curve curve{{"c", "c1", "c2", "c3", "mu"}, {36, 36}, sheet_at, logs({10, 4, 3, 1.5, 2}), {0.6, 0.6}};
   return curve;

@@ -26,6 +26,8 @@ struct Curve {
 const Curve& exponential();
 /// A strip with three parameters: σ = μ (λ − 1/λ²) + 2 k1 λ (λ² − 1) exp(k2 (λ² − 1)²), 25 rows to λ = 1.35.
 const Curve& strip();
+/// The strip under a quarter of the noise.
+const Curve& precise_strip();
 /// A sheet under three ratios of biaxial stretch with five parameters, of which μ is weakly identified:
 /// σ_t = μ (λ_t − 1/(λ_t³λ_z²)) + c (c1 E_t + c3 E_z) λ_t e^Q, Q = c1 E_t² + c2 E_z² + 2 c3 E_t E_z; σ_z alike.
 const Curve& sheet();

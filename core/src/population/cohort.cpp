@@ -2,6 +2,7 @@
 #include "population/cohort.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <set>
 
@@ -37,9 +38,7 @@ void check_cohort(const Cohort& cohort) {
   if (cohort.specimens.size() < 2)
     throw InputError(fmt::format("a cohort needs two specimens at least, found {}; add specimens or fit the one alone",
                                  cohort.specimens.size()));
-  if (cohort.parameters.empty() || cohort.start.size() != static_cast<Eigen::Index>(cohort.parameters.size()))
-    throw InputError(fmt::format("a cohort of {} parameters has {} start values; expected one a parameter",
-                                 cohort.parameters.size(), cohort.start.size()));
+  assert(!cohort.parameters.empty() && cohort.start.size() == static_cast<Eigen::Index>(cohort.parameters.size()));
   std::set<std::string> names;
   for (const Specimen& specimen : cohort.specimens) {
     if (!names.insert(specimen.name).second)

@@ -80,7 +80,7 @@ struct Sorted {
   std::vector<std::size_t> place;  ///< place[k]: where the caller has the sorted specimen k
 };
 /// Throws InputError where fewer than two specimens are left, where a factor has one level or a level no specimen,
-/// where a name is there twice, or where sizes do not fit.
+/// or where a name is there twice.
 Sorted sorted(const Cohort& cohort);
 
 }  // namespace tunica::population
