@@ -37,7 +37,8 @@ void add_factor(const Factor& factor, Members& members) {
   try {
     const population::Design design = population::design(with.cohort(), with.all_factors());
     if (design.size() >= with.rows.size())
-      throw InputError(fmt::format("{} specimens are too few for it", with.rows.size()));
+      throw InputError(
+          fmt::format("{} specimens are too few for it. Add specimens, or take the factor out", with.rows.size()));
     members = std::move(with);
   } catch (const InputError& reason) {
     members.refusals.push_back(

@@ -38,6 +38,8 @@
     } catch (problem) {
       fail(element, problem);
     }
+  };
+  const count = () => {
     root.dataset.drawn = figures.length;
     root.dataset.failed = failed;
   };
@@ -50,6 +52,7 @@
         await make(element);
         await pause();
       }
+      count();
     });
   const start = async () => {
     for (const element of document.querySelectorAll("figure[data-chart]")) {
@@ -58,6 +61,7 @@
       if (!root.dataset.first && element.getBoundingClientRect().top > innerHeight) root.dataset.first = spent();
       await pause();
     }
+    count();
     root.dataset.milliseconds = spent();
   };
 
