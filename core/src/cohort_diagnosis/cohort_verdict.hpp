@@ -36,6 +36,7 @@ struct Explanation {
   double log_evidence = 0;  ///< over nothing, of its likeliest place and setting
   double log_weight = 0;    ///< over all places and settings, with the odds before the data
   double probability = 0;
+  double likeness = 0;  ///< to the best explanation, of single mechanisms: mean |cosine| over the specimens
   bool in_set = false;
 };
 

@@ -58,6 +58,7 @@ class Combination {
     std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
       return a.explanation.log_weight > b.explanation.log_weight;
     });
+    leave_out_additions(all);
     share_out_probability(all);
     const Candidate& best = all.front();
     std::vector<const Hypothesis*> causes;
@@ -72,6 +73,9 @@ class Combination {
     found.p_rest = rest_of(specimens_, causes).p();
     found.contradictions = contradictions_of(specimens_, causes, hypotheses_, who);
     claim(all, found);
+    for (Candidate& one : all)
+      if (one.best.size() == 1 && best.best.size() == 1)
+        one.explanation.likeness = likeness(best.best.front(), one.best.front());
     for (Candidate& one : all) found.explanations.push_back(std::move(one.explanation));
   }
 
@@ -130,6 +134,16 @@ class Combination {
       all.push_back(std::move(made));
     }
     return all;
+  }
+
+  /// A pair with the single mechanism that leads is no other explanation, only more of it than the data ask for.
+  static void leave_out_additions(std::vector<Candidate>& all) {
+    if (all.front().best.size() > 1) return;
+    const std::string leader = all.front().explanation.ids.front();
+    std::erase_if(all, [&](const Candidate& one) {
+      const std::vector<std::string>& ids = one.explanation.ids;
+      return ids.size() > 1 && std::find(ids.begin(), ids.end(), leader) != ids.end();
+    });
   }
 
   /// Probabilities over all, and the credible set.

@@ -12,7 +12,7 @@
 namespace tunica::cohort_diagnosis {
 namespace {
 
-constexpr double clearly = 5;      ///< of ln: what is needed to say that a specimen differs
+constexpr double clearly = 3;      ///< of ln: what is needed to say that a specimen differs
 constexpr double no_noise = 1e-4;  ///< p-value of what is left in one specimen
 
 /// The likeliest other mechanism of a specimen, by its gain.

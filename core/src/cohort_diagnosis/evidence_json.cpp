@@ -18,13 +18,17 @@ constexpr Verdict verdicts[] = {Verdict::nothing_detected, Verdict::named, Verdi
 
 Json to_json(const std::optional<Half>& half) {
   if (!half) return nullptr;
-  return Json::array({half->t, half->length, half->vector, half->sign, half->refitted, half->shown});
+  Json json = Json::array({half->t, half->length, half->vector, half->sign, half->refitted, half->shown});
+  if (half->left) json.push_back(*half->left);
+  return json;
 }
 
 std::optional<Half> half_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  return Half{json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<std::size_t>(),
-              json.at(3).get<double>(), json.at(4).get<bool>(),   json.at(5).get<double>()};
+  Half half{json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<std::size_t>(),
+            json.at(3).get<double>(), json.at(4).get<bool>(),   json.at(5).get<double>()};
+  if (json.size() > 6) half.left = json.at(6).get<std::size_t>();
+  return half;
 }
 
 Json to_json(const Profile& profile) {
@@ -75,6 +79,11 @@ void check(const SpecimenEvidence& specimen) {
     for (const std::optional<Half>* half : {&profile.up, &profile.down})
       if (*half && ((*half)->vector >= specimen.vectors || !((*half)->length > 0)))
         throw InputError(fmt::format("a profile of '{}' has no vector or no length", profile.id));
+      else if (*half && (*half)->left && *(*half)->left >= specimen.left.size())
+        throw InputError(fmt::format("a profile of '{}' leaves what is not there", profile.id));
+  for (const auto& one : specimen.left)
+    if (one.size() != all)
+      throw InputError(fmt::format("an entry of \"left\" has {} numbers, expected {}", one.size(), all));
 }
 
 }  // namespace
@@ -95,7 +104,8 @@ Json to_json(const SpecimenEvidence& specimen) {
             {"profiles", Json::array()},
             {"shapes", specimen.shapes},
             {"vectors", specimen.vectors},
-            {"likeness", specimen.likeness.triangle()}};
+            {"likeness", specimen.likeness.triangle()},
+            {"left", specimen.left}};
   for (const OwnRank& one : specimen.ranking) json["ranking"].push_back(Json::array({one.id, one.probability}));
   for (const Profile& profile : specimen.profiles) json["profiles"].push_back(to_json(profile));
   return json;
@@ -129,6 +139,7 @@ SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) 
     found.shapes = json.at("shapes").get<std::vector<double>>();
     found.vectors = json.at("vectors").get<std::size_t>();
     found.likeness = Likeness(json.at("likeness").get<std::vector<std::int32_t>>());
+    found.left = json.at("left").get<std::vector<std::vector<std::int32_t>>>();
     check(found);
     return found;
   } catch (const nlohmann::json::exception& problem) {

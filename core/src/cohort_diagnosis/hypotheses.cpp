@@ -25,9 +25,16 @@ const Profile* nearest(const ByPlace& places, const Profile& like) {
   const auto found = places.find(like.key_of_place());
   if (found == places.end()) return nullptr;
   const Profile* best = nullptr;
+  if (like.setting.empty()) {  // of a mechanism that has settings: each specimen has its own
+    for (const Profile* one : found->second)
+      if (!best || one->gain() > best->gain()) best = one;
+    return best;
+  }
   double least = std::numeric_limits<double>::infinity();
   for (const Profile* one : found->second)
-    if (const double far = distance_of(like, *one); far < least) {
+    if (one->setting.empty())
+      continue;
+    else if (const double far = distance_of(like, *one); far < least) {
       least = far;
       best = one;
     }
@@ -47,23 +54,37 @@ std::optional<Profile> silent_row(const ByPlace& places, const Profile& like) {
 }
 
 void weigh(Hypothesis& hypothesis) {
+  Extent scale;
   double squares = 0, count = 0;
-  bool up = false, down = false;
   for (std::size_t s = 0; s < hypothesis.sees.size(); ++s) {
     if (!hypothesis.sees[s]) continue;
     const Profile& profile = hypothesis.seen[s];
-    up = up || profile.up;
-    down = down || profile.down;
+    scale.up = scale.up || profile.up;
+    scale.down = scale.down || profile.down;
+    scale.largest_score = std::max(scale.largest_score, profile.active().t);
     squares += std::pow(profile.active().length, 2);
     count += 1;
   }
-  hypothesis.populations = populations(1 / std::sqrt(squares / count), up, down);
+  scale.unit = 1 / std::sqrt(squares / count);
+  hypothesis.populations = populations(scale);
   hypothesis.log_likelihood = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(hypothesis.sees.size()),
                                                     static_cast<Eigen::Index>(hypothesis.populations.size()));
   for (std::size_t s = 0; s < hypothesis.sees.size(); ++s)
     for (std::size_t g = 0; hypothesis.sees[s] && g < hypothesis.populations.size(); ++g)
       hypothesis.log_likelihood(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(g)) =
           log_with_strangers(log_marginal(hypothesis.seen[s], hypothesis.populations[g]));
+}
+
+/// A row that is gross in one specimen is a matter of that specimen. It is a cause of a cohort where it is listed by a
+/// quarter of the specimens, and by two at least.
+void leave_out_rows_of_few(std::vector<Hypothesis>& all, std::size_t specimens) {
+  if (specimens < 2) return;
+  std::erase_if(all, [&](const Hypothesis& one) {
+    if (!one.like().place.row) return false;
+    std::size_t listed = 0;
+    for (std::size_t s = 0; s < specimens; ++s) listed += one.sees[s] && one.seen[s].active().t != 0;
+    return listed < 2 || 4 * listed < specimens;
+  });
 }
 
 /// Places and settings of a mechanism share its weight alike; single rows and whole curves are two kinds of equal
@@ -155,6 +176,7 @@ std::vector<Hypothesis> hypotheses_of(const Specimens& specimens) {
     }
     weigh(one);
   });
+  leave_out_rows_of_few(all, specimens.size());
   share_out(all, specimens);
   return all;
 }

@@ -36,7 +36,7 @@ struct Hypothesis {
 
 /// All hypotheses of all specimens, in the order of their keys. A specimen whose settings differ, because its clock
 /// does, takes part with the setting that is nearest in logarithms. A row that is not listed, because it scores little
-/// there, counts as one of score 0.
+/// there, counts as one of score 0; a row of few specimens is left out.
 std::vector<Hypothesis> hypotheses_of(const Specimens& specimens);
 
 double log_sum_exp(std::span<const double> logs);

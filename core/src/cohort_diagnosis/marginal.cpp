@@ -34,20 +34,21 @@ double log_marginal(const Profile& profile, const Population& population) {
   return log_half(profile.up ? *profile.up : *profile.down, side * mean, sd) - log_normal_below(side * mean / sd);
 }
 
-std::vector<Population> populations(double unit, bool upwards, bool downwards, bool coarse) {
-  const int steps = coarse ? 5 : 9;
-  constexpr double largest = 25;
+std::vector<Population> populations(const Extent& scale, bool coarse) {
+  constexpr double usual = 25;
+  const double step = std::log(usual) / (coarse ? 4 : 8);
+  const int steps = 1 + static_cast<int>(std::ceil(std::log(std::max(usual, 1.5 * scale.largest_score)) / step - 1e-9));
   std::vector<Population> all;
   const std::vector<double> shares = coarse ? std::vector<double>{0.25, 0.6} : std::vector<double>{0.2, 0.4, 0.6, 0.8};
   for (int k = 0; k < steps; ++k) {
-    const double size = unit * std::pow(largest, static_cast<double>(k) / (steps - 1));
+    const double size = scale.unit * std::exp(step * k);
     for (const double share : shares) {
       const double mean = size * std::sqrt(1 - share * share);
-      if (upwards) all.push_back({mean, share * size});
-      if (downwards) all.push_back({-mean, share * size});
+      if (scale.up) all.push_back({mean, share * size});
+      if (scale.down) all.push_back({-mean, share * size});
     }
     all.push_back({0, size});
-    if (upwards && downwards) all.push_back({0, size});  // no side, as likely as one of them with the same spread
+    if (scale.up && scale.down) all.push_back({0, size});  // no side, as likely as one of them with the same spread
   }
   return all;
 }

@@ -54,19 +54,48 @@ Together together(const Specimens& specimens, const Hypothesis& a, const Hypothe
 }
 
 std::vector<Population> coarse(const std::vector<Leg>& legs, const Hypothesis& hypothesis) {
+  const Profile& like = hypothesis.like();
+  Extent scale{1, 0, like.up.has_value(), like.down.has_value()};
   double squares = 0, count = 0;
   for (std::size_t s = 0; s < legs.size(); ++s)
     if (hypothesis.sees[s]) {
       squares += legs[s].length * legs[s].length;
+      scale.largest_score = std::max(scale.largest_score, std::abs(legs[s].u) / legs[s].length);
       count += 1;
     }
-  const Profile& like = hypothesis.like();
-  return populations(1 / std::sqrt(squares / count), like.up.has_value(), like.down.has_value(), true);
+  scale.unit = 1 / std::sqrt(squares / count);
+  return populations(scale, true);
+}
+
+/// The scores of `other` as they are beside the leader: with w what the leader leaves along the vector of the other (of
+/// its fit at finite amplitude where there is one), t = w + c t_leader. The vectors are those at the base fit, which
+/// the leader moves: w is not known better than to a share of t_leader.
+void correct(const Specimens& specimens, const Hypothesis& leader, const std::vector<Leg>& leader_legs,
+             const Hypothesis& other, const std::vector<double>& cosines, std::vector<Leg>& legs) {
+  constexpr double crooked = 0.05;
+  for (std::size_t s = 0; s < specimens.size(); ++s) {
+    if (!leader.sees[s] || !other.sees[s]) continue;
+    const Half &first = leader.seen[s].active(), &second = other.seen[s].active();
+    const double t = leader_legs[s].u / leader_legs[s].length;
+    double left = legs[s].u / legs[s].length - cosines[s] * t;
+    if (first.left && second.shown != 0)
+      left = second.sign * other.seen[s].side() * SpecimenEvidence::left_unit *
+             specimens[s]->left[*first.left][second.vector];
+    const double blur = std::sqrt(1 + std::pow(crooked * t, 2));
+    legs[s].length /= blur;
+    legs[s].u = (left / blur + cosines[s] * t) * legs[s].length;
+  }
 }
 
 void integrate(const Specimens& specimens, const std::vector<Hypothesis>& hypotheses, Pair& pair) {
   const Hypothesis &a = hypotheses[pair.a], &b = hypotheses[pair.b];
-  const Together all = together(specimens, a, b);
+  const std::vector<bool> everyone(specimens.size(), true);
+  Together all = together(specimens, a, b);
+  const bool a_leads = a.log_evidence(everyone) > b.log_evidence(everyone);
+  if (a_leads)
+    correct(specimens, a, all.a, b, all.c, all.b);
+  else
+    correct(specimens, b, all.b, a, all.c, all.a);
   const std::vector<Population> of_a = coarse(all.a, a), of_b = coarse(all.b, b);
   std::vector<double> sums;
   sums.reserve(of_a.size() * of_b.size());
@@ -79,10 +108,9 @@ void integrate(const Specimens& specimens, const std::vector<Hypothesis>& hypoth
       sums.push_back(sum);
     }
   const double both = log_sum_exp(sums) - std::log(static_cast<double>(sums.size()));
-  const double one = evidence_alone(all.a, all.sees_a, of_a), other = evidence_alone(all.b, all.sees_b, of_b);
-  const std::vector<bool> everyone(specimens.size(), true);
-  pair.needed = both - std::max(one, other);
-  pair.log_evidence = pair.needed + (one > other ? a : b).log_evidence(everyone);
+  const double one = a_leads ? evidence_alone(all.a, all.sees_a, of_a) : evidence_alone(all.b, all.sees_b, of_b);
+  pair.needed = both - one;
+  pair.log_evidence = pair.needed + (a_leads ? a : b).log_evidence(everyone);
 }
 
 }  // namespace

@@ -18,6 +18,16 @@ Rest rest_of(const SpecimenEvidence& specimen, const std::vector<const Profile*>
   std::vector<const Half*> halves;
   for (const Profile* cause : causes)
     if (cause->active().shown > 0) halves.push_back(&cause->active());
+  if (halves.size() == 1 && halves.front()->left) {  // fitted at finite amplitude: what that leaves
+    const Half& one = *halves.front();
+    for (Eigen::Index k = 0; k < shapes; ++k) {
+      b[k] = SpecimenEvidence::left_unit * specimen.left[*one.left][specimen.vectors + static_cast<std::size_t>(k)];
+      const double c = specimen.likeness(one.vector, specimen.vectors + static_cast<std::size_t>(k));
+      rest.freedom -= c * c;
+    }
+    rest.Q = b.squaredNorm();
+    return rest;
+  }
   if (!halves.empty()) {
     // Amplitudes that leave least of r along all vectors: G x = t; what they take of the shapes is C x.
     const auto count = static_cast<Eigen::Index>(halves.size());

@@ -53,12 +53,16 @@ struct SpecimenEvidence {
   std::vector<double> shapes;  ///< b = B̃ᵀr of smooth shapes; their vectors stand behind those of the profiles
   std::size_t vectors = 0;     ///< of profiles
   Likeness likeness;           ///< of all vectors
+  /// What refits leave of the residuals along all vectors, in thousandths of σ.
+  std::vector<std::vector<std::int32_t>> left;
 
   bool operator==(const SpecimenEvidence&) const = default;
+  static constexpr double left_unit = 1e-3;
 };
 
 /// From a diagnosis that is there: every mechanism that scores is fitted again at finite amplitude, its nuisance
-/// parameters held. Rows that are outliers enter only where their score is above 6. Deterministic for any number of
+/// parameters held. Rows that are outliers enter only where their score is above 6, among them those that the diagnosis
+/// left out as gross errors. Deterministic for any number of
 /// threads.
 SpecimenEvidence evidence_of(std::string id, const experiment::Experiment& experiment,
                              const diagnosis::Diagnosis& diagnosis, const plugins::Catalogue& catalogue);

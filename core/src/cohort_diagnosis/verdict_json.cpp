@@ -23,9 +23,9 @@ Json of(const CommonAmplitude& one) {
 }
 
 Json of(const Explanation& one) {
-  Json json{{"mechanisms", one.ids},        {"log_evidence", one.log_evidence},
-            {"log_weight", one.log_weight}, {"probability", one.probability},
-            {"in_set", one.in_set},         {"places", Json::array()}};
+  Json json{{"mechanisms", one.ids},          {"log_evidence", one.log_evidence}, {"log_weight", one.log_weight},
+            {"probability", one.probability}, {"likeness", one.likeness},         {"likeness", one.likeness},
+            {"in_set", one.in_set},           {"places", Json::array()}};
   for (const diagnosis::Place& place : one.places) json["places"].push_back(of(place));
   for (const auto& setting : one.settings) {
     Json values = Json::object();
