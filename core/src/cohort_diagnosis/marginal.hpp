@@ -27,10 +27,15 @@ double log_marginal(const Profile& profile, const Population& population);
 /// ln Φ(z), for any z.
 double log_normal_below(double z);
 
-/// Populations of equal weight before the data, in units of the noise: with A = 1/√(mean a²) over the specimens that
-/// see the mechanism, √(m² + τ²) is between 1 A and 25 A in equal steps of its logarithm, τ a fifth of that to all of
-/// it, and the mean on either admissible side.
-std::vector<Population> populations(double unit, bool upwards, bool downwards, bool coarse = false);
+/// How a hypothesis shows in the cohort: A = 1/√(mean a²) over the specimens that see it, the largest t, and the sides.
+struct Extent {
+  double unit = 1, largest_score = 0;
+  bool up = false, down = false;
+};
+
+/// Populations of equal weight before the data: √(m² + τ²) is between 1 A and 25 A (or the largest score, if that is
+/// larger) in equal steps of its logarithm, τ a fifth of that to all of it, and the mean on either admissible side.
+std::vector<Population> populations(const Extent& scale, bool coarse = false);
 
 /// Likelihoods of specimens that share a hypothesis, one row a specimen, one column a population. A specimen may be
 /// none of the cohort: with a chance of `stranger` it has no part in the effect.
