@@ -87,6 +87,25 @@ def named_first(verdict):
     return set(verdict["explanations"][0]["mechanisms"])
 
 
+def look_alikes(build):
+    """Declared look-alikes of every mechanism."""
+    def ask(*words):
+        command = [build / "bin/tunica", "--allow-world-writable-plugins", *words, "--json"]
+        return json.loads(subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout)
+
+    names = [entry["name"] for entry in ask("list", "mechanisms")["mechanisms"]]
+    return {name: ask("describe", name)["mechanism"]["look_alikes"] for name in names}
+
+
+def stands_for(verdict, named, truth, declared):
+    """As for one specimen: a declared look-alike counts where the truth is in the set, and these data make the two look
+    alike above 0.9."""
+    if named == truth:
+        return True
+    alike = {one["mechanisms"][0]: one["likeness"] for one in verdict["explanations"] if len(one["mechanisms"]) == 1}
+    return truth in declared.get(named, []) and truth in verdict["ambiguity_set"] and alike.get(truth, 0) > 0.9
+
+
 def placed(truth, verdict):
     """Whether the explanation is put where the effect is."""
     target = next(iter(hidden_in(truth).values()))
@@ -97,9 +116,10 @@ def placed(truth, verdict):
 
 
 class Scores:
-    def __init__(self):
+    def __init__(self, declared):
+        self.declared = declared
         self.counts, self.mistakes, self.by_effect = {}, [], {}
-        self.seconds = []
+        self.contradictions = {}
 
     def add(self, figure, hit):
         hits, total = self.counts.get(figure, (0, 0))
@@ -111,7 +131,8 @@ class Scores:
                f"({verdict['verdict']}, set {', '.join(verdict['ambiguity_set'])})"
         if what == "nulls":
             self.add("false alarms", verdict["alarm"])
-            self.add("specimens by themselves: false alarms", False)
+            for p in verdict["p_values"]:
+                self.add("one specimen alone: false alarms", p <= 0.05)
             return
         if not truth["reached"]:
             self.add("not reached", True)
@@ -123,13 +144,18 @@ class Scores:
             self.add("pair: named something false", verdict["verdict"] == "named" and not found <= hidden)
         else:
             effect = truth["effect"]
+            right = len(found) == 1 and stands_for(verdict, next(iter(found)), effect, self.declared)
             figure = "right name" if what == "singles" else "right name, in one group"
-            self.add(figure, found == {effect})
+            self.add(figure, right)
+            self.add(f"{what}: right name, no look-alike counted", found == {effect})
+            self.add(f"{what}: named alone", found == {effect} and verdict["ambiguity_set"] == [effect])
+            for one in verdict["contradictions"]:
+                self.contradictions[one["code"]] = self.contradictions.get(one["code"], 0) + 1
             self.add(f"{what}: set holds the truth", effect in verdict["ambiguity_set"])
             self.add(f"{what}: named, wrongly", verdict["verdict"] == "named" and found != {effect})
             if what == "singles":
                 hits, total = self.by_effect.get(effect, (0, 0))
-                self.by_effect[effect] = hits + (found == {effect}), total + 1
+                self.by_effect[effect] = hits + right, total + 1
                 sums = verdict["sums_of_own_weights"]
                 self.add("sum of own weights: right name", sums and max(sums, key=sums.get) == effect)
                 for own in verdict["own"]:
@@ -140,9 +166,9 @@ class Scores:
                     self.add("place", placed(truth, verdict))
             if what == "groups":
                 factor = verdict["factors"][0] if verdict["factors"] else {"only_in": None}
-                right = found == {effect} and factor["only_in"] == truth["affected_group"]
-                self.add("found and placed", right and placed(truth, verdict))
-                self.add("group, given the name", factor["only_in"] == truth["affected_group"])
+                grouped = factor["only_in"] == truth["affected_group"]
+                self.add("found and placed", right and grouped and placed(truth, verdict))
+                self.add("group, whatever the name", grouped)
         if found != hidden:
             self.mistakes.append(note)
 
@@ -216,7 +242,7 @@ def main():
                  told.jobs)
     diagnose_all(told.build / "bin/bench_cohorts", cohorts, told.jobs)
 
-    scores = Scores()
+    scores = Scores(look_alikes(told.build))
     folders = sorted(seal.parent for seal in cohorts.glob("*/truth.sha256"))
     for folder in folders:
         scores.judge(folder.name, *opened(folder))
@@ -226,6 +252,7 @@ def main():
                          "`bench/discovery_cohorts.py`.", told.reduced)
     print(table)
     print("\n".join(scores.mistakes))
+    print("specimens said to contradict, of cohorts with one effect:", scores.contradictions)
     print({effect: f"{hits}/{total}" for effect, (hits, total) in sorted(scores.by_effect.items()) if hits < total})
     (told.out / "table.md").write_text(table)
     if told.docs:

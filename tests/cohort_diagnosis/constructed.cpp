@@ -28,8 +28,8 @@ SpecimenEvidence Constructed::specimen(const std::string& id, const std::vector<
     profile.id = ids[static_cast<std::size_t>(k)];
     profile.amplitude = "a";
     profile.unit = "1";
-    profile.up = Half{t[k], length, static_cast<std::size_t>(k), 1, false, t[k]};
-    if (two_sided) profile.down = Half{-t[k], length, static_cast<std::size_t>(k), -1, false, -t[k]};
+    profile.up = Half{t[k], length, static_cast<std::size_t>(k), 1, false, false, t[k]};
+    if (two_sided) profile.down = Half{-t[k], length, static_cast<std::size_t>(k), -1, false, false, -t[k]};
     found.profiles.push_back(profile);
     for (Eigen::Index j = 0; j < k; ++j)
       triangle.push_back(static_cast<std::int32_t>(std::lround(cosines(k, j) / Likeness::unit)));

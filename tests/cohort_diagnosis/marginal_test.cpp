@@ -90,8 +90,8 @@ TEST(Marginal, OfAPairIsTheIntegralOverBothPopulations) {
 
 TEST(Marginal, OfAPairWithNothingIsThatOfOne) {
   Profile profile;
-  profile.up = Half{2.5, 2.0, 0, 1, false, 2.5};
-  profile.down = Half{-2.5, 2.0, 0, -1, false, -2.5};
+  profile.up = Half{2.5, 2.0, 0, 1, false, false, 2.5};
+  profile.down = Half{-2.5, 2.0, 0, -1, false, false, -2.5};
   EXPECT_NEAR(log_marginal(leg_of(profile), Leg{}, 0, {0.7, 0.3}, {0, 1}), log_marginal(profile, {0.7, 0.3}), 1e-12);
 }
 

@@ -18,16 +18,22 @@ constexpr Verdict verdicts[] = {Verdict::nothing_detected, Verdict::named, Verdi
 
 Json to_json(const std::optional<Half>& half) {
   if (!half) return nullptr;
-  Json json = Json::array({half->t, half->length, half->vector, half->sign, half->refitted, half->shown});
+  Json json = Json::array({half->t, half->length, half->vector, half->sign, half->refitted, half->apart, half->shown});
   if (half->left) json.push_back(*half->left);
   return json;
 }
 
 std::optional<Half> half_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  Half half{json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<std::size_t>(),
-            json.at(3).get<double>(), json.at(4).get<bool>(),   json.at(5).get<double>()};
-  if (json.size() > 6) half.left = json.at(6).get<std::size_t>();
+  Half half;
+  half.t = json.at(0).get<double>();
+  half.length = json.at(1).get<double>();
+  half.vector = json.at(2).get<std::size_t>();
+  half.sign = json.at(3).get<double>();
+  half.refitted = json.at(4).get<bool>();
+  half.apart = json.at(5).get<bool>();
+  half.shown = json.at(6).get<double>();
+  if (json.size() > 7) half.left = json.at(7).get<std::size_t>();
   return half;
 }
 

@@ -78,7 +78,7 @@ void correct(const Specimens& specimens, const Hypothesis& leader, const std::ve
     const Half &first = leader.seen[s].active(), &second = other.seen[s].active();
     const double t = leader_legs[s].u / leader_legs[s].length;
     double left = legs[s].u / legs[s].length - cosines[s] * t;
-    if (first.left && second.shown != 0)
+    if (first.left && second.shown != 0 && !second.apart)
       left = second.sign * other.seen[s].side() * SpecimenEvidence::left_unit *
              specimens[s]->left[*first.left][second.vector];
     const double blur = std::sqrt(1 + std::pow(crooked * t, 2));

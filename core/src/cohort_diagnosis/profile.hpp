@@ -24,7 +24,8 @@ struct Half {
   std::size_t vector = 0;  ///< the unit vector of the specimen's residuals along which the amplitude shows
   double sign = 1;         ///< on it
   bool refitted = false;
-  double shown = 0;                      ///< along that vector, of the residuals: t where nothing was fitted again
+  bool apart = false;  ///< of a row that no fit sees: the vector is zero, and nothing else looks like it
+  double shown = 0;    ///< along that vector, of the residuals: t where nothing was fitted again
   std::optional<std::size_t> left = {};  ///< refitted: which entry of SpecimenEvidence::left is what it leaves
 
   bool operator==(const Half&) const = default;

@@ -77,7 +77,7 @@ class Gathering {
       Sketch& sketch = sketch_of(all, direction.candidate, hypothesis);
       const double t = direction.unit.dot(residuals_);
       const auto draft = [&](double sign, bool refits) {
-        Draft one{{sign * t, direction.length, 0, 1, false, sign * t, {}}, sign * direction.unit, 0, 0, {}};
+        Draft one{{sign * t, direction.length, 0, 1, false, false, sign * t, {}}, sign * direction.unit, 0, 0, {}};
         if (refits && sign * t > 0 && t * t >= worth_a_refit) {
           one.start_gain = t * t;
           one.start = direction.sign * t / direction.length;
@@ -244,7 +244,7 @@ void add_rows_left_out(const Analysis& analysis, std::vector<Sketch>& sketches) 
       const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(analysis.evidence.fit.residuals.size());
       for (std::size_t h = 0; h < 2; ++h) {
         const double t = h == 0 ? far->first : -far->first;
-        single.halves[h] = Draft{{t, 1 / far->second, 0, 1, false, t, {}}, nothing, 0, 0, {}};
+        single.halves[h] = Draft{{t, 1 / far->second, 0, 1, false, true, t, {}}, nothing, 0, 0, {}};
       }
       rows.push_back(std::move(single));
     }
