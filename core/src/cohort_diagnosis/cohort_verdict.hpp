@@ -36,7 +36,6 @@ struct Explanation {
   double log_evidence = 0;  ///< over nothing, of its likeliest place and setting
   double log_weight = 0;    ///< over all places and settings, with the odds before the data
   double probability = 0;
-  double likeness = 0;  ///< to the best explanation, of single mechanisms: mean |cosine| over the specimens
   bool in_set = false;
 };
 
@@ -98,7 +97,9 @@ struct CohortVerdict {
   double p_rest = 1;                   ///< of the smooth shapes that the best explanation leaves
   std::vector<std::string> specimens;  ///< in the order of the matrix
   std::vector<double> p_values;        ///< of each by itself
-  std::vector<MatrixRow> matrix;       ///< likeliest mechanism first
+  /// How alike the mechanisms of the matrix look where they act best: mean |cosine| over the specimens, by rows of it.
+  std::vector<std::vector<double>> likeness;
+  std::vector<MatrixRow> matrix;  ///< likeliest mechanism first
 };
 
 }  // namespace tunica::cohort_diagnosis

@@ -73,9 +73,6 @@ class Combination {
     found.p_rest = rest_of(specimens_, causes).p();
     found.contradictions = contradictions_of(specimens_, causes, hypotheses_, who);
     claim(all, found);
-    for (Candidate& one : all)
-      if (one.best.size() == 1 && best.best.size() == 1)
-        one.explanation.likeness = likeness(best.best.front(), one.best.front());
     for (Candidate& one : all) found.explanations.push_back(std::move(one.explanation));
   }
 
@@ -161,6 +158,7 @@ class Combination {
 
   /// Mean over the specimens of the cosine of what two hypotheses leave.
   [[nodiscard]] double likeness(std::size_t a, std::size_t b) const {
+    if (a == b) return 1;
     double sum = 0, count = 0;
     for (std::size_t s = 0; s < specimens_.size(); ++s) {
       const Hypothesis &first = hypotheses_[a], &second = hypotheses_[b];
@@ -247,6 +245,8 @@ class Combination {
       for (std::size_t s = 0; s < specimens_.size(); ++s)
         row.log_evidence.push_back(hypothesis.sees[s] ? log_marginal(hypothesis.seen[s], population) : 0);
       found.matrix.push_back(std::move(row));
+      std::vector<double>& alike = found.likeness.emplace_back();
+      for (const Candidate& other : singles) alike.push_back(likeness(one.best.front(), other.best.front()));
     }
   }
 

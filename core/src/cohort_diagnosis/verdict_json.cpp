@@ -23,9 +23,9 @@ Json of(const CommonAmplitude& one) {
 }
 
 Json of(const Explanation& one) {
-  Json json{{"mechanisms", one.ids},          {"log_evidence", one.log_evidence}, {"log_weight", one.log_weight},
-            {"probability", one.probability}, {"likeness", one.likeness},         {"likeness", one.likeness},
-            {"in_set", one.in_set},           {"places", Json::array()}};
+  Json json{{"mechanisms", one.ids},        {"log_evidence", one.log_evidence},
+            {"log_weight", one.log_weight}, {"probability", one.probability},
+            {"in_set", one.in_set},         {"places", Json::array()}};
   for (const diagnosis::Place& place : one.places) json["places"].push_back(of(place));
   for (const auto& setting : one.settings) {
     Json values = Json::object();
@@ -64,6 +64,7 @@ Json to_json(const CohortVerdict& verdict) {
             {"contradictions", Json::array()},
             {"specimens", verdict.specimens},
             {"p_values", verdict.p_values},
+            {"likeness", verdict.likeness},
             {"matrix", Json::array()}};
   for (const CohortReason& one : verdict.reasons)
     json["reasons"].push_back({{"code", code_of(one.kind)}, {"text", one.text}});
