@@ -84,8 +84,8 @@ TEST(Evidence, RefusesWhatIsNoRecord) {
     }
     return "";
   };
-  EXPECT_THAT(refused("{}"), HasSubstr("shard_3.json: not the evidence of a specimen"));
-  EXPECT_THAT(refused(R"({"format": 7})"), HasSubstr("found format 7, expected 1"));
+  EXPECT_THAT(refused("{}"), HasSubstr("expected the evidence of a specimen as this version writes it"));
+  EXPECT_THAT(refused(R"({"format": 7})"), HasSubstr("shard_3.json: found a record of another format"));
 }
 
 }  // namespace

@@ -295,12 +295,12 @@ const char* code_of(CohortReasonKind kind) {
 
 CohortVerdict combine(std::span<const SpecimenEvidence> given, std::span<const Factor> factors,
                       const Request& request) {
-  if (given.empty()) throw InputError("a cohort of no specimens has no verdict. Give it one at least");
+  if (given.empty()) throw InputError("a cohort of no specimens has no verdict. Name one specimen at least");
   const Specimens specimens = in_order(given);
   CohortVerdict found;
   for (std::size_t s = 0; s < specimens.size(); ++s) {
     if (s > 0 && specimens[s]->id == specimens[s - 1]->id)
-      throw InputError(fmt::format("two specimens have the id '{}'. Give each its own", specimens[s]->id));
+      throw InputError(fmt::format("two specimens have the id '{}'. Name each differently", specimens[s]->id));
     found.specimens.push_back(specimens[s]->id);
     found.p_values.push_back(specimens[s]->p_value);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cohort_diagnosis/evidence_json.hpp"
 
+#include <stdexcept>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +15,12 @@ using Json = nlohmann::ordered_json;
 using diagnosis::Verdict;
 
 constexpr int record_format = 1;
+
+/// What is wrong with a record, for the sentence that says so.
+struct NoRecord : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 constexpr Verdict verdicts[] = {Verdict::nothing_detected, Verdict::named, Verdict::indistinguishable, Verdict::unknown,
                                 Verdict::suspect_data};
 
@@ -71,7 +79,7 @@ Profile profile_from(const Json& json) {
   profile.even = json.contains("even");
   profile.up = half_from(json.at("up"));
   profile.down = half_from(json.at("down"));
-  if (!profile.up && !profile.down) throw InputError("a profile has no side");
+  if (!profile.up && !profile.down) throw NoRecord("a profile without a side");
   return profile;
 }
 
@@ -79,17 +87,15 @@ Profile profile_from(const Json& json) {
 void check(const SpecimenEvidence& specimen) {
   const std::size_t all = specimen.vectors + specimen.shapes.size();
   if (specimen.likeness.triangle().size() != all * (all - (all > 0 ? 1 : 0)) / 2)
-    throw InputError(fmt::format("\"likeness\" has {} numbers, expected those of {} vectors",
-                                 specimen.likeness.triangle().size(), all));
+    throw NoRecord("another number of cosines than its vectors have");
   for (const Profile& profile : specimen.profiles)
     for (const std::optional<Half>* half : {&profile.up, &profile.down})
       if (*half && ((*half)->vector >= specimen.vectors || !((*half)->length > 0)))
-        throw InputError(fmt::format("a profile of '{}' has no vector or no length", profile.id));
+        throw NoRecord("a profile without a vector, or without a length");
       else if (*half && (*half)->left && *(*half)->left >= specimen.left.size())
-        throw InputError(fmt::format("a profile of '{}' leaves what is not there", profile.id));
+        throw NoRecord("a profile that leaves what is not there");
   for (const auto& one : specimen.left)
-    if (one.size() != all)
-      throw InputError(fmt::format("an entry of \"left\" has {} numbers, expected {}", one.size(), all));
+    if (one.size() != all) throw NoRecord("a refit that leaves something along another number of vectors");
 }
 
 }  // namespace
@@ -120,7 +126,7 @@ Json to_json(const SpecimenEvidence& specimen) {
 SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) {
   try {
     if (const int format = json.at("format").get<int>(); format != record_format)
-      throw InputError(fmt::format("found format {}, expected {}", format, record_format));
+      throw NoRecord("a record of another format");
     SpecimenEvidence found;
     found.id = json.at("id").get<std::string>();
     found.p_value = json.at("p_value").get<double>();
@@ -132,7 +138,7 @@ SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) 
         found.verdict = one;
         known = true;
       }
-    if (!known) throw InputError(fmt::format("found the verdict '{}', which there is not", verdict));
+    if (!known) throw NoRecord("a verdict that there is not");
     found.causes = json.at("causes").get<std::vector<std::string>>();
     found.ambiguity_set = json.at("ambiguity_set").get<std::vector<std::string>>();
     found.pairs = json.at("pairs").get<std::vector<std::vector<std::string>>>();
@@ -148,11 +154,11 @@ SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) 
     found.left = json.at("left").get<std::vector<std::vector<std::int32_t>>>();
     check(found);
     return found;
-  } catch (const nlohmann::json::exception& problem) {
+  } catch (const std::exception& problem) {
     throw InputError(
-        fmt::format("{}: not the evidence of a specimen ({}). Diagnose the specimen again", where, problem.what()));
-  } catch (const InputError& problem) {
-    throw InputError(fmt::format("{}: {}. Diagnose the specimen again", where, problem.what()));
+        fmt::format("{}: found {}, expected the evidence of a specimen as this version writes it. Use the file "
+                    "that it wrote, or diagnose the specimen again",
+                    where, problem.what()));
   }
 }
 

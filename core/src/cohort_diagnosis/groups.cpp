@@ -37,7 +37,7 @@ std::vector<Level> levels_of(const Specimens& specimens, std::span<const Factor>
       const auto found = factors[f].level.find(specimen->id);
       if (found == factors[f].level.end())
         throw InputError(
-            fmt::format("the factor '{}' has no level for the specimen '{}'. Give every specimen one, or "
+            fmt::format("the factor '{}' has no level for the specimen '{}'. Add one, or "
                         "leave the factor out",
                         factors[f].name, specimen->id));
       names.insert(found->second);
