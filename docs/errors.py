@@ -43,7 +43,7 @@ SUBJECTS = [
      ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
-    ("Diagnosis", "", ["core/src/diagnosis/"]),
+    ("Diagnosis", "", ["core/src/diagnosis/", "core/src/cohort_diagnosis/"]),
     ("Cohorts", "", ["core/src/cohort/"]),
     ("Reports", "", ["core/src/report/"]),
     ("Plugins that are refused", "Exit code 3 where the file was named with --plugin-path, else a warning.",
