@@ -36,12 +36,15 @@ SUBJECTS = [
       "core/src/assembly/objective", "core/src/calibration/", "core/src/search/calibration_problem", "core/src/execution/plan",
       "core/src/comparison/uncertainty", "core/src/comparison/stability_map"]),
     ("Running and resuming", "Folders of results, checkpoints, the journal of evaluations.", ["core/src/execution/"]),
+    ("Statistics of a cohort", "The cohort is refused as a whole; a specimen that fails alone is listed instead.",
+     ["core/src/population/"]),
     ("Evaluations that fail", "No errors of the program: such a point is counted, and the search goes on as "
      "`on_failure` says. They stand in evaluations.csv, and in the warning about failed evaluations.",
      ["core/src/assembly/", "core/src/search/", "core/src/uncertainty/", "core/include/tunica/detail/free_strip", "core/src/stability/"]),
     ("Warnings about results", "Printed after a run, first in report.html and in result.json.",
      ["core/src/comparison/"]),
-    ("Diagnosis", "", ["core/src/diagnosis/"]),
+    ("Diagnosis", "", ["core/src/diagnosis/", "core/src/cohort_diagnosis/"]),
+    ("Cohorts", "", ["core/src/cohort/"]),
     ("Reports", "", ["core/src/report/"]),
     ("Plugins that are refused", "Exit code 3 where the file was named with --plugin-path, else a warning.",
      ["core/src/plugins/"]),
@@ -58,7 +61,7 @@ NOT_MESSAGES = ["core/src/conformance/function", "core/src/conformance/constrain
 RETURNS = ("core/src/plugins/", "core/src/execution/files", "apps/tunica/session")
 
 # A clause that begins so tells what to do or what is expected.
-DO = ("Add Allow Check Choose Close Correct Define Enlarge Expected Finish Fit Fix Free Give Hold Impose "
+DO = ("Add Allow Bind Check Choose Close Correct Define Enlarge Expected Fill Finish Fit Fix Free Give Hold Impose "
       "Install Keep Leave Let Link List Look Make Map Mend Mount Move Name Narrow Pass Put Raise Rebuild Remove "
       "Rename Resume Run Save Say See Select Set Share Start State Strike Swap Take Use Wait Widen Write").split()
 EXPECT = ["0 leaves it", "A fixed parameter is", "A map has", "A stage is", "A standard deviation is", "A stretch is",

@@ -12,12 +12,14 @@
 #include "cohort/collection.hpp"
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
+#include "cohort/study_output.hpp"
 #include "cohort/tables.hpp"
 #include "cohort_cluster.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "report/report.hpp"
 #include "stages.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -45,12 +47,19 @@ struct Opened {
       : cohort(cohort::read_specification(file)), table(cohort::read_specimens(cohort)), pattern(cohort, table) {}
 };
 
-void write_results(const Opened& opened, const cohort::Collection& found, const std::filesystem::path& results) {
+void write_results(const Opened& opened, const cohort::Collection& found, const cohort::Study& study,
+                   const std::filesystem::path& results) {
+  execution::write_atomically(results / "cohort.json", opened.cohort.text);
   execution::write_atomically(results / "parameters.csv", cohort::parameter_table(opened.table, found));
   execution::write_atomically(results / "specimens.csv", cohort::specimen_table(opened.table, found));
+  execution::write_atomically(results / "population.csv", cohort::population_table(study));
+  execution::write_atomically(results / "shrunken.csv", cohort::shrunken_table(opened.table, study));
+  cohort::write_bands(results, study);
+  execution::write_atomically(results / "result.json", cohort::study_json(opened.cohort, opened.table, found, study));
 }
 
-int merge(const GlobalOptions&, const Session& session, const Opened& opened, const std::filesystem::path& results) {
+int merge(const GlobalOptions& global, const Session& session, const Opened& opened,
+          const std::filesystem::path& results) {
   const auto found = cohort::collect(opened.cohort, opened.table, opened.pattern, session.catalogue(), results);
   if (!found.missing.empty())
     throw InputError(
@@ -58,8 +67,16 @@ int merge(const GlobalOptions&, const Session& session, const Opened& opened, co
                     "`tunica cohort {} -o {}`, which makes what is missing",
                     results.string(), found.missing.size(), opened.table.specimens.size(),
                     opened.table.specimens[found.missing.front()].id, opened.cohort.file.string(), results.string()));
-  write_results(opened, found, results);
-  fmt::print("{}Results:  {}\n", cohort::outcome_words(opened.table, found), results.string());
+  cohort::Study study;
+  {
+    Stages stages(global.quiet);
+    study = cohort::study(opened.cohort, opened.table, opened.pattern, found, session.catalogue(),
+                          [&stages](const std::string& what, double share) { stages.tell(what, share); });
+  }
+  write_results(opened, found, study, results);
+  const auto page = report::write_report(results);
+  fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
+             cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
@@ -90,7 +107,7 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
                options.file, results.string(), options.share.empty() ? "" : " --shard " + options.share);
     return interrupted;
   }
-  if (share.of > 1) {
+  if (!options.share.empty()) {  // one of one, too: its limits on a cluster are those of fits
     fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    tunica cohort merge {} -o {}\n", share.part,
                share.of, outcome.fitted, outcome.specimens, options.file, results.string());
     return done;

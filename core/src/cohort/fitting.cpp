@@ -58,6 +58,15 @@ Record::Run run_of(const comparison::RunSummary& summary, const assembly::Layout
   return run;
 }
 
+/// Of measured values over their first abscissa, as a person would compare two curves: whatever the files look like.
+std::string hash_of_curves(const assembly::Layout& layout) {
+  std::string curves;
+  for (const assembly::MeasuredChannel& view : layout.channels)
+    for (std::size_t row = 0; row < view.count; ++row)
+      curves += fmt::format("{:.10g} {:.10g}\n", view.abscissa[row], view.measured[row]);
+  return data::sha256(curves);
+}
+
 std::vector<execution::RunResult> search(const execution::Plan& plan, const std::function<bool()>& interrupted) {
   execution::Surroundings surroundings;
   surroundings.record = [](const search::Record&) {};
@@ -75,6 +84,7 @@ std::vector<execution::RunResult> search(const execution::Plan& plan, const std:
 void fit_into(Record& record, const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
               const std::filesystem::path& folder, const FitSettings& settings) {
   const auto plan = execution::make_plan(experiment, catalogue);
+  record.data = hash_of_curves(plan.runs.front().assembly->layout());
   const auto summary = comparison::summarise(plan, search(plan, settings.interrupted), settings.refusals);
   for (std::size_t k = 0; k < summary.runs.size(); ++k)
     record.runs.push_back(run_of(summary.runs[k], plan.runs[k].assembly->layout()));
@@ -118,10 +128,11 @@ Bound bind(const Specification& cohort, const Template& pattern, const Specimen&
   calibration::Overrides overrides;
   overrides.seed = derive_seed(cohort.seed, "specimen " + specimen.id);
   calibration::apply(overrides, experiment);
-  std::string all = fmt::format("{}\n{}\n{}\n", comparison::version(), *overrides.seed, text);
+  const std::string all = fmt::format("{}\n{}\n{}\n", comparison::version(), *overrides.seed, text);
+  std::string files;
   for (const experiment::TestEntry& test : experiment.tests)
-    for (const auto& file : test.data.files) all += data::sha256(data::read_bytes(file)) + "\n";
-  bound.inputs = data::sha256(all);
+    for (const auto& file : test.data.files) files += data::sha256(data::read_bytes(file)) + "\n";
+  bound.inputs = data::sha256(all + files);
   return bound;
 }
 

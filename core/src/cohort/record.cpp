@@ -95,6 +95,7 @@ std::string to_json(const Record& record) {
   const Json json = {{"format", 1},
                      {"id", record.id},
                      {"inputs", record.inputs},
+                     {"data", record.data},
                      {"outcome", std::string(text::code_of(outcome_codes, record.outcome))},
                      {"reason", record.reason},
                      {"warnings", warnings},
@@ -112,6 +113,7 @@ std::optional<Record> record_of(const std::string& text) {
     Record record;
     record.id = json.at("id");
     record.inputs = json.at("inputs");
+    record.data = json.at("data");
     record.outcome = *outcome;
     record.reason = json.at("reason");
     for (const Json& one : json.at("warnings")) record.warnings.push_back({one.at("kind"), one.at("text")});

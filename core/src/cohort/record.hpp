@@ -55,6 +55,7 @@ struct Record {
   };
   std::string id;
   std::string inputs;  ///< hash of all that decides the result: experiment, data, seed, version
+  std::string data;    ///< hash of the measured curves alone
   Outcome outcome = Outcome::failed;
   std::string reason;  ///< of anything but `fitted`
   std::vector<Warning> warnings;

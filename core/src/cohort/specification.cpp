@@ -77,12 +77,13 @@ ReadingEntry read_reading(const std::string& name, const Node& node) {
     if (!at) continue;
     ++kinds;
     reading.kind = kind;
+    reading.at.clear();
     if (kind == ReadingKind::value)
       reading.at = {cell_text(*at)};
     else
       for (const Node& one : at->elements("a list of two values, from and to,")) reading.at.push_back(cell_text(one));
     if (reading.at.size() != (kind == ReadingKind::value ? 1U : 2U))
-      at->fail_expected("a list of two values, from and to,");
+      at->fail(fmt::format("found a list of {} where two values, from and to, are expected", reading.at.size()));
   }
   if (kinds != 1)
     node.fail(fmt::format("the reading '{}' has {} of the keys at, slope, integral", name, kinds),

@@ -38,7 +38,7 @@ Template::Template(const Specification& cohort, const SpecimenTable& table)
   for (const Binding& binding : cohort.bindings) {
     if (!binding.pointer.starts_with('/'))
       throw InputError(
-          fmt::format("{}: '{}' is no JSON pointer. It begins with '/', for example "
+          fmt::format("{}: '{}' is no JSON pointer. Write a path that begins with '/', for example "
                       "/tests/strip/data/file",
                       binding.place, binding.pointer));
     const auto extent = document.extent(binding.pointer);

@@ -3,6 +3,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -17,6 +18,10 @@ double student_quantile(double probability, double freedom) {
 }
 
 double student_above(double x, double freedom) { return math::cdf(math::complement(math::students_t(freedom), x)); }
+
+double noncentral_student_above(double x, double freedom, double noncentrality) {
+  return math::cdf(math::complement(math::non_central_t(freedom, noncentrality), x));
+}
 
 double chi_squared_quantile(double probability, double freedom) {
   return math::quantile(math::chi_squared(freedom), probability);

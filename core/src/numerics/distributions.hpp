@@ -7,6 +7,7 @@ namespace tunica::numerics {
 double normal_quantile(double probability);
 double student_quantile(double probability, double freedom);
 double student_above(double x, double freedom);  ///< P(t > x)
+double noncentral_student_above(double x, double freedom, double noncentrality);
 
 double chi_squared_quantile(double probability, double freedom);
 double chi_squared_below(double x, double freedom);  ///< P(χ² ≤ x)

@@ -28,6 +28,7 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
   }
   read_result(file);
   if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
+  if (member(result_, "cohort").is_object()) kind_ = Kind::cohort;
 }
 
 void Folder::read_result(const std::filesystem::path& file) {
@@ -67,11 +68,15 @@ void Folder::remember(const std::string& problem) const {
     problems_.push_back(problem);
 }
 
-std::vector<std::string> Folder::tables(const std::string& prefix) const {
+std::vector<std::string> Folder::tables(const std::string& prefix) const { return tables_in("", prefix); }
+
+std::vector<std::string> Folder::tables_in(const std::string& folder, const std::string& prefix) const {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+  if (!std::filesystem::is_directory(path_ / folder)) return names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_ / folder)) {
     const std::string name = entry.path().filename().string();
-    if (entry.path().extension() == ".csv" && name.starts_with(prefix)) names.push_back(name);
+    if (entry.path().extension() == ".csv" && name.starts_with(prefix))
+      names.push_back(folder.empty() ? name : folder + "/" + name);
   }
   std::sort(names.begin(), names.end());
   return names;

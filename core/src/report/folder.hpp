@@ -15,7 +15,7 @@ namespace tunica::report {
 /// What a result folder holds, and what of it could not be read.
 class Folder {
  public:
-  enum class Kind { run, diagnosis, simulation };
+  enum class Kind { run, diagnosis, simulation, cohort };
 
   /// Throws InputError where there is no such folder, a broken result.json, or nothing to report.
   /// `address` is how the page reaches the folder, "" where the page lies in it.
@@ -31,6 +31,8 @@ class Folder {
   [[nodiscard]] std::optional<Grid> grid(const std::string& file) const;
   /// The names of the tables that begin so, in order.
   [[nodiscard]] std::vector<std::string> tables(const std::string& prefix) const;
+  /// The same of a folder in it, with the way to them.
+  [[nodiscard]] std::vector<std::string> tables_in(const std::string& folder, const std::string& prefix) const;
   [[nodiscard]] bool has(const std::string& file) const;
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 

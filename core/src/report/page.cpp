@@ -64,6 +64,10 @@ void Page::word_lists(const std::vector<std::pair<std::string, std::vector<std::
   body_ += "</dl>\n";
 }
 
+void Page::begin_fold(const std::string& summary) {
+  body_ += fmt::format("<details class=\"waits\"><summary>{}</summary><div class=\"many\">\n", escaped(summary));
+}
+
 void Page::command(const std::string& text) { body_ += fmt::format("<pre>{}</pre>\n", escaped(text)); }
 
 void Page::chart(Chart chart, const std::string& folder) {
@@ -111,6 +115,7 @@ namespace {
 std::string cell_html(const Cell& cell) {
   constexpr std::size_t long_text = 24;
   const std::string text = escaped(cell.text);
+  if (!cell.link.empty()) return fmt::format("<a href=\"{}\">{}</a>", address(cell.link), text);
   if (cell.number || text.size() <= long_text) return text;
   std::string broken;
   for (const char c : text) broken.append(1, c).append(c == '_' ? "<wbr>" : "");
@@ -134,6 +139,10 @@ std::string table_html(const std::vector<std::string>& head, const std::vector<s
     text += "</tr>";
   }
   return text + "</tbody></table></div>\n";
+}
+
+std::string sortable_html(const std::vector<std::string>& head, const std::vector<std::vector<Cell>>& rows) {
+  return "<div class=\"sortable\">" + table_html(head, rows) + "</div>\n";
 }
 
 }  // namespace tunica::report

@@ -33,6 +33,9 @@ class Page {
   /// Draws it where it is put in; nothing for an empty chart. Its tables are looked for in `folder`, an address
   /// relative to the page.
   void chart(Chart chart, const std::string& folder = "");
+  /// A fold whose charts are drawn when it is opened, beside each other as many as there is room for.
+  void begin_fold(const std::string& summary);
+  void end_fold() { body_ += "</div></details>\n"; }
   void begin_pair() { body_ += "<div class=\"pair\">"; }
   void end_pair() { body_ += "</div>\n"; }
 
@@ -52,7 +55,10 @@ class Page {
 struct Cell {
   std::string text;
   bool number = false, bad = false;
+  std::string link = {};  ///< relative address
 };
+/// The same as a table that the reader can sort and filter.
+std::string sortable_html(const std::vector<std::string>& head, const std::vector<std::vector<Cell>>& rows);
 /// The table as HTML; the rows of `first` stand out.
 std::string table_html(const std::vector<std::string>& head, const std::vector<std::vector<Cell>>& rows,
                        const std::vector<bool>& first = {});

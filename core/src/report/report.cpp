@@ -19,11 +19,23 @@ void add_folder(Page& page, const Folder& folder) {
       return add_diagnosis(page, folder);
     case Folder::Kind::simulation:
       return add_simulation(page, folder);
+    case Folder::Kind::cohort:
+      return add_cohort(page, folder);
   }
 }
 
 const char* word_of(Folder::Kind kind) {
-  return kind == Folder::Kind::run ? "calibration" : kind == Folder::Kind::diagnosis ? "diagnosis" : "simulation";
+  switch (kind) {
+    case Folder::Kind::run:
+      return "calibration";
+    case Folder::Kind::diagnosis:
+      return "diagnosis";
+    case Folder::Kind::simulation:
+      return "simulation";
+    case Folder::Kind::cohort:
+      return "cohort";
+  }
+  return "";
 }
 
 }  // namespace

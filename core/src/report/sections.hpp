@@ -30,6 +30,13 @@ void add_reach(Page& page, const Folder& folder);
 
 void add_simulation(Page& page, const Folder& folder);
 
+void add_cohort(Page& page, const Folder& folder);
+void add_bands(Page& page, const Folder& folder);
+/// Estimates of every specimen by group, of each parameter and reading.
+void add_specimen_estimates(Page& page, const Folder& folder);
+/// Data and fit of every specimen, drawn when someone opens the fold.
+void add_specimen_fits(Page& page, const Folder& folder);
+
 /// Several folders beside each other, before each by itself.
 void add_comparison(Page& page, const std::vector<Folder>& folders);
 

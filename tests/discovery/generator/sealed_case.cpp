@@ -15,23 +15,8 @@
 namespace blind {
 namespace {
 
-std::mt19937_64 stream(const std::string& text) {
-  std::seed_seq sequence(text.begin(), text.end());
-  return std::mt19937_64(sequence);
-}
-
 /// What one of two effects has to leave unexplained by the other, Λ (1 − c²), for the data to tell that both are there.
 constexpr double least_remainder = 25;
-
-/// What acts on the same term of the energy has no agreed order.
-bool compatible(const std::string& a, const std::string& b) {
-  const auto is = [&](const char* x, const char* y) { return (a == x && b == y) || (a == y && b == x); };
-  return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment") &&
-         !is("stress_softening", "viscoelasticity") && !is("permanent_set", "stress_softening") &&
-         !is("permanent_set", "viscoelasticity") && !is("permanent_set", "reference_length_error") &&
-         !is("permanent_set", "force_offset") && !is("permanent_set", "signal_drift") &&
-         !is("permanent_set", "outliers");
-}
 
 ScaledEffect hide(const SealedCase& made, const Effect& effect, std::mt19937_64& random) {
   return dial(made.specimen, made.noise, draw(effect, made.specimen, random), made.order.lambda);
@@ -82,6 +67,20 @@ std::map<std::string, std::vector<std::size_t>> mixed_rows(const Protocol& proto
 }
 
 }  // namespace
+
+std::mt19937_64 stream(const std::string& text) {
+  std::seed_seq sequence(text.begin(), text.end());
+  return std::mt19937_64(sequence);
+}
+
+bool compatible(const std::string& a, const std::string& b) {
+  const auto is = [&](const char* x, const char* y) { return (a == x && b == y) || (a == y && b == x); };
+  return a != b && !is("matrix_stiffening", "chain_extensibility") && !is("fibre_dispersion", "fibre_recruitment") &&
+         !is("stress_softening", "viscoelasticity") && !is("permanent_set", "stress_softening") &&
+         !is("permanent_set", "viscoelasticity") && !is("permanent_set", "reference_length_error") &&
+         !is("permanent_set", "force_offset") && !is("permanent_set", "signal_drift") &&
+         !is("permanent_set", "outliers");
+}
 
 std::string CaseOrder::text() const {
   std::string words = fmt::format("{} {} {} {:g} {} {}", seed, set, effect, lambda, index, fmt::join(noise, "+"));

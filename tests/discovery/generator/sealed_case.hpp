@@ -46,6 +46,15 @@ struct SealedCase {
 };
 SealedCase make(const CaseOrder& order);
 
+/// What is sealed: the truth as text.
+std::string truth_of(const SealedCase& made, const std::string& name);
+/// experiment.json and data, which are all that who judges may see.
+void write_measured(const SealedCase& made, const std::string& name, const std::filesystem::path& folder);
+
+/// What acts on the same term of the energy has no agreed order, and is not hidden together.
+bool compatible(const std::string& a, const std::string& b);
+std::mt19937_64 stream(const std::string& text);
+
 /// DIR/<name>/: experiment.json, data, truth.sha256; and DIR/sealed/<name>.json. The case folder appears at once and
 /// last, so that an interrupted run leaves none that is incomplete. With `oracle` also DIR/sealed/<name>.oracle.json.
 /// True unless all was there already.

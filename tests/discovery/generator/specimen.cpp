@@ -192,9 +192,15 @@ Specimen draw_specimen(std::mt19937_64& random, Base base, const std::string& pr
   if (isotropic(base) != (protocol == "rubber"))
     throw std::invalid_argument("base " + name_of(base) + " with protocol " + protocol +
                                 ": rubber is yeoh or ogden, and walls and sheets have fibres");
+  Tissue tissue;
+  tissue.base = base;
+  isotropic(base) ? draw_rubber(tissue, random) : draw_wall(tissue, random);
+  return laid_out(tissue, protocol, random);
+}
+
+Specimen laid_out(const Tissue& tissue, const std::string& protocol, std::mt19937_64& random) {
   Specimen made;
-  made.tissue.base = base;
-  isotropic(base) ? draw_rubber(made.tissue, random) : draw_wall(made.tissue, random);
+  made.tissue = tissue;
   if (protocol == "artery") lay_out_artery(made, random);
   if (protocol == "sheets") lay_out_sheets(made);
   if (protocol == "rubber") lay_out_rubber(made, random);

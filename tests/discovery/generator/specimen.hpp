@@ -16,6 +16,8 @@ struct Specimen {
   Protocol protocol;
 };
 Specimen draw_specimen(std::mt19937_64& random, Base base = Base::hgo, const std::string& protocol = "artery");
+/// The tests of a protocol on this tissue, each up to what it bears.
+Specimen laid_out(const Tissue& tissue, const std::string& protocol, std::mt19937_64& random);
 /// artery, sheets, rubber.
 const std::vector<std::string>& protocol_names();
 

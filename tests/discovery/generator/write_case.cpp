@@ -264,6 +264,14 @@ Json sealed(const SealedCase& made, const std::string& name) {
 
 }  // namespace
 
+std::string truth_of(const SealedCase& made, const std::string& name) { return sealed(made, name).dump(1) + "\n"; }
+
+void write_measured(const SealedCase& made, const std::string& name, const fs::path& folder) {
+  fs::create_directories(folder);
+  write_text(folder / "experiment.json", experiment(made, name).dump(1) + "\n");
+  write_data(made, folder);
+}
+
 bool write(const CaseOrder& order, const fs::path& folder, bool oracle) {
   const std::string name = order.name();
   const fs::path place = folder / name, truth = folder / "sealed" / (name + ".json"),
@@ -289,11 +297,10 @@ bool write(const CaseOrder& order, const fs::path& folder, bool oracle) {
   fs::remove_all(unfinished);
   fs::remove_all(place);
   fs::create_directories(unfinished);
-  const std::string text = sealed(made, name).dump(1) + "\n";
+  const std::string text = truth_of(made, name);
   write_text(truth, text);
   write_text(unfinished / "truth.sha256", sha256(text) + "\n");
-  write_text(unfinished / "experiment.json", experiment(made, name).dump(1) + "\n");
-  write_data(made, unfinished);
+  write_measured(made, name, unfinished);
   fs::rename(unfinished, place);
   return true;
 }

@@ -110,12 +110,12 @@ std::vector<double> Extension::at_null(std::span<const double> base) const {
   return free;
 }
 
-std::vector<Variable> Extension::variables() const {
+std::vector<Variable> Extension::variables(bool with_nuisance) const {
   std::vector<Variable> all;
   for (const std::size_t j : base_) all.push_back({j});
   for (const Part& part : parts_) {
     all.push_back(part.amplitude);
-    all.insert(all.end(), part.nuisance.begin(), part.nuisance.end());
+    if (with_nuisance) all.insert(all.end(), part.nuisance.begin(), part.nuisance.end());
   }
   return all;
 }

@@ -45,7 +45,7 @@ void take_over(const Refit& from, const assembly::Assembly& onto, std::vector<do
 }  // namespace
 
 std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, std::vector<Addition> additions,
-                              std::span<const double> amplitudes, const Refit* from) {
+                              std::span<const double> amplitudes, const Refit* from, Nuisance nuisance) {
   const Evidence& evidence = analysis.evidence;
   const bool quick = inquiry.request.quick;
   Refit refit;
@@ -59,7 +59,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
   const Extension& extended = *refit.extension;
   const auto& parameters = extended.assembly().layout().parameters;
   const auto workspace = extended.assembly().evaluator().make_workspace();
-  const std::vector<Variable> variables = extended.variables();
+  const std::vector<Variable> variables = extended.variables(nuisance == Nuisance::fitted);
 
   // What the parameters of the base do when the effect is added: J Δ = −Σ s δ.
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(evidence.fit.residuals.size());

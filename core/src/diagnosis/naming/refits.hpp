@@ -20,9 +20,12 @@ struct Refit {
 
 /// Fits the parameters again with the additions, from what the linearisation says and from a smaller amplitude; none
 /// where neither can be evaluated. `amplitudes` are differences from the nulls (even: squares). With `from`, a refit
-/// with all additions but the last, first from where that one ended.
+/// with all additions but the last, first from where that one ended. Nuisance parameters are fitted, or stay as the
+/// additions have them.
+enum class Nuisance { fitted, held };
 std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, std::vector<Addition> additions,
-                              std::span<const double> amplitudes, const Refit* from = nullptr);
+                              std::span<const double> amplitudes, const Refit* from = nullptr,
+                              Nuisance nuisance = Nuisance::fitted);
 
 /// What a missing effect has driven to a bound of the base fit may stay there, though with the effect it is there no
 /// longer: at θ = 0 two families of fibres are one, and no derivative leads away. Where the base fit has such a

@@ -29,21 +29,39 @@
   };
 
   const spent = () => Math.round(performance.now() - began);
+  const make = async (element) => {
+    try {
+      vega = vega || tunicaReport.vega();
+      const figure = new tunicaReport.Figure(element, charts[Number(element.dataset.chart)], vega);
+      await figure.draw();
+      figures.push(figure);
+    } catch (problem) {
+      fail(element, problem);
+    }
+  };
+  const count = () => {
+    root.dataset.drawn = figures.length;
+    root.dataset.failed = failed;
+  };
+  // Charts in a fold that waits are drawn when someone opens it.
+  for (const fold of document.querySelectorAll("details.waits"))
+    fold.addEventListener("toggle", async () => {
+      if (!fold.open || fold.dataset.drawn) return;
+      fold.dataset.drawn = "yes";
+      for (const element of fold.querySelectorAll("figure[data-chart]")) {
+        await make(element);
+        await pause();
+      }
+      count();
+    });
   const start = async () => {
     for (const element of document.querySelectorAll("figure[data-chart]")) {
-      try {
-        vega = vega || tunicaReport.vega();
-        const figure = new tunicaReport.Figure(element, charts[Number(element.dataset.chart)], vega);
-        await figure.draw();
-        figures.push(figure);
-      } catch (problem) {
-        fail(element, problem);
-      }
+      if (element.closest("details.waits:not([open])")) continue;
+      await make(element);
       if (!root.dataset.first && element.getBoundingClientRect().top > innerHeight) root.dataset.first = spent();
       await pause();
     }
-    root.dataset.drawn = figures.length;
-    root.dataset.failed = failed;
+    count();
     root.dataset.milliseconds = spent();
   };
 

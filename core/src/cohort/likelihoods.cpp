@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cohort/likelihoods.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+
+#include "cohort/index.hpp"
+#include "cohort/mode.hpp"
+#include "numerics/eigenpairs.hpp"
+
+namespace tunica::cohort {
+
+namespace {
+
+/// What the expansions share; each specimen writes its own entries only.
+struct Shared {
+  std::map<std::string, std::size_t> channel;  ///< number of each name
+  std::size_t count = 0;                       ///< channels, priors the last
+  std::vector<double> common;                  ///< σ of a channel for all specimens; 0 = its own
+  std::vector<Eigen::VectorXd> last;           ///< where each specimen's search ended
+};
+
+Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& precision) {
+  const numerics::Eigenpairs pairs = numerics::eigenpairs(precision);
+  return pairs.vectors * pairs.values.cwiseInverse().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// The likelihood may have been made anew, with the noise of its own fit.
+void set_noise(const Shared& shared, SpecimenLikelihood& one) {
+  for (std::size_t c = 0; c < one.channels().size(); ++c)
+    if (const double common = shared.common[shared.channel.at(one.channels()[c])];
+        common > 0 && !one.noise_is_stated(c))
+      one.scale_noise(c, common / one.noise(c));
+}
+
+std::optional<population::Expansion> expansion_of(const population::Prior& prior, const Shared& shared,
+                                                  const Eigen::VectorXd& start, SpecimenLikelihood& one) {
+  std::vector<double> noise;
+  for (const std::string& name : one.channels()) noise.push_back(std::sqrt(prior.variances[shared.channel.at(name)]));
+  Mode mode = most_likely(one, prior.mean, root_of_inverse(prior.precision), noise, start);
+  if (!mode.status.ok()) return {};
+  const Eigen::Index p = mode.at.size();
+  const population::Quadratic nothing{Eigen::MatrixXd::Zero(p, p), Eigen::VectorXd::Zero(p), 0, 0};
+  population::Expansion expansion{mode.at, std::vector<population::Quadratic>(shared.count, nothing), 0};
+  for (std::size_t c = 0; c < mode.channels.size(); ++c) {
+    ChannelSquares& squares = mode.channels[c];
+    if (squares.rows == 0) continue;
+    const bool prior_rows = c == one.channels().size();
+    expansion.channels[prior_rows ? shared.count - 1 : shared.channel.at(one.channels()[c])] = {
+        std::move(squares.information), std::move(squares.gradient), squares.squares,
+        static_cast<double>(squares.rows)};
+  }
+  expansion.normalisation = one.log_noise() + static_cast<double>(one.rows()) * std::log(2 * std::numbers::pi);
+  return expansion;
+}
+
+/// σ of each channel that is not stated, quadratic mean over the specimens.
+void share_noise(Likelihoods& likelihoods, Shared& shared) {
+  std::vector<std::vector<double>> sigma(likelihoods.count());
+  likelihoods.for_each([&](std::size_t i, SpecimenLikelihood& one) {
+    sigma[i].assign(shared.count, 0);
+    for (std::size_t c = 0; c < one.channels().size(); ++c)
+      if (!one.noise_is_stated(c)) sigma[i][shared.channel.at(one.channels()[c])] = one.noise(c);
+  });
+  for (std::size_t c = 0; c + 1 < shared.count; ++c) {
+    double squares = 0, count = 0;
+    for (const auto& of_specimen : sigma) {
+      squares += of_specimen[c] * of_specimen[c];
+      count += of_specimen[c] > 0 ? 1 : 0;
+    }
+    if (count > 0) shared.common[c] = std::sqrt(squares / count);
+  }
+}
+
+}  // namespace
+
+Likelihoods::Likelihoods(std::size_t count, Make make) : count_(count), make_(std::move(make)) {
+  if (count <= most_kept) kept_.resize(count);
+}
+
+void Likelihoods::with(std::size_t specimen, const std::function<void(SpecimenLikelihood&)>& call) {
+  if (kept_.empty()) {
+    const auto once = make_(specimen);
+    return call(*once);
+  }
+  if (!kept_[specimen]) kept_[specimen] = make_(specimen);
+  call(*kept_[specimen]);
+}
+
+void Likelihoods::for_each(const std::function<void(std::size_t, SpecimenLikelihood&)>& call) {
+  tbb::parallel_for(std::size_t{0}, count_,
+                    [&](std::size_t k) { with(k, [&](SpecimenLikelihood& one) { call(k, one); }); });
+}
+
+void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohort& cohort) {
+  const auto shared = std::make_shared<Shared>();
+  shared->last.resize(likelihoods.count());
+  std::vector<std::vector<std::string>> names(likelihoods.count());
+  likelihoods.for_each([&](std::size_t i, SpecimenLikelihood& one) {
+    names[i] = one.channels();
+    shared->last[i] = one.best();
+  });
+  for (const auto& of_specimen : names)
+    for (const std::string& name : of_specimen)
+      if (shared->channel.try_emplace(name, shared->channel.size()).second)
+        cohort.channels.push_back({name, noise == NoisePool::cohort});
+  cohort.channels.push_back({"priors", false});
+  shared->count = cohort.channels.size();
+  shared->common.assign(shared->count, 0);
+  if (noise == NoisePool::cohort) share_noise(likelihoods, *shared);
+  likelihoods.with(0, [&](SpecimenLikelihood& one) {
+    for (const assembly::FreeParameter& parameter : one.layout().parameters)
+      cohort.parameters.push_back({parameter.name, parameter.scale == Scale::log,
+                                   parameter.scale == Scale::log ? 1 : 0.25 * (parameter.max - parameter.min)});
+  });
+  cohort.start = Eigen::VectorXd::Zero(shared->last.front().size());
+  for (const Eigen::VectorXd& one : shared->last) cohort.start += one / static_cast<double>(shared->last.size());
+  cohort.expand = [&likelihoods, shared](std::size_t i, const population::Prior& prior) {
+    std::optional<population::Expansion> found;
+    likelihoods.with(i, [&](SpecimenLikelihood& one) {
+      set_noise(*shared, one);
+      found = expansion_of(prior, *shared, shared->last[i], one);
+      if (found) shared->last[i] = found->point;
+    });
+    return found;
+  };
+}
+
+}  // namespace tunica::cohort

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "report/sections.hpp"
+#include "report/thinning.hpp"
+#include "text/units.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+constexpr std::size_t points_of_small = 60;  ///< of a small curve
+constexpr std::size_t most_measured = 40;    ///< specimens whose data lie under a band
+constexpr std::size_t most_fits = 500;       ///< small multiples
+
+/// The name of a specimen's group as populations have it: its levels of the factors.
+std::vector<std::string> factors_of(const Json& population) {
+  std::vector<std::string> names;
+  for (const Json& test : list(member(population, "parameters"), "factors")) names.push_back(word(test, "factor"));
+  return names;
+}
+
+std::string group_of(const Table& table, std::size_t row, const std::vector<std::string>& factors) {
+  std::string name;
+  for (const std::string& factor : factors) name += (name.empty() ? "" : ", ") + table.text(row, factor);
+  return name.empty() ? "all" : name;
+}
+
+const Json& cohort(const Folder& folder) { return member(folder.result(), "cohort"); }
+
+/// One estimate of one specimen.
+struct Point {
+  std::string specimen, group;
+  double value, low, high, shrunken;
+};
+
+/// Specimens one beside the other, groups apart: own estimate with interval, with the help of the others, and the
+/// typical specimen with its interval.
+Chart estimate_chart(const std::string& name, const std::string& unit, bool log, const std::vector<Point>& points,
+                     const Json& means) {
+  Chart chart;
+  chart.title = name;
+  chart.id = "estimates_" + name;
+  chart.about = fmt::format("{} of every specimen, group by group", name);
+  chart.x.title = "specimens, by group";
+  chart.y = {text::titled(name, unit), log, {}, {}};
+  std::vector<std::string> groups;
+  for (const auto& entry : means.items()) groups.push_back(entry.key());
+  double at = 0;
+  int style = 0;
+  for (const std::string& group : groups) {
+    Series own{group, "points", style}, helped{group + ", with the others' help", "points", style};
+    Series typical{group, "line", style};
+    helped.faint = true;
+    const double begin = at;
+    for (const Point& point : points) {
+      if (point.group != group) continue;
+      own.x.push_back(at);
+      own.y.push_back(point.value);
+      if (std::isfinite(point.shrunken)) {
+        helped.x.push_back(at + 0.3);
+        helped.y.push_back(point.shrunken);
+      }
+      at += 1;
+    }
+    const Json& mean = member(means, group);
+    const Json& ci = list(mean, "ci95");
+    for (const double x : {begin - 0.5, at - 0.5}) {
+      typical.x.push_back(x);
+      typical.y.push_back(number(mean, "value"));
+      typical.low.push_back(ci.size() == 2 && ci[0].is_number() ? ci[0].get<double>() : NAN);
+      typical.high.push_back(ci.size() == 2 && ci[1].is_number() ? ci[1].get<double>() : NAN);
+    }
+    if (!std::isfinite(typical.low.front())) {
+      typical.low.clear();
+      typical.high.clear();
+    }
+    chart.series.push_back(std::move(typical));
+    chart.series.push_back(std::move(own));
+    if (!helped.x.empty()) {
+      helped.hidden = true;
+      chart.series.push_back(std::move(helped));
+    }
+    at += 1.5;
+    ++style;
+  }
+  chart.legend = true;
+  chart.note = "Line and band: the typical specimen of the group with its 95 % interval.";
+  return chart;
+}
+
+void add_parameters_of(Page& page, const Folder& folder, const Json& population) {
+  const auto table = folder.table("parameters.csv");
+  const auto shrunken = folder.table("shrunken.csv");
+  if (!table) return;
+  const std::string run = word(population, "run");
+  const auto factors = factors_of(population);
+  std::map<std::pair<std::string, std::string>, double> helped;
+  for (std::size_t row = 0; shrunken && row < shrunken->rows(); ++row)
+    if (shrunken->text(row, "run") == run)
+      helped[{shrunken->text(row, "specimen"), shrunken->text(row, "parameter")}] = shrunken->number(row, "estimate");
+  for (const auto& [name, one] : member(member(population, "parameters"), "of").items()) {
+    std::vector<Point> points;
+    for (std::size_t row = 0; row < table->rows(); ++row) {
+      if (table->text(row, "run") != run || table->text(row, "parameter") != name) continue;
+      const std::string specimen = table->text(row, "specimen");
+      const auto with_help = helped.find({specimen, name});
+      points.push_back({specimen, group_of(*table, row, factors), table->number(row, "estimate"),
+                        table->number(row, "lower"), table->number(row, "upper"),
+                        with_help == helped.end() ? NAN : with_help->second});
+    }
+    Chart chart = estimate_chart(name, word(one, "unit"), word(member(one, "spread"), "scale") == "log", points,
+                                 member(one, "means"));
+    chart.id += "_" + run;
+    chart.files = {"parameters.csv", "shrunken.csv"};
+    page.chart(std::move(chart), folder.address());
+  }
+}
+
+void add_readings_of(Page& page, const Folder& folder, const Json& population) {
+  const auto table = folder.table("specimens.csv");
+  if (!table) return;
+  const auto factors = factors_of(population);
+  std::map<std::string, std::string> group;
+  for (std::size_t row = 0; row < table->rows(); ++row)
+    group[table->text(row, "specimen")] = group_of(*table, row, factors);
+  for (const auto& [name, one] : member(member(population, "readings"), "of").items()) {
+    if (!member(one, "means").is_object()) continue;
+    std::vector<Point> points;
+    for (const auto& [specimen, value] : member(one, "specimens").items())
+      points.push_back({specimen, group[specimen], number(value, "value"), NAN, NAN, NAN});
+    Chart chart = estimate_chart(name, word(one, "unit"), word(member(one, "spread"), "scale") == "log", points,
+                                 member(one, "means"));
+    chart.id += "_" + word(population, "run");
+    chart.files = {"population.csv"};
+    page.chart(std::move(chart), folder.address());
+  }
+}
+
+/// What was measured in the specimens of a group, under its band.
+Series measured_of(const Folder& folder, const std::string& file, const std::string& channel,
+                   const std::vector<std::string>& specimens) {
+  Series data{"measured", "points", -1};
+  data.faint = true;
+  for (const std::string& specimen : specimens) {
+    const auto fit = folder.table(specimen + "/" + file);
+    const auto column = fit ? fit->find(channel) : std::nullopt;
+    if (!column) continue;
+    const auto rows = fit->groups("run").front().second;
+    for (const std::size_t k : evenly(rows.size(), points_of_small)) {
+      data.x.push_back(fit->number(rows[k], std::size_t{1}));
+      data.y.push_back(fit->number(rows[k], *column));
+    }
+  }
+  return data;
+}
+
+std::map<std::string, std::vector<std::string>> folders_by_group(const Folder& folder, const Json& population) {
+  std::map<std::string, std::vector<std::string>> found;
+  const auto table = folder.table("specimens.csv");
+  for (std::size_t row = 0; table && row < table->rows(); ++row)
+    if (table->text(row, "outcome") == "fitted" && table->text(row, "run") == word(population, "run"))
+      found[group_of(*table, row, factors_of(population))].push_back("specimens/" + table->text(row, "folder"));
+  return found;
+}
+
+}  // namespace
+
+void add_bands(Page& page, const Folder& folder) {
+  const auto files = folder.tables("band_");
+  if (files.empty()) return;
+  page.section("The next specimen");
+  page.paragraph(
+      "The curve of the typical material of each group. The band holds 95 % of new specimens of new animals. Points: "
+      "what was measured in the specimens of the group.");
+  for (const Json& population : list(cohort(folder), "populations")) {
+    const std::string run = word(population, "run");
+    const auto specimens = folders_by_group(folder, population);
+    page.begin_pair();
+    for (const std::string& file : files) {
+      const auto table = folder.table(file);
+      if (!table) continue;
+      const std::string test = file.substr(5, file.size() - 9);
+      for (const auto& [channel, in_channel] : table->groups("channel"))
+        for (const auto& [group, in_group] : table->groups("group")) {
+          Chart chart;
+          chart.title = fmt::format("{}: {}, {}", test, channel, group);
+          chart.id = fmt::format("band_{}_{}_{}_{}", test, channel, group, run);
+          chart.about = fmt::format("{} of a typical and of a new specimen, {}", channel, group);
+          chart.x.title = table->title(3);
+          chart.files = {file};
+          Series curve{"typical and new specimen", "line", 0};
+          for (const std::size_t row : in_channel) {
+            if (table->text(row, "group") != group || table->text(row, "run") != run) continue;
+            curve.x.push_back(table->number(row, std::size_t{3}));
+            curve.y.push_back(table->number(row, "mean"));
+            curve.low.push_back(table->number(row, "lower"));
+            curve.high.push_back(table->number(row, "upper"));
+            chart.y.title = text::titled(channel, table->text(row, "unit"));
+          }
+          if (curve.x.empty()) continue;
+          auto of_group = specimens.find(group);
+          if (of_group != specimens.end()) {
+            std::vector<std::string> some;
+            for (const std::size_t k : evenly(of_group->second.size(), most_measured))
+              some.push_back(of_group->second[k]);
+            if (some.size() < of_group->second.size())
+              chart.note = fmt::format("Data of {} of {} specimens.", some.size(), of_group->second.size());
+            chart.series.push_back(measured_of(folder, "fit_" + test + ".csv", channel, some));
+          }
+          chart.series.push_back(std::move(curve));
+          page.chart(std::move(chart), folder.address());
+        }
+    }
+    page.end_pair();
+  }
+}
+
+void add_specimen_estimates(Page& page, const Folder& folder) {
+  page.section("Parameters of the specimens");
+  for (const Json& population : list(cohort(folder), "populations")) {
+    if (!word(population, "problem").empty()) continue;
+    page.heading(word(population, "run"));
+    page.begin_pair();
+    add_parameters_of(page, folder, population);
+    add_readings_of(page, folder, population);
+    page.end_pair();
+  }
+}
+
+void add_specimen_fits(Page& page, const Folder& folder) {
+  const Json& specimens = list(cohort(folder), "specimens");
+  std::size_t drawn = 0;
+  for (const Json& one : specimens) drawn += word(one, "outcome") == "fitted" ? 1 : 0;
+  if (drawn == 0) return;
+  page.begin_fold(fmt::format("Data and fit of {}", count_of(std::min(drawn, most_fits), "specimen", "specimens")));
+  drawn = 0;
+  for (const Json& one : specimens) {
+    if (word(one, "outcome") != "fitted" || drawn++ >= most_fits) continue;
+    for (const std::string& file : folder.tables_in(word(one, "folder"), "fit_")) {
+      const auto table = folder.table(file);
+      if (!table) continue;
+      for (std::size_t k = 2; k < table->columns().size(); ++k) {
+        const auto predicted = table->find(table->columns()[k].name + ".predicted");
+        if (!predicted) continue;
+        Chart chart;
+        chart.title = word(one, "id");
+        chart.id = fmt::format("fit_{}_{}", word(one, "id"), k);
+        chart.about = fmt::format("Measured and fitted {} of {}", table->columns()[k].name, word(one, "id"));
+        chart.x.title = table->title(1);
+        chart.y.title = table->title(k);
+        chart.low_height = true;
+        int style = 0;
+        for (const auto& [run, rows] : table->groups("run")) {
+          Series data{"measured", "points", -1}, fit{run, "line", style};
+          for (const std::size_t at : evenly(rows.size(), points_of_small)) {
+            data.x.push_back(table->number(rows[at], std::size_t{1}));
+            data.y.push_back(table->number(rows[at], k));
+            fit.x.push_back(data.x.back());
+            fit.y.push_back(table->number(rows[at], *predicted));
+          }
+          if (style++ == 0) chart.series.push_back(std::move(data));
+          chart.series.push_back(std::move(fit));
+        }
+        page.chart(std::move(chart), folder.address());
+      }
+    }
+  }
+  page.end_fold();
+}
+
+}  // namespace tunica::report

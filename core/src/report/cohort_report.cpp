@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "report/sections.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+const Json& populations(const Folder& folder) { return list(member(folder.result(), "cohort"), "populations"); }
+
+std::pair<double, double> ends(const Json& one) {
+  const Json& ci = list(one, "ci95");
+  const auto end = [&](std::size_t k) { return ci.size() > k && ci[k].is_number() ? ci[k].get<double>() : NAN; };
+  return {end(0), end(1)};
+}
+
+std::string with_interval(const Json& one) {
+  const auto [low, high] = ends(one);
+  return fmt::format("{} ({} … {})", figure(number(one, "value")), figure(low), figure(high));
+}
+
+/// A relative spread reads best as per cent.
+std::string spread_text(const Json& spread) {
+  const bool log = word(spread, "scale") == "log";
+  const auto [low, high] = ends(spread);
+  const auto one = [log](double value) {
+    if (!std::isfinite(value)) return std::string("any");
+    return log ? fmt::format("{:.3g} %", 100 * value) : fmt::format("{:.3g}", value);
+  };
+  return fmt::format("{} ({} … {})", one(number(spread, "sd")), one(low), one(high));
+}
+
+void add_of(const Json& analysis, std::vector<std::vector<Cell>>& rows) {
+  for (const auto& [name, one] : member(analysis, "of").items()) {
+    if (!member(one, "means").is_object()) continue;  // a reading of fewer than two specimens
+    std::vector<Cell> row{{text::titled(name, word(one, "unit"))}};
+    for (const auto& [group, mean] : member(one, "means").items()) row.push_back({with_interval(mean), true});
+    row.push_back({spread_text(member(one, "spread")), true});
+    rows.push_back(std::move(row));
+  }
+}
+
+void add_typical(Page& page, const Json& population) {
+  std::vector<std::string> head{""};
+  const Json& of = member(member(population, "parameters"), "of");
+  if (of.empty()) return;
+  for (const auto& [group, mean] : member(of.begin().value(), "means").items()) head.push_back(group);
+  head.emplace_back("spread of specimens");
+  std::vector<std::vector<Cell>> rows;
+  add_of(member(population, "parameters"), rows);
+  add_of(member(population, "readings"), rows);
+  page.heading("Typical specimen, with 95 % intervals");
+  page.html(table_html(head, rows));
+}
+
+void add_effect_rows(const Json& analysis, std::vector<std::vector<Cell>>& rows) {
+  for (const Json& one : list(analysis, "effects")) {
+    const auto [low, high] = ends(one);
+    const bool ratio = word(one, "kind") == "ratio";
+    const double p = number(one, "p_permutation");
+    rows.push_back({{fmt::format("{}: {} against {}", word(one, "factor"), word(one, "level"), word(one, "reference"))},
+                    {word(one, "of")},
+                    {fmt::format("{}{}", ratio ? "× " : "", figure(number(one, "value"))), true},
+                    {fmt::format("{} … {}", figure(low), figure(high)), true},
+                    {share(p), true, p <= 0.05},
+                    {share(number(one, "p_adjusted")), true},
+                    {share(number(one, "p_holm")), true}});
+  }
+}
+
+void add_groups(Page& page, const Json& population) {
+  std::vector<std::vector<Cell>> rows;
+  add_effect_rows(member(population, "parameters"), rows);
+  add_effect_rows(member(population, "readings"), rows);
+  if (rows.empty()) return;
+  page.heading("Effects of groups");
+  page.html(table_html(
+      {"groups", "of", "effect", "95 % interval", "p (permutation)", "for all parameters", "p (t, Holm)"}, rows));
+  std::vector<std::string> notes;
+  for (const Json& test : list(member(population, "parameters"), "factors"))
+    notes.push_back(fmt::format("{}: {} arrangements of the labels{}; the smallest p they can give is {}",
+                                word(test, "factor"), figure(number(test, "permutations")),
+                                member(test, "all_arrangements") == true ? ", all there are" : "",
+                                share(number(test, "smallest_p"))));
+  page.box("", "How the labels were exchanged", notes);
+}
+
+std::string specimen_count(const Folder& folder) {
+  std::size_t fitted = 0;
+  const Json& specimens = list(member(folder.result(), "cohort"), "specimens");
+  for (const Json& one : specimens) fitted += word(one, "outcome") == "fitted" ? 1 : 0;
+  return fmt::format("{} of {} specimens were fitted.", fitted, specimens.size());
+}
+
+void add_population(Page& page, const Json& population) {
+  page.section("Population: " + word(population, "run"));
+  if (const std::string problem = word(population, "problem"); !problem.empty()) {
+    page.box("bad", "No population", {problem});
+    return;
+  }
+  if (member(population, "converged") != true)
+    page.box("bad", "The population did not settle", {"Specimens and population still moved after the last round."});
+  page.words(
+      {{"Specimens", fmt::format("{}{}", figure(number(population, "specimens")),
+                                 member(population, "nested") == true
+                                     ? fmt::format(" from {} animals", figure(number(population, "animals")))
+                                     : "")},
+       {"Spreads", word(population, "spread_structure") == "full" ? "with correlations" : "without correlations"},
+       {"−2 ln L, AIC, BIC", fmt::format("{}, {}, {}", figure(number(population, "neg2_log_likelihood")),
+                                         figure(number(population, "aic")), figure(number(population, "bic")))}});
+  add_typical(page, population);
+  add_groups(page, population);
+  std::vector<std::string> outlying;
+  for (const Json& one : list(population, "outlying"))
+    outlying.push_back(fmt::format("{}, most in {} ({} for all specimens together)", word(one, "specimen"),
+                                   word(one, "farthest_in"), chance(number(one, "p"))));
+  if (!outlying.empty()) page.box("bad", "Unlike the others", outlying);
+}
+
+void add_specimen_table(Page& page, const Folder& folder) {
+  const auto table = folder.table("specimens.csv");
+  if (!table) return;
+  page.section("Specimens");
+  std::vector<std::string> head;
+  std::vector<std::size_t> columns;
+  for (std::size_t k = 0; k < table->columns().size(); ++k)
+    if (table->columns()[k].name != "folder") {
+      columns.push_back(k);
+      head.push_back(table->title(k));
+    }
+  std::vector<std::vector<Cell>> rows;
+  for (std::size_t row = 0; row < table->rows(); ++row) {
+    std::vector<Cell> cells;
+    for (const std::size_t k : columns) {
+      const double value = table->number(row, k);
+      Cell cell{std::isfinite(value) ? figure(value) : table->text(row, k), std::isfinite(value)};
+      if (k == 0) {
+        const std::string page_of = "specimens/" + table->text(row, "folder") + "/report.html";
+        if (folder.has(page_of)) cell.link = (folder.address().empty() ? "" : folder.address() + "/") + page_of;
+      }
+      cell.bad = table->columns()[k].name == "outcome" && table->text(row, k) != "fitted";
+      cells.push_back(std::move(cell));
+    }
+    rows.push_back(std::move(cells));
+  }
+  page.html(sortable_html(head, rows));
+}
+
+}  // namespace
+
+void add_cohort(Page& page, const Folder& folder) {
+  page.section("Summary");
+  add_warnings(page, folder);
+  page.paragraph(specimen_count(folder));
+  for (const Json& population : populations(folder)) add_population(page, population);
+  add_bands(page, folder);
+  add_specimen_estimates(page, folder);
+  add_specimen_table(page, folder);
+  add_specimen_fits(page, folder);
+  add_provenance(page, folder);
+}
+
+}  // namespace tunica::report
