@@ -36,6 +36,8 @@ void add_limits(CLI::App& verb, ClusterOptions& options, const std::string& with
       ->type_name("T");
   verb.add_option("--memory", options.memory, "Memory of a shard, as sbatch takes it: 500M, 2G; " + without)
       ->type_name("M");
+  verb.add_option("--merge-time", options.merge_time, "Time limit of the merge")->type_name("T");
+  verb.add_option("--merge-memory", options.merge_memory, "Memory of the merge")->type_name("M");
   verb.add_flag("--dry-run", options.dry_run, "Write the scripts and print what would be submitted");
 }
 
@@ -85,7 +87,7 @@ int tell_status(const GlobalOptions& global, const ClusterOptions& options) {
   fmt::print("{}", cluster::in_words(view, submission));
   if (view.missing == 0 && view.merge && view.merge->phase == cluster::slurm::Phase::ended)
     fmt::print("Results:  {}\n", cohort.results.string());
-  else if (view.missing == 0 && !(view.merge && view.merge->alive()))
+  else if (view.missing == 0 && !view.merge)
     fmt::print("Merge:    {}\n", cohort.command("merge"));
   if (code == done) return code;
   if (!stored) {
@@ -128,11 +130,19 @@ void add_cohort_cluster(CLI::App& cohort, GlobalOptions& global, Action& action)
   auto* status =
       add_verb(cohort, "status", "Say how far the shards of a cohort are, and why some have stopped", *options);
   status->add_flag("--json", options->json, "One JSON document instead of text");
+  status->footer(
+      "Example:\n"
+      "  tunica cohort status cohort.json -o /shared/aortas\n\n"
+      "Exit code 1: something has stopped, and `resubmit` goes on with it.");
   status->callback(
       [&global, &action, options] { action = [&global, options] { return tell_status(global, *options); }; });
 
   auto* resubmit = add_verb(cohort, "resubmit", "Submit again the shards that have stopped, and a new merge", *options);
   add_limits(*resubmit, *options, "as before without it");
+  resubmit->footer(
+      "Example:\n"
+      "  tunica cohort resubmit cohort.json -o /shared/aortas --time 2:00:00\n\n"
+      "Shards that run or wait are left alone.");
   resubmit->callback(
       [&global, &action, options] { action = [&global, options] { return resubmit_cohort(global, *options); }; });
 }

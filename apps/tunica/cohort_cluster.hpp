@@ -12,7 +12,7 @@ namespace tunica::app {
 
 /// What `cohort submit`, `status` and `resubmit` are told.
 struct ClusterOptions {
-  std::string file, directory, time, memory, partition;
+  std::string file, directory, time, memory, merge_time, merge_memory, partition;
   std::size_t shards = 0;  ///< 0: from the pilot
   std::size_t pilot = 3;
   unsigned threads = 1;

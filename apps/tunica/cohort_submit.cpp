@@ -122,8 +122,9 @@ cluster::Wishes plan(const ClusterOptions& options, const ClusterCohort& cohort,
         "--shards {}: there are {} specimens, and a job array of this cluster has at most {} tasks; give at "
         "most {}",
         options.shards, specimens, largest, std::min(largest, specimens)));
-  cluster::Wishes wishes{options.shards, options.threads, options.time, options.memory, "", "", options.partition};
-  std::size_t start_bytes = 0;
+  cluster::Wishes wishes{options.shards,     options.threads,      options.time,     options.memory,
+                         options.merge_time, options.merge_memory, options.partition};
+  double mean_seconds = 1;  // where no pilot tells
   if (options.shards == 0 || options.time.empty() || options.memory.empty()) {
     const cluster::Pilot pilot = run_pilot(call, options, cohort, missing);
     const std::size_t left = std::max<std::size_t>(1, number_missing(missing));
@@ -132,16 +133,15 @@ cluster::Wishes plan(const ClusterOptions& options, const ClusterCohort& cohort,
     const cluster::Limits limits = cluster::shard_limits(pilot, each, options.threads);
     if (wishes.time.empty()) wishes.time = std::to_string(limits.minutes);
     if (wishes.memory.empty()) wishes.memory = fmt::format("{}M", limits.mebibytes);
-    start_bytes = pilot.peak_bytes;
+    mean_seconds = pilot.mean_seconds;
     fmt::print("{}Shards:   {} of at most {} specimens, about {:.2g} min each\n", describe_pilot(pilot), wishes.shards,
                each, cluster::shard_seconds(pilot, each, options.threads) / 60);
     fmt::print("Limits:   {} min ({} × the longest specimens, and {} min), {} ({} × the pilot's memory)\n", wishes.time,
                cluster::time_margin, cluster::spare_seconds / 60, wishes.memory, cluster::memory_margin);
   }
-  constexpr std::size_t usual_record = 4096;
-  const auto limits = cluster::merge_limits(specimens, scan_seconds, usual_record, start_bytes);
-  wishes.merge_time = std::to_string(limits.minutes);
-  wishes.merge_memory = fmt::format("{}M", limits.mebibytes);
+  const auto limits = cluster::merge_limits(specimens, scan_seconds, mean_seconds);
+  if (wishes.merge_time.empty()) wishes.merge_time = std::to_string(limits.minutes);
+  if (wishes.merge_memory.empty()) wishes.merge_memory = fmt::format("{}M", limits.mebibytes);
   return wishes;
 }
 
@@ -254,12 +254,14 @@ int resubmit_cohort(const GlobalOptions& global, const ClusterOptions& options) 
   cluster::Submission submission = *cluster::stored_submission(cohort.results);
   if (!options.time.empty()) submission.wishes.time = options.time;
   if (!options.memory.empty()) submission.wishes.memory = options.memory;
+  if (!options.merge_time.empty()) submission.wishes.merge_time = options.merge_time;
+  if (!options.merge_memory.empty()) submission.wishes.merge_memory = options.merge_memory;
   if (!options.partition.empty()) submission.wishes.partition = options.partition;
   const auto tasks = cluster::known_tasks(submission);
   const auto view = cluster::overview(
       submission, cohort::progress_of_shares(cohort.missing(), submission.wishes.shards), tasks, cohort.results);
   const bool merge_waits = view.merge && view.merge->alive();
-  if (view.missing == 0 && !merge_waits) return nothing_missing(cohort);
+  if (view.missing == 0 && !merge_waits && !view.stuck()) return nothing_missing(cohort);
   cluster::ArrayText array;
   for (const auto& shard : view.shards)
     if (shard.standing == cluster::Standing::stopped) array.add(shard.progress.share.part);

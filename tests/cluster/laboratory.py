@@ -82,7 +82,7 @@ def merged(results):
 def expect_same(results, others, name):
     """Both folders have the same merged files, byte for byte."""
     one, other = merged(results), merged(others)
-    expect({"parameters.csv", "specimens.csv"} <= set(one), f"{results} has only {sorted(one)}")
+    expect({"parameters.csv", "specimens.csv", "result.json"} <= set(one), f"{results} has only {sorted(one)}")
     expect(sorted(one) == sorted(other), f"{name}: files {sorted(one)} and {sorted(other)}")
     for file, text in one.items():
         expect(text == other[file], f"{name}: {file} differs from that of one machine")

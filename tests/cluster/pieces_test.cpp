@@ -47,6 +47,13 @@ TEST(Estimate, LimitsHaveTheStatedMargins) {
   EXPECT_DOUBLE_EQ(shard_seconds(quick, 100, 1), 11);
 }
 
+TEST(Estimate, GivesTheMergeWhatGrowsWithTheSpecimens) {
+  // 1800 s + 20 × 3 s + 4 × 1000 × 0.06 s = 2100 s; 1 GiB + 1000 × 256 KiB = 1274 MiB, in steps of 64
+  const Limits limits = merge_limits(1000, 3, 0.06);
+  EXPECT_EQ(limits.minutes, 35);
+  EXPECT_EQ(limits.mebibytes, 1280);
+}
+
 TEST(ArrayText, JoinsNeighbours) {
   const auto text_of = [](std::initializer_list<std::size_t> positions) {
     ArrayText text;

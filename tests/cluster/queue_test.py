@@ -135,11 +135,11 @@ def only_shards_that_stopped_are_submitted_again():
     words = cluster("status", code=1)
     for line in ("2/5  stopped", "FAILED (NonZeroExitCode)", "its log ends with: error: the disk is full", "cohort resubmit"):
         expect(line in words, words)
-    cluster("resubmit", "--time", "90")
+    cluster("resubmit", "--time", "90", "--merge-memory", "7G")
     array, merge = cluster.calls("sbatch")[2:]
     expect("--array=2" in array and "--time=90" in array, array)
     expect(cluster.calls("scancel") == [["102"]], "the old merge waits on")
-    expect("--dependency=afterany:101:103" in merge, merge)
+    expect("--dependency=afterany:101:103" in merge and "--mem=7G" in merge, merge)
     said = cluster("resubmit")
     expect("Nothing has stopped: 1 shards are running, 2 are waiting" in said, said)
     expect(len(cluster.calls("sbatch")) == 4, "an idle resubmit has submitted something")
@@ -150,6 +150,24 @@ def only_shards_that_stopped_are_submitted_again():
     cluster.run(lambda task: True)
     expect_same(folder / "whole", cluster.results, "resubmitted")
     expect("No specimen is left to fit" in cluster("resubmit"), "a cohort that is done is submitted again")
+
+
+def a_merge_that_failed_is_submitted_again():
+    cluster = Cluster("merge")
+    cluster.submit("--shards", "2")
+    cluster.run(shard)
+    with cluster.changed_tasks() as tasks:
+        tasks[-1]["state"], tasks[-1]["reason"] = "OUT_OF_MEMORY", "OutOfMemory"
+    (cluster.results / "slurm/merge.txt").write_text("Killed\n", encoding="utf-8")
+    view = cluster.status(code=1)
+    expect((view["missing"], view["merge"]["standing"], view["merge"]["last_words"]) == (0, "failed", "Killed"), view)
+    expect("cohort resubmit" in cluster("status", code=1), "status does not say how to go on")
+    cluster("resubmit", "--merge-memory", "7G")
+    merge = cluster.calls("sbatch")[2]
+    expect("--mem=7G" in merge and not any(word.startswith(("--array", "--dependency")) for word in merge), merge)
+    cluster.run(lambda task: True)
+    expect_same(folder / "whole", cluster.results, "merged again")
+    cluster.status()
 
 
 def accounts_tell_what_the_queue_has_forgotten():
@@ -238,7 +256,7 @@ def paths_of_plugins_are_carried_over_absolute():
 
 run_cases([the_array_and_the_merge_give_the_bytes_of_one_machine, nothing_is_submitted_twice,
            of_two_that_submit_at_once_one_does, only_shards_that_stopped_are_submitted_again,
-           accounts_tell_what_the_queue_has_forgotten, without_an_answer_of_the_queue_nothing_is_submitted,
+           a_merge_that_failed_is_submitted_again, accounts_tell_what_the_queue_has_forgotten, without_an_answer_of_the_queue_nothing_is_submitted,
            what_sbatch_refuses_is_said_and_submitted_later, numbers_of_shards_that_cannot_be_are_refused,
            the_pilot_states_what_it_measured_and_keeps_its_records, a_dry_run_needs_no_slurm,
            paths_of_plugins_are_carried_over_absolute])

@@ -39,10 +39,11 @@ Limits shard_limits(const Pilot& pilot, std::size_t specimens, unsigned threads)
           mebibytes_of(memory_margin * static_cast<double>(pilot.peak_bytes))};
 }
 
-Limits merge_limits(std::size_t specimens, double scan_seconds, std::size_t record_bytes, std::size_t start_bytes) {
-  constexpr double least_seconds = 30 * 60, least_bytes = 1024 * bytes_of_mebibyte;
-  const double bytes = static_cast<double>(start_bytes) + static_cast<double>(specimens * record_bytes);
-  return {minutes_of(least_seconds + 20 * scan_seconds), mebibytes_of(least_bytes + 2 * bytes)};
+Limits merge_limits(std::size_t specimens, double scan_seconds, double mean_seconds) {
+  constexpr double least_seconds = 30 * 60, scans = 20;
+  const auto number = static_cast<double>(specimens);
+  return {minutes_of(least_seconds + scans * scan_seconds + merge_fits * number * mean_seconds),
+          mebibytes_of(merge_spare_bytes + merge_bytes * number)};
 }
 
 void ArrayText::add(std::size_t position) {

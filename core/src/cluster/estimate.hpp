@@ -36,9 +36,11 @@ double shard_seconds(const Pilot& pilot, std::size_t specimens, unsigned threads
 
 Limits shard_limits(const Pilot& pilot, std::size_t specimens, unsigned threads);
 
-/// The merge binds every specimen once more, as this process did in `scan_seconds` to see what is missing, and holds
-/// every record: `record_bytes` is the length of one as text. Its limits are generous, for it runs once.
-Limits merge_limits(std::size_t specimens, double scan_seconds, std::size_t record_bytes, std::size_t start_bytes);
+/// The merge reads every specimen once more, as this process did in `scan_seconds` to see what is missing, and its
+/// statistics evaluate each about as often as a fit of `mean_seconds`. Measured with two strips of 30 rows: once the
+/// time of a fit, and 140 KiB a specimen. The limits are generous, for the merge runs once.
+constexpr double merge_fits = 4, merge_bytes = 256 * 1024, merge_spare_bytes = 1 << 30;
+Limits merge_limits(std::size_t specimens, double scan_seconds, double mean_seconds);
 
 /// "1-3,7": members of a job array, of positions that rise.
 class ArrayText {

@@ -68,7 +68,9 @@ std::size_t Overview::count(Standing standing) const {
                                                 [standing](const ShardView& one) { return one.standing == standing; }));
 }
 
-bool Overview::stuck() const { return count(Standing::stopped) > 0; }
+bool Overview::stuck() const {
+  return count(Standing::stopped) > 0 || (missing == 0 && merge && merge->phase == slurm::Phase::failed);
+}
 
 std::vector<slurm::Task> known_tasks(const Submission& submission) {
   auto tasks = slurm::queue({submission.name, submission.merge_name()});
@@ -103,6 +105,8 @@ Overview overview(const Submission& submission, const std::vector<cohort::ShareP
     view.shards.push_back(std::move(shard));
   }
   if (const slurm::Task* merge = best_of(tasks, submission.merge_name(), std::nullopt)) view.merge = *merge;
+  if (view.merge && view.merge->phase == slurm::Phase::failed)
+    view.merge_last_words = end_of(queue_folder(results) / "merge.txt");
   return view;
 }
 
@@ -123,6 +127,7 @@ std::string in_words(const Overview& view, const Submission& submission) {
   if (view.merge)
     text += fmt::format("   merge  {:<8} job {}  {}\n", text::code_of(slurm::phase_codes, view.merge->phase),
                         view.merge->job, state_words(view.merge->state, view.merge->reason));
+  if (!view.merge_last_words.empty()) text += fmt::format("{:18}its log ends with: {}\n", "", view.merge_last_words);
   if (!view.queue_problem.empty())
     text += fmt::format("The queue was not asked, so a shard may be alive that is called stopped here: {}\n",
                         view.queue_problem);
@@ -149,7 +154,8 @@ std::string in_json(const Overview& view, const Submission& submission) {
     merge = {{"job", view.merge->job},
              {"standing", std::string(text::code_of(slurm::phase_codes, view.merge->phase))},
              {"state", view.merge->state},
-             {"reason", or_null(view.merge->reason)}};
+             {"reason", or_null(view.merge->reason)},
+             {"last_words", or_null(view.merge_last_words)}};
   const Json json = {{"name", submission.name}, {"specimens", view.specimens},
                      {"missing", view.missing}, {"queue_problem", or_null(view.queue_problem)},
                      {"shards", shards},        {"merge", merge}};

@@ -36,11 +36,13 @@ struct ShardView {
 struct Overview {
   std::vector<ShardView> shards;
   std::optional<slurm::Task> merge;  ///< the newest
+  std::string merge_last_words;      ///< of its log, where it failed
   std::string queue_problem;         ///< why the queue was not asked; empty = it was
   std::size_t specimens = 0, missing = 0;
 
   [[nodiscard]] std::size_t count(Standing standing) const;
-  /// No job is alive that could make what is missing.
+  /// Somebody has to resubmit: specimens are missing and no job is alive that could make them, or
+  /// all are there and the merge failed.
   [[nodiscard]] bool stuck() const;
 };
 
