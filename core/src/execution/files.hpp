@@ -38,8 +38,8 @@ class AppendFile {
 };
 
 /// Replaces a file in one step: temporary file in the same folder, fsync, rename, fsync of the folder. Whoever reads
-/// it, now or after a crash, sees the old text or the new one. Any number of processes may write the same file at once; the
-/// last rename stays. One that is killed may leave a file <name>.new-<16 digits>, which nobody reads.
+/// it, now or after a crash, sees the old text or the new one. Any number of processes may write the same file at once;
+/// the last rename stays. One that is killed may leave a file <name>.new-<16 digits>, which nobody reads.
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 
 /// The whole text of a file; throws InputError.
