@@ -4,7 +4,7 @@
 #   slurm_local.sh start DIR NODES PORT   starts it; then SLURM_CONF=DIR/slurm.conf for every command of Slurm
 #   slurm_local.sh controller DIR         starts slurmctld again, which must be dead
 #   slurm_local.sh node DIR N             starts slurmd of node nN again, which must be dead
-#   slurm_local.sh stop DIR               ends its daemons, and only those
+#   slurm_local.sh stop DIR               ends its daemons, and only those; a munged that it started stays
 # Ports PORT … PORT + NODES must be free. Needs root, and the Debian packages slurm-wlm and munge. It uses the munged of
 # the machine, and starts one where none runs. Ends with 77 where something is missing.
 set -euo pipefail
@@ -92,7 +92,13 @@ controller) slurmctld ;;
 node) slurmd -N "n${3:?number of the node}" ;;
 stop)
   for file in "$dir"/pid/*.pid; do
-    [[ -s $file ]] && kill "$(cat "$file")" 2>/dev/null || true
+    [[ -s $file ]] || continue
+    process=$(cat "$file")
+    kill "$process" 2>/dev/null || continue
+    for ((n = 0; n < 50; ++n)); do
+      kill -0 "$process" 2>/dev/null || break
+      sleep 0.1
+    done
   done
   ;;
 *) echo "unknown: $verb" >&2 && exit 2 ;;

@@ -5,6 +5,7 @@
 For 1, 2 and 7 shards: kill -9 of a slurmstepd, of a slurmd and of slurmctld, and a node set down. The merged files are
 those of one machine, byte for byte, and Slurm has seen no job but those that tunica recorded. Ends with 77 where there
 is no Slurm, or nobody may start one."""
+import contextlib
 import json
 import os
 import pathlib
@@ -196,10 +197,11 @@ try:
     tunica.environment = dict(os.environ)
     for shards in (1, 2, 7):
         harmed_cohort_is_that_of_one_machine(slurm, shards)
-    shutil.rmtree(folder, ignore_errors=True)
 except AssertionError as problem:
     raise SystemExit(f"{problem}\nSee {folder}") from None
 finally:
     slurm.stop()
     for process, _ in [one for shards in (1, 2, 7) for one in processes_of(folder / f"of{shards}")]:
-        os.kill(process, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(process, signal.SIGKILL)
+shutil.rmtree(folder, ignore_errors=True)  # only where all held; a failure is looked into
