@@ -50,7 +50,7 @@ verbs=$("$tunica" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p'
 [[ $(wc -w <<<"$verbs") -ge 12 ]] || { echo "the help lists these verbs only: $verbs"; exit 1; }
 expect_all "$verbs" ''
 expect 'describe' desc
-expect 'certify check completion' c
+expect 'certify check cohort completion' c
 expect_all '--output --threads --resume --seed --bootstrap --quiet --plugin-path' run experiment.json --
 # Every option that the help of a verb lists.
 for verb in $verbs; do
