@@ -34,6 +34,7 @@ Cohort nlme_cohort(bool nested) {
   for (const auto& [specimen, values] : stress)
     measured.y.push_back(Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   Cohort cohort = simulated::cohort_of(measured);
+  cohort.misfits = {};  // nlme knows the linearised curves only
   cohort.factors = {{"treated", {"0", "1"}}};
   std::map<std::string, std::size_t> animals;
   std::size_t i = 0;

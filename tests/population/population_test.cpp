@@ -169,6 +169,10 @@ TEST(Population, IsTheSameBitsInAnyOrderAndWithAnyThreads) {
     turned.specimens[i].animal = 2 - turned.specimens[i].animal;
   }
   turned.expand = [expand = cohort.expand](std::size_t i, const Prior& prior) { return expand(6 - i, prior); };
+  turned.misfits = [misfits = cohort.misfits](std::size_t i, const Eigen::MatrixXd& points,
+                                              const std::vector<double>& variances) {
+    return misfits(6 - i, points, variances);
+  };
   const Population again = estimate(turned);
   expect_same_bits(found, again);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(found.individuals[i].mean, again.individuals[6 - i].mean);

@@ -144,6 +144,23 @@ std::optional<Expansion> Measured::expand(std::size_t specimen, const Prior& pri
   return result;
 }
 
+Eigen::VectorXd Measured::misfits(std::size_t specimen, const Eigen::MatrixXd& points,
+                                  const std::vector<double>& variances) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(points.cols()), values(y[specimen].size());
+  Eigen::MatrixXd J(values.size(), points.rows());
+  for (Eigen::Index s = 0; s < points.cols(); ++s) {
+    curve->evaluate(points.col(s), values, J);
+    Eigen::Index row = 0;
+    for (std::size_t c = 0; c < curve->rows.size(); ++c) {
+      const auto count = static_cast<Eigen::Index>(curve->rows[c]);
+      result[s] += (values - y[specimen]).segment(row, count).squaredNorm() /
+                   (variances[c] * curve->noise[c] * curve->noise[c]);
+      row += count;
+    }
+  }
+  return result;
+}
+
 Cohort cohort_of(const Measured& measured) {
   Cohort result;
   for (const std::string& name : measured.curve->parameters) result.parameters.push_back({name, true, 1});
@@ -152,6 +169,9 @@ Cohort cohort_of(const Measured& measured) {
     result.channels.push_back({fmt::format("c{}", c), true});
   result.start = measured.curve->typical;
   result.expand = [measured](std::size_t i, const Prior& prior) { return measured.expand(i, prior); };
+  result.misfits = [measured](std::size_t i, const Eigen::MatrixXd& points, const std::vector<double>& variances) {
+    return measured.misfits(i, points, variances);
+  };
   return result;
 }
 

@@ -50,6 +50,8 @@ struct Measured {
   std::vector<Eigen::VectorXd> y;
 
   std::optional<Expansion> expand(std::size_t specimen, const Prior& prior) const;
+  Eigen::VectorXd misfits(std::size_t specimen, const Eigen::MatrixXd& points,
+                          const std::vector<double>& variances) const;
 };
 
 /// A cohort of specimens with the values of ξ, measured with the noise of the curve. No factors, no animals yet.

@@ -58,6 +58,23 @@ std::optional<population::Expansion> expansion_of(const population::Prior& prior
   return expansion;
 }
 
+/// Σ_c |r_c|²/φ_c at every point, priors included; +∞ where it cannot be evaluated.
+Eigen::VectorXd misfits_of(const Shared& shared, const Eigen::MatrixXd& points, const std::vector<double>& variances,
+                           SpecimenLikelihood& one) {
+  Eigen::VectorXd misfits(points.cols()), r;
+  for (Eigen::Index s = 0; s < points.cols(); ++s) {
+    misfits[s] = HUGE_VAL;
+    if (!one.residuals(points.col(s), r, nullptr).ok()) continue;
+    misfits[s] = r.tail(r.size() - static_cast<Eigen::Index>(one.first().back())).squaredNorm();
+    for (std::size_t c = 0; c < one.channels().size(); ++c) {
+      const auto first = static_cast<Eigen::Index>(one.first()[c]),
+                 last = static_cast<Eigen::Index>(one.first()[c + 1]);
+      misfits[s] += r.segment(first, last - first).squaredNorm() / variances[shared.channel.at(one.channels()[c])];
+    }
+  }
+  return misfits;
+}
+
 /// σ of each channel that is not stated, quadratic mean over the specimens.
 void share_noise(Likelihoods& likelihoods, Shared& shared) {
   std::vector<std::vector<double>> sigma(likelihoods.count());
@@ -127,6 +144,15 @@ void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohor
       if (found) shared->last[i] = found->point;
     });
     return found;
+  };
+  cohort.misfits = [&likelihoods, shared](std::size_t i, const Eigen::MatrixXd& points,
+                                          const std::vector<double>& variances) {
+    Eigen::VectorXd misfits;
+    likelihoods.with(i, [&](SpecimenLikelihood& one) {
+      set_noise(*shared, one);
+      misfits = misfits_of(*shared, points, variances, one);
+    });
+    return misfits;
   };
 }
 

@@ -20,16 +20,6 @@ constexpr std::size_t patient = 5;  // rounds before a slow approach counts as a
 constexpr double slow = 0.7, damping = 0.7, least_part = 0.1;
 constexpr double narrowest = 1e-3;  // of a prior, in scales
 
-Eigen::MatrixXd precision(const Cohort& cohort, const Variances& variances) {
-  Eigen::MatrixXd covariance = variances.within * variances.within.transpose();
-  for (std::size_t j = 0; j < cohort.parameters.size(); ++j) {
-    const double least = narrowest * cohort.parameters[j].scale;
-    covariance(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) += least * least;
-  }
-  const numerics::Eigenpairs pairs = numerics::eigenpairs(covariance);
-  return pairs.vectors * pairs.values.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
-}
-
 bool finite(const Expansion& expansion) {
   for (const Quadratic& channel : expansion.channels)
     if (channel.rows > 0 &&
@@ -149,6 +139,16 @@ void follow(const Cohort& cohort, const Coordinates& coordinates, const Alternat
 
 }  // namespace
 
+Eigen::MatrixXd prior_precision(const Cohort& cohort, const Variances& variances) {
+  Eigen::MatrixXd covariance = variances.within * variances.within.transpose();
+  for (std::size_t j = 0; j < cohort.parameters.size(); ++j) {
+    const double least = narrowest * cohort.parameters[j].scale;
+    covariance(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j)) += least * least;
+  }
+  const numerics::Eigenpairs pairs = numerics::eigenpairs(covariance);
+  return pairs.vectors * pairs.values.cwiseInverse().asDiagonal() * pairs.vectors.transpose();
+}
+
 Alternation alternate(const Cohort& cohort, const Form& form, const Alternation* from) {
   const Coordinates coordinates(cohort, form.within, form.between);
   const std::size_t n = cohort.specimens.size();
@@ -170,7 +170,7 @@ Alternation alternate(const Cohort& cohort, const Form& form, const Alternation*
   while (!state.converged && state.rounds < most_rounds) {
     ++state.rounds;
     const Variances variances = coordinates.variances(belief.x);
-    const Eigen::MatrixXd sharpness = precision(cohort, variances);
+    const Eigen::MatrixXd sharpness = prior_precision(cohort, variances);
     std::vector<Prior> priors;
     for (std::size_t i = 0; i < n; ++i) priors.push_back({belief.means[i], sharpness, variances.noise});
     expand(cohort, priors, state);

@@ -37,6 +37,9 @@ struct Alternation {
 /// or where all specimens together do not fix a parameter.
 Alternation alternate(const Cohort& cohort, const Form& form, const Alternation* from = nullptr);
 
+/// Ω⁻¹ of the priors, 1e-3 scales wide at least.
+Eigen::MatrixXd prior_precision(const Cohort& cohort, const Variances& variances);
+
 /// Step 2 alone, on given expansions.
 Alternation refitted(const Cohort& cohort, const Form& form, const Alternation& from);
 

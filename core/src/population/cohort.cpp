@@ -73,6 +73,11 @@ Sorted sorted(const Cohort& cohort) {
   result.cohort.expand = [expand = cohort.expand, place = result.place](std::size_t k, const Prior& prior) {
     return expand(place[k], prior);
   };
+  if (cohort.misfits)
+    result.cohort.misfits = [misfits = cohort.misfits, place = result.place](
+                                std::size_t k, const Eigen::MatrixXd& points, const std::vector<double>& variances) {
+      return misfits(place[k], points, variances);
+    };
   return result;
 }
 

@@ -49,6 +49,9 @@ struct Expansion {
   Eigen::VectorXd point;            ///< ξ₀
   std::vector<Quadratic> channels;  ///< as Cohort::channels; zeros where the specimen has no such rows
   double normalisation = 0;  ///< Σ log(2πσ²) over the rows, σ as they were whitened; only −2 log L needs it
+  Eigen::VectorXd pull =
+      {};  ///< added to the score, and `bend` to the information: see integration.hpp; empty = nothing
+  Eigen::MatrixXd bend = {};
 };
 
 /// ξ ~ N(mean, precision⁻¹), and the variance φ_c of every channel.
@@ -63,6 +66,10 @@ struct Prior {
 /// keeps its earlier expansion then.
 using Expand = std::function<std::optional<Expansion>(std::size_t specimen, const Prior& prior)>;
 
+/// Σ_c |r_c(ξ)|²/φ_c of specimen i for every column ξ of `points`; +∞ where it cannot be evaluated. Called like Expand.
+using Misfits = std::function<Eigen::VectorXd(std::size_t specimen, const Eigen::MatrixXd& points,
+                                              const std::vector<double>& variances)>;
+
 struct Cohort {
   std::vector<Parameter> parameters;
   std::vector<Factor> factors;
@@ -71,6 +78,7 @@ struct Cohort {
   std::vector<Channel> channels;
   Eigen::VectorXd start;  ///< mean of the first, weak prior, one scale wide
   Expand expand;
+  Misfits misfits;  ///< may be empty: then the linearised curves are all that counts, as in nlme
 };
 
 /// The cohort with its specimens sorted by name and its animals in the order of their first specimen, so that sums run

@@ -64,6 +64,10 @@ std::vector<Marginal> integrate_specimens(const std::vector<Expansion>& expansio
       m.g += precision * channel.score;
       m.value += precision * channel.squares + channel.rows * std::log(variances.noise[c]);
     }
+    if (expansion.pull.size() > 0) {
+      m.g += expansion.pull;
+      m.A += expansion.bend;
+    }
     const Smoothed s = smoothed(variances.within, m.A);
     m.K = s.K;
     m.T = (Eigen::MatrixXd::Identity(m.A.rows(), m.A.rows()) + m.A * variances.within * variances.within.transpose())

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "numerics/distributions.hpp"
+#include "population/integration.hpp"
 #include "population/spread_profile.hpp"
 
 namespace tunica::population {
@@ -35,14 +36,14 @@ Evidence evidence(const Cohort& cohort, const Alternation& fit, Likelihood likel
   return result;
 }
 
-void fill_individuals(const Sorted& sorted, Population& result) {
+void fill_individuals(const Sorted& sorted, const Integration& whole, Population& result) {
   const Alternation& fit = result.alternation;
-  const auto marginals = integrate_specimens(fit.expansions, fit.variances);
+  const auto marginals = integrate_specimens(whole.expansions, fit.variances);
   const Eigen::VectorXd variance = result.omega.diagonal();
   result.individuals.resize(marginals.size());
   result.borrowed.setZero(variance.size());
   for (std::size_t k = 0; k < marginals.size(); ++k) {
-    Posterior own = posterior(marginals[k], fit.means.of_specimen[k], fit.means.of_specimen_covariance[k]);
+    Posterior own = posterior(marginals[k], whole.means.of_specimen[k], whole.means.of_specimen_covariance[k]);
     Individual& individual = result.individuals[sorted.place[k]];
     individual.borrowed.setOnes(variance.size());
     for (Eigen::Index j = 0; j < variance.size(); ++j)
@@ -56,12 +57,11 @@ void fill_individuals(const Sorted& sorted, Population& result) {
 }
 
 /// a_k in the caller's order; animals without a specimen have zero.
-void fill_animals(const Cohort& given, const Sorted& sorted, Population& result) {
+void fill_animals(const Cohort& given, const Sorted& sorted, const Integration& whole, Population& result) {
   const auto p = static_cast<Eigen::Index>(given.parameters.size());
   result.animals.assign(given.animals.size(), Eigen::VectorXd::Zero(p));
   for (std::size_t k = 0; k < sorted.place.size() && !given.animals.empty(); ++k)
-    result.animals[given.specimens[sorted.place[k]].animal] =
-        result.alternation.means.animals[sorted.cohort.specimens[k].animal];
+    result.animals[given.specimens[sorted.place[k]].animal] = whole.means.animals[sorted.cohort.specimens[k].animal];
 }
 
 }  // namespace
@@ -81,17 +81,18 @@ Population estimate(const Cohort& given, const Options& options) {
   if (result.between) form.between = result.between->shape;
   result.alternation = alternate(cohort, form);
   const Alternation& fit = result.alternation;
-  result.coefficients = coefficients_of(fit.means, freedom, p, options.confidence);
-  result.beta = fit.means.beta;
-  result.beta_covariance = fit.means.covariance;
+  const Integration whole = integrate(cohort, form, fit);
+  result.coefficients = coefficients_of(whole.means, freedom, p, options.confidence);
+  result.beta = whole.means.beta;
+  result.beta_covariance = whole.means.covariance;
   result.omega = fit.variances.within * fit.variances.within.transpose();
   if (animals > 0) result.omega_between = fit.variances.between * fit.variances.between.transpose();
   result.noise = fit.variances.noise;
   result.rounds = fit.rounds;
   result.converged = fit.converged;
   result.spreads = spreads(cohort, form, fit, options.intervals_of_spreads ? options.confidence : 0);
-  fill_individuals(sorted, result);
-  fill_animals(given, sorted, result);
+  fill_individuals(sorted, whole, result);
+  fill_animals(given, sorted, whole, result);
   result.reml = evidence(cohort, fit, Likelihood::restricted);
   if (options.maximum_likelihood) {
     form.likelihood = Likelihood::full;
