@@ -153,8 +153,8 @@ Eigen::VectorXd Measured::misfits(std::size_t specimen, const Eigen::MatrixXd& p
     Eigen::Index row = 0;
     for (std::size_t c = 0; c < curve->rows.size(); ++c) {
       const auto count = static_cast<Eigen::Index>(curve->rows[c]);
-      result[s] += (values - y[specimen]).segment(row, count).squaredNorm() /
-                   (variances[c] * curve->noise[c] * curve->noise[c]);
+      result[s] +=
+          (values - y[specimen]).segment(row, count).squaredNorm() / (variances[c] * curve->noise[c] * curve->noise[c]);
       row += count;
     }
   }
