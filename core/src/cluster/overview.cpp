@@ -48,6 +48,9 @@ std::string state_words(const std::string& state, const std::string& reason) {
   return reason.empty() ? state : fmt::format("{} ({})", state, reason);
 }
 
+/// As scontrol takes it: "12", or "12_3" in an array.
+std::string id_of(const slurm::Task& task) { return task.part ? fmt::format("{}_{}", task.job, *task.part) : task.job; }
+
 std::string line_of(const ShardView& shard) {
   const auto& progress = shard.progress;
   std::string line = fmt::format(
@@ -104,6 +107,8 @@ Overview overview(const Submission& submission, const std::vector<cohort::ShareP
     view.missing += one.missing;
     view.shards.push_back(std::move(shard));
   }
+  for (const slurm::Task& task : tasks)
+    if (task.held()) view.held.push_back(task);
   if (const slurm::Task* merge = best_of(tasks, submission.merge_name(), std::nullopt)) view.merge = *merge;
   if (view.merge && view.merge->phase == slurm::Phase::failed)
     view.merge_last_words = end_of(queue_folder(results) / "merge.txt");
@@ -128,6 +133,9 @@ std::string in_words(const Overview& view, const Submission& submission) {
     text += fmt::format("   merge  {:<8} job {}  {}\n", text::code_of(slurm::phase_codes, view.merge->phase),
                         view.merge->job, state_words(view.merge->state, view.merge->reason));
   if (!view.merge_last_words.empty()) text += fmt::format("{:18}its log ends with: {}\n", "", view.merge_last_words);
+  for (const slurm::Task& task : view.held)
+    text += fmt::format("Slurm holds job {} ({}). When its nodes are well, let it go: scontrol release {}\n",
+                        id_of(task), task.reason, id_of(task));
   if (!view.queue_problem.empty())
     text += fmt::format("The queue was not asked, so a shard may be alive that is called stopped here: {}\n",
                         view.queue_problem);
@@ -156,9 +164,15 @@ std::string in_json(const Overview& view, const Submission& submission) {
              {"state", view.merge->state},
              {"reason", or_null(view.merge->reason)},
              {"last_words", or_null(view.merge_last_words)}};
-  const Json json = {{"name", submission.name}, {"specimens", view.specimens},
-                     {"missing", view.missing}, {"queue_problem", or_null(view.queue_problem)},
-                     {"shards", shards},        {"merge", merge}};
+  Json held = Json::array();
+  for (const slurm::Task& task : view.held) held.push_back({{"job", id_of(task)}, {"reason", task.reason}});
+  const Json json = {{"name", submission.name},
+                     {"specimens", view.specimens},
+                     {"missing", view.missing},
+                     {"queue_problem", or_null(view.queue_problem)},
+                     {"shards", shards},
+                     {"merge", merge},
+                     {"held", held}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -60,6 +60,11 @@ std::string end_words(const Ended& ended) {
 
 }  // namespace
 
+bool Task::held() const {
+  // "JobHeldUser", "JobHeldAdmin", "launch failed requeued held"
+  return phase == Phase::waiting && (reason.find("Held") != std::string::npos || reason.ends_with("held"));
+}
+
 Phase phase_of(const std::string& state) {
   const auto known = text::value_of(living_states, state.substr(0, state.find(' ')));
   return known.value_or(Phase::failed);  // TIMEOUT, NODE_FAIL, OUT_OF_MEMORY, CANCELLED, DEADLINE, …

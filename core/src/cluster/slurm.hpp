@@ -29,6 +29,8 @@ struct Task {
   Phase phase = Phase::waiting;
 
   [[nodiscard]] bool alive() const { return phase == Phase::waiting || phase == Phase::running; }
+  /// It waits until somebody releases it: by a user, or by Slurm after a start that failed.
+  [[nodiscard]] bool held() const;
 };
 
 /// What a state of squeue or sacct means, TIMEOUT for example. sacct adds words to some: "CANCELLED by 0".
