@@ -31,7 +31,7 @@ namespace {
 struct CohortOptions {
   std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
-  bool reports = false, no_reports = false;
+  bool reports = false, no_reports = false, diagnose = false;
 };
 
 /// Above so many specimens a report for each is made only where somebody asks for it: a page is half a megabyte.
@@ -43,8 +43,12 @@ struct Opened {
   cohort::SpecimenTable table;
   cohort::Template pattern;
 
-  explicit Opened(const std::filesystem::path& file)
-      : cohort(cohort::read_specification(file)), table(cohort::read_specimens(cohort)), pattern(cohort, table) {}
+  explicit Opened(const CohortOptions& options)
+      : cohort(cohort::read_specification(options.file)),
+        table(cohort::read_specimens(cohort)),
+        pattern(cohort, table) {
+    if (options.diagnose && !cohort.diagnosis) cohort.diagnosis.emplace();
+  }
 };
 
 void write_results(const Opened& opened, const cohort::Collection& found, const cohort::Study& study,
@@ -55,6 +59,13 @@ void write_results(const Opened& opened, const cohort::Collection& found, const 
   execution::write_atomically(results / "population.csv", cohort::population_table(study));
   execution::write_atomically(results / "shrunken.csv", cohort::shrunken_table(opened.table, study));
   cohort::write_bands(results, study);
+  if (study.diagnosis) {
+    execution::write_atomically(results / "mechanisms.csv", cohort::mechanism_table(opened.table, *study.diagnosis));
+    if (!study.diagnosis->extended.empty()) {
+      execution::write_atomically(results / "extended.json", study.diagnosis->extended);
+      execution::write_atomically(results / "extended_cohort.json", study.diagnosis->extended_cohort);
+    }
+  }
   execution::write_atomically(results / "result.json", cohort::study_json(opened.cohort, opened.table, found, study));
 }
 
@@ -70,13 +81,15 @@ int merge(const GlobalOptions& global, const Session& session, const Opened& ope
   cohort::Study study;
   {
     Stages stages(global.quiet);
-    study = cohort::study(opened.cohort, opened.table, opened.pattern, found, session.catalogue(),
+    study = cohort::study(opened.cohort, opened.table, opened.pattern, found, session.catalogue(), results,
                           [&stages](const std::string& what, double share) { stages.tell(what, share); });
   }
   write_results(opened, found, study, results);
   const auto page = report::write_report(results);
   fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
              cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
+  if (study.diagnosis && !study.diagnosis->extended.empty())
+    fmt::print("Try:      tunica cohort {}\n", (results / "extended_cohort.json").string());
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
@@ -84,7 +97,7 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const cohort::Share share = options.share.empty() ? cohort::Share{} : cohort::parse_share(options.share);
   const Session session(global);
-  const Opened opened(options.file);
+  const Opened opened(options);
   const auto results = cohort::results_folder(options.directory, opened.cohort.name);
   execution::write_atomically(results / "cohort.json", opened.cohort.text);
   cohort::FitSettings settings;
@@ -118,7 +131,7 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
 int merge_only(const GlobalOptions& global, const CohortOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
-  return merge(global, session, Opened(options.file), options.directory);
+  return merge(global, session, Opened(options), options.directory);
 }
 
 void add_common(CLI::App& verb, CohortOptions& options, bool directory_required) {
@@ -128,6 +141,8 @@ void add_common(CLI::App& verb, CohortOptions& options, bool directory_required)
                                     "the same cohort is gone on with")
                         ->type_name("DIR");
   if (directory_required) directory->required();
+  verb.add_flag("--diagnose", options.diagnose,
+                "Say what the model gets wrong in all specimens; the key \"diagnosis\" of the file does the same");
   verb.add_option("-j,--threads", options.threads, "Threads; all of the machine without it")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

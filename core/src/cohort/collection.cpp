@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "cohort/evidence.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -27,7 +28,7 @@ Collection collect(const Specification& cohort, const SpecimenTable& table, cons
     try {
       const std::string inputs = bind(cohort, pattern, specimen, catalogue).inputs;
       auto stored = stored_record(results, specimen);
-      if (stored && stored->inputs == inputs)
+      if (stored && stored->inputs == inputs && !lacks_evidence(cohort, specimen, *stored, results))
         record = std::move(*stored);
       else
         missing[k] = 1;

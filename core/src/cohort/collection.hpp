@@ -11,7 +11,7 @@ namespace tunica::cohort {
 /// What the shards have left: a record for each specimen of the table, whoever made it.
 struct Collection {
   std::vector<Record> records;       ///< one a specimen, in the order of the table
-  std::vector<std::size_t> missing;  ///< specimens without a record of their present inputs
+  std::vector<std::size_t> missing;  ///< specimens without a record, or evidence, of their present inputs
 
   [[nodiscard]] std::size_t count(Outcome outcome) const;
 };

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "cohort/evidence.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -16,7 +17,7 @@ std::vector<char> missing_records(const Specification& cohort, const SpecimenTab
     try {
       const std::string inputs = bind(cohort, pattern, specimen, catalogue).inputs;
       const auto stored = stored_record(results, specimen);
-      missing[k] = !stored || stored->inputs != inputs;
+      missing[k] = !stored || stored->inputs != inputs || lacks_evidence(cohort, specimen, *stored, results);
     } catch (const InputError&) {
       // It cannot be read: the merge lists it with its reason.
     }

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "cohort/evidence.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -46,6 +47,8 @@ ShareOutcome fit_share(const Specification& cohort, const SpecimenTable& table, 
         tbb::this_task_arena::isolate([&] {
           const auto record = fit(cohort, pattern, table.specimens[mine[k]], catalogue, settings);
           if (!record) return void(interrupted = true);
+          if (cohort.diagnosis && stopped()) return void(interrupted = true);
+          gather_evidence(cohort, pattern, table.specimens[mine[k]], *record, catalogue, settings.results);
           if (record->outcome == Outcome::fitted) ++fitted;
           if (told) told(++done, mine.size());
         });

@@ -99,6 +99,22 @@ void read_population(const Node& node, Specification& cohort) {
   if (const auto count = node.find("permutations")) cohort.permutations = count->count("a whole number from 99", 99);
 }
 
+/// true, false, or an object.
+void read_diagnosis(const Node& node, Specification& cohort) {
+  if (node.is_flag()) {
+    if (node.flag("")) cohort.diagnosis.emplace();
+    return;
+  }
+  node.expect_object("true, false or an object with quick and alpha,");
+  node.allow_only({"quick", "alpha"}, "\"diagnosis\" of a cohort");
+  DiagnosisEntry& entry = cohort.diagnosis.emplace();
+  if (const auto quick = node.find("quick")) entry.quick = quick->flag("true or false");
+  if (const auto alpha = node.find("alpha")) {
+    entry.alpha = alpha->number("a number between 0 and 1");
+    if (!(entry.alpha > 0 && entry.alpha < 1)) alpha->fail_expected("a number between 0 and 1");
+  }
+}
+
 }  // namespace
 
 Specification read_specification(const std::filesystem::path& file) {
@@ -116,7 +132,7 @@ Specification read_specification(const std::filesystem::path& file) {
     root.fail("this is an experiment, not a cohort",
               "Write a cohort file that names it in \"experiment\", and a table in \"specimens\"; see docs/cohort.md.");
   root.allow_only({"$schema", "format", "name", "seed", "experiment", "specimens", "bind", "factors", "nested_in",
-                   "readings", "population"},
+                   "readings", "population", "diagnosis"},
                   "the cohort file");
   cohort.name = file.stem().string();
   if (const auto node = root.find("$schema")) node->text("the name of a schema");
@@ -140,6 +156,7 @@ Specification read_specification(const std::filesystem::path& file) {
     for (const auto& [name, entry] : node->members("an object with one entry per reading"))
       cohort.readings.push_back(read_reading(name, entry));
   if (const auto node = root.find("population")) read_population(*node, cohort);
+  if (const auto node = root.find("diagnosis")) read_diagnosis(*node, cohort);
   return cohort;
 }
 

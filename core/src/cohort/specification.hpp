@@ -50,6 +50,13 @@ enum class NoisePool { specimen, cohort };
 inline constexpr text::Codes<NoisePool, 2> noise_pool_codes{
     {{NoisePool::specimen, "specimen"}, {NoisePool::cohort, "cohort"}}};
 
+/// What is asked of the diagnosis of a cohort. What is looked for in a specimen stands in "diagnosis" of the
+/// experiment.
+struct DiagnosisEntry {
+  bool quick = true;    ///< of each specimen; the others make up for what a quick one does not see
+  double alpha = 0.05;  ///< false alarms that are accepted, of the cohort as a whole
+};
+
 /// The cohort file as typed values.
 struct Specification {
   std::string name;
@@ -67,7 +74,8 @@ struct Specification {
   SpreadStructure spread = SpreadStructure::automatic;
   NoisePool noise = NoisePool::specimen;
   std::size_t permutations = 9999;
-  std::string text;  ///< the file as it stands, for the results folder
+  std::optional<DiagnosisEntry> diagnosis;  ///< none: the cohort is not diagnosed
+  std::string text;                         ///< the file as it stands, for the results folder
 };
 
 /// Throws InputError: what was found, where, and what is expected.

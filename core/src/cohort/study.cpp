@@ -113,7 +113,7 @@ PopulationStudy population_of(const Specification& cohort, const SpecimenTable& 
 }  // namespace
 
 Study study(const Specification& cohort, const SpecimenTable& table, const Template& pattern, const Collection& found,
-            const plugins::Catalogue& catalogue,
+            const plugins::Catalogue& catalogue, const std::filesystem::path& results,
             const std::function<void(const std::string& stage, double share)>& told) {
   Study result;
   result.remarks = remarks_of(table, found);
@@ -122,6 +122,10 @@ Study study(const Specification& cohort, const SpecimenTable& table, const Templ
   for (std::size_t run = 0; run < runs; ++run) {
     if (told) told("population", static_cast<double>(run) / static_cast<double>(runs));
     result.populations.push_back(population_of(cohort, table, pattern, found, run, catalogue));
+  }
+  if (cohort.diagnosis) {
+    if (told) told("diagnosis", 0);
+    result.diagnosis = study_diagnosis(cohort, table, found, catalogue, results);
   }
   if (result.populations.empty()) return result;
   const Members& members = result.populations.front().members;

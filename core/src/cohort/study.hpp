@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cohort/analysis.hpp"
+#include "cohort/diagnosis_study.hpp"
 #include "cohort/remarks.hpp"
 
 namespace tunica::cohort {
@@ -64,14 +65,16 @@ struct PopulationStudy {
 struct Study {
   std::vector<PopulationStudy> populations;  ///< one a run
   std::vector<Remark> remarks;
+  std::optional<DiagnosisStudy> diagnosis;  ///< where the cohort file asks for it
 };
 
 /// Draws of new specimens for the bands.
 constexpr std::size_t band_draws = 1000;
 
-/// Everything that is said of all specimens together, from their records. Deterministic, for any number of threads.
+/// Everything that is said of all specimens together, from their records and the evidence in `results`. Deterministic,
+/// for any number of threads.
 Study study(const Specification& cohort, const SpecimenTable& table, const Template& pattern, const Collection& found,
-            const plugins::Catalogue& catalogue,
+            const plugins::Catalogue& catalogue, const std::filesystem::path& results,
             const std::function<void(const std::string& stage, double share)>& told = {});
 
 }  // namespace tunica::cohort

@@ -148,6 +148,7 @@ std::string study_json(const Specification& cohort, const SpecimenTable& table, 
   json["warnings"] = warnings;
   json["warning_details"] = details;
   json["cohort"] = {{"specimens", specimens}, {"populations", populations}};
+  if (study.diagnosis) json["diagnosis"] = diagnosis_json(table, *study.diagnosis);
   std::string inputs;
   for (const Record& record : found.records) inputs += record.inputs + "\n";
   json["provenance"] = {{"version", comparison::version()},

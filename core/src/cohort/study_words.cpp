@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -92,19 +93,23 @@ void add_population(const PopulationStudy& one, const SpecimenTable& table, std:
         "\n";
 }
 
+void add_models(const std::vector<PopulationStudy>& populations, std::string& words) {
+  words += "\nmodels over the whole cohort (AIC above the least)\n";
+  double least = std::numeric_limits<double>::infinity();
+  for (const PopulationStudy& one : populations)
+    if (one.problem.empty()) least = std::min(least, one.aic);
+  for (const PopulationStudy& one : populations)
+    if (one.problem.empty()) words += fmt::format("  {} {:.1f}\n", text::pad(one.run, 26), one.aic - least);
+}
+
 }  // namespace
 
 std::string study_words(const SpecimenTable& table, const Study& study) {
   std::string words;
   for (const Remark& remark : study.remarks) words += text::hanging("  ! ", remark.sentence) + "\n";
   for (const PopulationStudy& one : study.populations) add_population(one, table, words);
-  if (study.populations.size() < 2) return words;
-  words += "\nmodels over the whole cohort (AIC above the least)\n";
-  double least = study.populations.front().aic;
-  for (const PopulationStudy& one : study.populations)
-    if (one.problem.empty()) least = std::min(least, one.aic);
-  for (const PopulationStudy& one : study.populations)
-    if (one.problem.empty()) words += fmt::format("  {} {:.1f}\n", text::pad(one.run, 26), one.aic - least);
+  if (study.populations.size() > 1) add_models(study.populations, words);
+  if (study.diagnosis) words += diagnosis_words(table, *study.diagnosis);
   return words;
 }
 

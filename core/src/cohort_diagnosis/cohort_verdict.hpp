@@ -53,6 +53,9 @@ struct FactorEvidence {
   double probability_only = 0;         ///< that one level alone has it
 };
 
+/// "p = 0.003"; very small ones are said to be so.
+std::string p_words(double p);
+
 /// Why a specimen does not go with the verdict.
 enum class ContradictionKind {
   not_seen,      ///< the others say that it should show the effect, and it does not
@@ -66,6 +69,13 @@ struct Contradiction {
   std::string specimen;
   ContradictionKind kind;
   std::string text;  ///< one clause, without a full stop
+};
+
+/// |r|² of one specimen without the cause, with an amplitude of its own, and with that of the others.
+struct LeftOut {
+  std::string specimen;
+  std::size_t rows = 0;
+  double without = 0, own = 0, foretold = 0;
 };
 
 /// A row of the picture mechanism × specimen: ln of the evidence over that of the base, by specimen.
@@ -94,6 +104,7 @@ struct CohortVerdict {
   std::vector<CommonAmplitude> amplitudes;            ///< of the best explanation
   std::vector<FactorEvidence> factors;
   std::vector<Contradiction> contradictions;
+  std::vector<LeftOut> left_out;       ///< of a single mechanism; specimens left out one by one
   double p_rest = 1;                   ///< of the smooth shapes that the best explanation leaves
   std::vector<std::string> specimens;  ///< in the order of the matrix
   std::vector<double> p_values;        ///< of each by itself

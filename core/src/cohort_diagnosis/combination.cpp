@@ -14,6 +14,7 @@
 #include "cohort_diagnosis/common_amplitude.hpp"
 #include "cohort_diagnosis/contradictions.hpp"
 #include "cohort_diagnosis/groups.hpp"
+#include "cohort_diagnosis/left_out.hpp"
 #include "cohort_diagnosis/pairs.hpp"
 #include "cohort_diagnosis/remainder.hpp"
 #include "diagnosis/naming/credible.hpp"
@@ -71,6 +72,7 @@ class Combination {
     }
     for (const Hypothesis* cause : causes) found.amplitudes.push_back(common_amplitude(*cause, who));
     found.p_rest = rest_of(specimens_, causes).p();
+    if (causes.size() == 1) found.left_out = left_out(specimens_, *causes.front(), who);
     found.contradictions = contradictions_of(specimens_, causes, hypotheses_, who);
     claim(all, found);
     for (Candidate& one : all) found.explanations.push_back(std::move(one.explanation));
@@ -199,9 +201,10 @@ class Combination {
     found.verdict = members == 1 ? Verdict::named : Verdict::indistinguishable;
     if (found.p_rest < not_clean) {
       found.verdict = Verdict::unknown;
-      found.reasons.push_back(
-          {CohortReasonKind::not_clean, fmt::format("what {} leaves of all specimens together is no noise (p = {:.1g})",
-                                                    fmt::join(all.front().explanation.ids, " and "), found.p_rest)});
+      found.reasons.push_back({CohortReasonKind::not_clean,
+                               fmt::format("what {} {} of all specimens together is no noise ({})",
+                                           fmt::join(all.front().explanation.ids, " and "),
+                                           all.front().best.size() > 1 ? "leave" : "leaves", p_words(found.p_rest))});
     } else if (classes.size() > diagnosis::most_explanations) {
       found.verdict = Verdict::unknown;
       found.reasons.push_back(
@@ -258,6 +261,8 @@ class Combination {
 };
 
 }  // namespace
+
+std::string p_words(double p) { return p < 1e-12 ? "p < 1e-12" : fmt::format("p = {:.1g}", p); }
 
 const char* code_of(ContradictionKind kind) {
   switch (kind) {

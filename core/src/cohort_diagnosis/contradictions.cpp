@@ -68,7 +68,7 @@ std::vector<Contradiction> contradictions_of(const Specimens& specimens, const s
       if (cause->sees[s]) seen.push_back(&cause->seen[s]);
     if (const double p = rest_of(*specimens[s], seen).p(); !own && p < no_noise)
       own = Contradiction{specimens[s]->id, ContradictionKind::rest_is_left,
-                          fmt::format("what the cause leaves of it is no noise (p = {:.1g})", p)};
+                          fmt::format("what the cause leaves of it is no noise ({})", p_words(p))};
     if (own) found.push_back(std::move(*own));
   }
   return found;

@@ -62,6 +62,7 @@ Json to_json(const CohortVerdict& verdict) {
             {"amplitudes", Json::array()},
             {"factors", Json::array()},
             {"contradictions", Json::array()},
+            {"left_out", Json::array()},
             {"specimens", verdict.specimens},
             {"p_values", verdict.p_values},
             {"likeness", verdict.likeness},
@@ -73,6 +74,12 @@ Json to_json(const CohortVerdict& verdict) {
   for (const FactorEvidence& one : verdict.factors) json["factors"].push_back(of(one));
   for (const Contradiction& one : verdict.contradictions)
     json["contradictions"].push_back({{"specimen", one.specimen}, {"code", code_of(one.kind)}, {"text", one.text}});
+  for (const LeftOut& one : verdict.left_out)
+    json["left_out"].push_back({{"specimen", one.specimen},
+                                {"rows", one.rows},
+                                {"without", one.without},
+                                {"own", one.own},
+                                {"foretold", one.foretold}});
   for (const MatrixRow& one : verdict.matrix)
     json["matrix"].push_back({{"mechanism", one.id}, {"place", of(one.place)}, {"log_evidence", one.log_evidence}});
   return json;

@@ -141,6 +141,29 @@ void add_readings_of(Page& page, const Folder& folder, const Json& population) {
   }
 }
 
+/// A curve that turns, a loop for example, as one series a branch: a band that runs back over itself would be no area.
+std::vector<Series> branches_of(const Series& whole) {
+  std::vector<Series> branches;
+  double direction = 0;
+  for (std::size_t k = 0; k < whole.x.size(); ++k) {
+    const double step = k > 0 ? whole.x[k] - whole.x[k - 1] : 0;
+    const bool turns = step * direction < 0;
+    if (step != 0) direction = step;
+    if (k == 0 || turns) {
+      branches.push_back({whole.name, whole.mark, whole.style});
+      branches.back().label = branches.size() > 1 ? fmt::format("branch {}", branches.size()) : "";
+    }
+    for (const std::size_t from : {k - 1, k}) {
+      if (from == k - 1 && (k == 0 || !turns)) continue;  // a branch begins where the last one ended
+      branches.back().x.push_back(whole.x[from]);
+      branches.back().y.push_back(whole.y[from]);
+      branches.back().low.push_back(whole.low[from]);
+      branches.back().high.push_back(whole.high[from]);
+    }
+  }
+  return branches;
+}
+
 /// What was measured in the specimens of a group, under its band.
 Series measured_of(const Folder& folder, const std::string& file, const std::string& channel,
                    const std::vector<std::string>& specimens) {
@@ -212,7 +235,7 @@ void add_bands(Page& page, const Folder& folder) {
               chart.note = fmt::format("Data of {} of {} specimens.", some.size(), of_group->second.size());
             chart.series.push_back(measured_of(folder, "fit_" + test + ".csv", channel, some));
           }
-          chart.series.push_back(std::move(curve));
+          for (Series& branch : branches_of(curve)) chart.series.push_back(std::move(branch));
           page.chart(std::move(chart), folder.address());
         }
     }

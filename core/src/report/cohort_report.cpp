@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -122,6 +123,27 @@ void add_population(Page& page, const Json& population) {
   if (!outlying.empty()) page.box("bad", "Unlike the others", outlying);
 }
 
+/// The runs side by side, where there are several.
+void add_models(Page& page, const Folder& folder) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Json& one : populations(folder))
+    if (const double aic = number(one, "aic"); aic < least) least = aic;
+  if (populations(folder).size() < 2 || !std::isfinite(least)) return;
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& one : populations(folder)) {
+    const double aic = number(one, "aic");
+    rows.push_back({{word(one, "run")},
+                    {word(one, "model")},
+                    {figure(aic - least), true},
+                    {figure(number(one, "bic")), true},
+                    {figure(number(one, "neg2_log_likelihood")), true},
+                    {word(one, "problem")}});
+  }
+  page.section("Models over the whole cohort");
+  page.paragraph("The smaller, the better: what the whole cohort says against a model, with its parameters counted.");
+  page.html(sortable_html({"run", "model", "AIC above the least", "BIC", "−2 ln L", "why not"}, rows));
+}
+
 void add_specimen_table(Page& page, const Folder& folder) {
   const auto table = folder.table("specimens.csv");
   if (!table) return;
@@ -158,6 +180,8 @@ void add_cohort(Page& page, const Folder& folder) {
   add_warnings(page, folder);
   page.paragraph(specimen_count(folder));
   for (const Json& population : populations(folder)) add_population(page, population);
+  add_models(page, folder);
+  add_cohort_diagnosis(page, folder);
   add_bands(page, folder);
   add_specimen_estimates(page, folder);
   add_specimen_table(page, folder);

@@ -31,6 +31,8 @@ void add_reach(Page& page, const Folder& folder);
 void add_simulation(Page& page, const Folder& folder);
 
 void add_cohort(Page& page, const Folder& folder);
+/// What the model gets wrong in all specimens: verdict, picture mechanism × specimen, rivals, contradictions.
+void add_cohort_diagnosis(Page& page, const Folder& folder);
 void add_bands(Page& page, const Folder& folder);
 /// Estimates of every specimen by group, of each parameter and reading.
 void add_specimen_estimates(Page& page, const Folder& folder);

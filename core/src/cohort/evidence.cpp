@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cohort/evidence.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+#include "cohort_diagnosis/evidence_json.hpp"
+#include "diagnosis/evidence/base_fit.hpp"
+#include "execution/files.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::cohort {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* evidence_file = "evidence.json";
+
+std::string inputs_of(const Specification& cohort, const Record& record) {
+  return record.inputs + (cohort.diagnosis->quick ? " quick" : " full");
+}
+
+/// The file has two lines: who it is of, which is all that most readers want, and what was found.
+Json head_of(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::getline(stream, line);
+  return Json::parse(line, nullptr, false);
+}
+
+Json what_is_found(const Specification& cohort, const Template& pattern, const Specimen& specimen,
+                   const plugins::Catalogue& catalogue) {
+  const Bound bound = bind(cohort, pattern, specimen, catalogue);
+  diagnosis::Request request = diagnosis::request_of(bound.experiment);
+  request.quick = cohort.diagnosis->quick;
+  return {{"evidence", cohort_diagnosis::to_json(
+                           cohort_diagnosis::evidence_of(specimen.id, bound.experiment, request, catalogue))}};
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file) {
+  throw InputError(
+      fmt::format("{}: this is no evidence of a specimen, or a part of it. Delete the file, and run the cohort again, "
+                  "which makes it anew",
+                  file.string()));
+}
+
+}  // namespace
+
+bool lacks_evidence(const Specification& cohort, const Specimen& specimen, const Record& record,
+                    const std::filesystem::path& results) {
+  if (!cohort.diagnosis || record.outcome == Outcome::unreadable) return false;
+  const Json head = head_of(folder_of(results, specimen) / evidence_file);
+  return !head.is_object() || head.value("inputs", "") != inputs_of(cohort, record);
+}
+
+void gather_evidence(const Specification& cohort, const Template& pattern, const Specimen& specimen,
+                     const Record& record, const plugins::Catalogue& catalogue, const std::filesystem::path& results) {
+  if (!lacks_evidence(cohort, specimen, record, results)) return;
+  Json found;
+  try {
+    found = what_is_found(cohort, pattern, specimen, catalogue);
+  } catch (const execution::WriteFailure&) {
+    throw;
+  } catch (const std::exception& reason) {  // InputError, BaseFitFailure, and what plugins throw
+    found = {{"problem", reason.what()}};
+  }
+  const Json head = {{"format", 1}, {"id", specimen.id}, {"inputs", inputs_of(cohort, record)}};
+  execution::write_atomically(folder_of(results, specimen) / evidence_file, head.dump() + "\n" + found.dump() + "\n");
+}
+
+CollectedEvidence collect_evidence(const SpecimenTable& table, const Collection& found,
+                                   const std::filesystem::path& results) {
+  std::vector<std::optional<cohort_diagnosis::SpecimenEvidence>> all(table.specimens.size());
+  std::vector<std::string> problems(table.specimens.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    const Record& record = found.records[k];
+    if (record.outcome == Outcome::unreadable) {
+      problems[k] = record.reason;
+      return;
+    }
+    const auto file = folder_of(results, table.specimens[k]) / evidence_file;
+    std::ifstream stream(file);
+    std::string line;
+    std::getline(stream, line);
+    std::getline(stream, line);
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) refuse(file);
+    if (const auto problem = json.find("problem"); problem != json.end() && problem->is_string())
+      problems[k] = *problem;
+    else if (const auto evidence = json.find("evidence"); evidence != json.end())
+      all[k] = cohort_diagnosis::evidence_from_json(*evidence, file.string());
+    else
+      refuse(file);
+  });
+  CollectedEvidence collected;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k]) {
+      collected.specimens.push_back(std::move(*all[k]));
+      collected.positions.push_back(k);
+    } else {
+      collected.problems.emplace_back(k, problems[k]);
+    }
+  return collected;
+}
+
+}  // namespace tunica::cohort

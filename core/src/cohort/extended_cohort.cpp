@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cohort/diagnosis_study.hpp"
+#include "data/csv.hpp"
+#include "experiment/json_document.hpp"
+#include "experiment/reader.hpp"
+
+namespace tunica::cohort {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One mechanism as an experiment has it.
+Json mechanism_json(const std::string& id, const MechanismFactory& mechanism, const diagnosis::Place& place,
+                    const std::vector<std::pair<std::string, double>>& setting,
+                    const cohort_diagnosis::CommonAmplitude& amplitude) {
+  Json json{{"type", id}}, parameters = Json::object();
+  for (const Option& option : mechanism.options) {
+    if (option.name == "channel") json["channel"] = place.channel;
+    if (option.name == "rows" && place.row) json["rows"] = fmt::format("{}:{}:1", place.file_row, place.file_row + 1);
+    for (const auto& [name, value] : setting)
+      if (name == option.name) json[name] = value;
+  }
+  for (std::size_t k = 0; k < mechanism.parameters.size(); ++k) {
+    const Parameter& parameter = mechanism.parameters[k];
+    double start = parameter.initial;
+    if (k == 0) start = amplitude.squared ? mechanism.null + std::sqrt(std::max(amplitude.mean, 0.0)) : amplitude.mean;
+    for (const auto& [name, value] : setting)
+      if (name == parameter.name) start = value;
+    if (std::isfinite(start)) parameters[parameter.name]["initial"] = std::clamp(start, parameter.min, parameter.max);
+    // One amplitude in several tests: they share a parameter.
+    if (place.tests.size() > 1) parameters[parameter.name]["share"] = id + "_" + parameter.name;
+  }
+  json["parameters"] = parameters;
+  return json;
+}
+
+/// The models of the first run: a mechanism of the material acts in the first unless its place names one.
+std::string first_model(const Specification& cohort, const plugins::Catalogue& catalogue) {
+  const auto experiment = experiment::read_experiment(cohort.experiment, catalogue);
+  if (!experiment.runs.empty())
+    if (const auto models = experiment.models_of(experiment.runs.front()); !models.empty()) return models.front();
+  return experiment.models.front().name;
+}
+
+void add(Json& owner, const Json& mechanism) {
+  if (!owner.contains("mechanisms")) owner["mechanisms"] = Json::array();
+  owner["mechanisms"].push_back(mechanism);
+}
+
+/// A file name of the experiment, as a file in another folder has to say it.
+std::string moved(const std::string& name, const std::filesystem::path& from) {
+  const std::filesystem::path path(name);
+  return path.is_absolute() ? name
+                            : (std::filesystem::absolute(from.empty() ? "." : from) / path).lexically_normal().string();
+}
+
+/// Measured data stay where they are: every "file" and "files" of a test's data.
+void move_data(Json& experiment, const std::filesystem::path& from) {
+  for (auto& [name, test] : experiment["tests"].items()) {
+    if (!test.contains("data") || !test["data"].is_object()) continue;
+    Json& data = test["data"];
+    if (data.contains("file") && data["file"].is_string()) data["file"] = moved(data["file"], from);
+    if (data.contains("files") && data["files"].is_array())
+      for (Json& file : data["files"])
+        if (file.is_string()) file = moved(file, from);
+  }
+}
+
+bool names_a_file(const std::string& pointer) {
+  return pointer.ends_with("/data/file") || pointer.find("/data/files/") != std::string::npos;
+}
+
+std::string cohort_text(const Specification& cohort) {
+  Json json = Json::parse(cohort.text, nullptr, true, true);
+  const auto folder = cohort.experiment.parent_path();
+  json["name"] = cohort.name + "_extended";
+  json["experiment"] = "extended.json";
+  const std::string table = std::filesystem::absolute(cohort.table).lexically_normal().string();
+  if (json["specimens"].is_object())
+    json["specimens"]["file"] = table;
+  else
+    json["specimens"] = table;
+  for (auto& [pointer, pattern] : json["bind"].items())
+    if (names_a_file(pointer)) pattern = moved(pattern, folder);
+  json.erase("diagnosis");
+  json.erase("$schema");
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+void extend(const Specification& cohort, const plugins::Catalogue& catalogue, DiagnosisStudy& study) {
+  const auto& verdict = study.verdict;
+  const bool has_a_cause =
+      verdict.verdict == diagnosis::Verdict::named || verdict.verdict == diagnosis::Verdict::indistinguishable;
+  if (!has_a_cause || verdict.amplitudes.empty()) return;
+  const auto& best = verdict.explanations.front();
+  const std::string text = experiment::JsonDocument(cohort.experiment, data::read_bytes(cohort.experiment)).text();
+  Json experiment = Json::parse(text, nullptr, true, true);
+  for (std::size_t k = 0; k < best.ids.size(); ++k) {
+    const diagnosis::Place& place = best.places[k];
+    const Json mechanism = mechanism_json(best.ids[k], catalogue.mechanisms().at(best.ids[k]).factory, place,
+                                          best.settings[k], verdict.amplitudes[k]);
+    if (place.tests.empty())
+      add(experiment["models"][place.model.empty() ? first_model(cohort, catalogue) : place.model], mechanism);
+    for (const std::string& test : place.tests) add(experiment["tests"][test], mechanism);
+  }
+  move_data(experiment, cohort.experiment.parent_path());
+  experiment.erase("$schema");
+  study.extended = experiment.dump(2) + "\n";
+  study.extended_cohort = cohort_text(cohort);
+}
+
+}  // namespace tunica::cohort
