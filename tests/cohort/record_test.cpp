@@ -22,7 +22,7 @@ Record full_record() {
   run.objective = 0.1 + 0.2;
   run.parameters = {
       {"mu", "kPa", Scale::log, M_PI, 1e-300, 1e300, std::nextafter(1.0, 2.0), std::nullopt, "upper", true}};
-  run.quality = {{"strip", "stress", "kPa", true, std::nullopt, 1.0 / 3}};
+  run.quality = {{"strip", "stress", "kPa", true, std::nullopt, 1.0 / 3, 0.1 + 0.2}};
   run.stable = false;
   run.misfit = 5e-324;
   run.evaluations = 1ULL << 60U;

@@ -39,6 +39,18 @@ TEST(CohortRemarks, NameASpecimenWhoseUnitIsProbablyWrong) {
   EXPECT_THAT(found[0].sentence, HasSubstr("mu is 2.1e+04 kPa, the median of the cohort 22"));
 }
 
+TEST(CohortRemarks, NameASpecimenWhoseCurvesAreAThousandTimesTooHigh) {
+  auto found = collection({20, 25, 18, 22});
+  for (std::size_t k = 0; k < 4; ++k)
+    found.records[k].runs[0].quality = {
+        {"strip", "stress", "kPa", false, 0.99, 1, k == 2 ? 31e3 : 30 + 9.0 * static_cast<double>(k)}};
+  const auto said = remarks(found);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].kind, RemarkKind::far_off);
+  EXPECT_THAT(said[0].specimens, ElementsAre("2"));
+  EXPECT_THAT(said[0].sentence, HasSubstr("stress of 'strip' reaches 3.1e+04 kPa"));
+}
+
 TEST(CohortRemarks, KeepStillAboutParametersThatTheDataDoNotFix) {
   auto found = collection({20, 25, 18, 22, 21e3});
   found.records[4].runs[0].parameters[0].identified = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -40,6 +41,14 @@ Record::Parameter parameter_of(const comparison::Estimate& estimate, Scale scale
   return parameter;
 }
 
+double largest_of(const assembly::Layout& layout, const std::string& test, const std::string& channel) {
+  double largest = 0;
+  for (const assembly::MeasuredChannel& view : layout.channels)
+    if (view.test == test && view.observable == channel)
+      for (const double value : view.measured) largest = std::fmax(largest, std::abs(value));  // NaN: not measured
+  return largest;
+}
+
 Record::Run run_of(const comparison::RunSummary& summary, const assembly::Layout& layout) {
   Record::Run run;
   run.label = summary.label;
@@ -52,7 +61,8 @@ Record::Run run_of(const comparison::RunSummary& summary, const assembly::Layout
   for (std::size_t k = 0; k < summary.parameters.size(); ++k)
     run.parameters.push_back(parameter_of(summary.parameters[k], layout.parameters[k].scale));
   for (const comparison::Quality& one : summary.quality)
-    run.quality.push_back({one.test, one.channel, one.unit, one.held_out, one.agreement.r2, one.agreement.rmse});
+    run.quality.push_back({one.test, one.channel, one.unit, one.held_out, one.agreement.r2, one.agreement.rmse,
+                           largest_of(layout, one.test, one.channel)});
   if (summary.stability) run.stable = summary.stability->transversely_stable();
   if (summary.misfit && summary.misfit->judged()) run.misfit = summary.misfit->times();
   return run;

@@ -47,12 +47,13 @@ Record::Parameter parameter_of(const Json& json) {
 
 Json json_of(const Record::Quality& quality) {
   return {{"test", quality.test},         {"channel", quality.channel}, {"unit", quality.unit},
-          {"held_out", quality.held_out}, {"r2", json_of(quality.r2)},  {"rmse", quality.rmse}};
+          {"held_out", quality.held_out}, {"r2", json_of(quality.r2)},  {"rmse", quality.rmse},
+          {"largest", quality.largest}};
 }
 
 Record::Quality quality_of(const Json& json) {
   return {json.at("test"), json.at("channel"), json.at("unit"), json.at("held_out"), optional_of<double>(json.at("r2")),
-          json.at("rmse")};
+          json.at("rmse"), json.at("largest")};
 }
 
 Json json_of(const Record::Run& run) {

@@ -38,6 +38,7 @@ struct Record {
     bool held_out = false;
     std::optional<double> r2;
     double rmse = 0;
+    double largest = 0;  ///< of the measured values, without their sign
   };
   struct Run {
     std::string label, model;

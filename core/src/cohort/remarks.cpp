@@ -54,19 +54,50 @@ void remark_same_data(const Collection& found, std::vector<Remark>& remarks) {
                          ids});
 }
 
-/// A unit that is wrong in one file makes a modulus a thousand times too large.
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool suspicious(double value, double median) {
+  return std::abs(std::log(value / median)) >= std::log(suspicious_ratio);
+}
+
+/// A unit that is wrong in one file makes its values a thousand times too large. They are the same in every run.
+void remark_large_values(const std::vector<const Record*>& fitted, std::vector<Remark>& remarks) {
+  const std::vector<Record::Quality>& channels = fitted.front()->runs.front().quality;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    std::vector<double> values;
+    for (const Record* record : fitted)
+      if (const auto& own = record->runs.front().quality; c < own.size()) values.push_back(own[c].largest);
+    const double median = median_of(values);
+    for (const Record* record : fitted) {
+      if (c >= record->runs.front().quality.size()) continue;
+      const Record::Quality& one = record->runs.front().quality[c];
+      if (!(one.largest > 0 && median > 0 && suspicious(one.largest, median))) continue;
+      remarks.push_back(
+          {RemarkKind::far_off,
+           fmt::format("{}: {} of '{}' reaches {:.3g}{}, in the median of the cohort {:.3g}. Is the unit "
+                       "of its column right?",
+                       record->id, one.channel, one.test, one.largest, text::unit_suffix(one.unit), median),
+           {record->id}});
+    }
+  }
+}
+
+/// A unit that is wrong elsewhere makes a modulus a thousand times too large.
 void remark_far_off(const std::vector<const Record*>& fitted, std::size_t run, std::vector<Remark>& remarks) {
   const std::vector<Record::Parameter>& parameters = fitted.front()->runs[run].parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     if (parameters[j].scale != Scale::log) continue;
     std::vector<double> values;
     for (const Record* record : fitted) values.push_back(record->runs[run].parameters[j].value);
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    const double median = values[values.size() / 2];
+    const double median = median_of(values);
     for (const Record* record : fitted) {
       const Record::Parameter& one = record->runs[run].parameters[j];
       // One that the data do not fix may be anywhere.
-      if (!one.identified || std::abs(std::log(one.value / median)) < std::log(suspicious_ratio)) continue;
+      if (!one.identified || !suspicious(one.value, median)) continue;
       remarks.push_back({RemarkKind::far_off,
                          fmt::format("{}: {} is {:.3g}{}, the median of the cohort {:.3g}. Is a unit wrong?",
                                      record->id, one.name, one.value, text::unit_suffix(one.unit), median),
@@ -83,9 +114,10 @@ void remark_bounds(const std::vector<const Record*>& fitted, std::size_t run, st
       if (!record->runs[run].parameters[j].at_bound.empty()) remark.specimens.push_back(record->id);
     if (remark.specimens.empty() || 5 * remark.specimens.size() < fitted.size()) continue;
     remark.sentence = fmt::format(
-        "{}: {} lies at a bound in {} of {} specimens. Its mean and spread say little; widen "
+        "{}: {} lies at a bound in {} of {} specimens{}. Its mean and spread say little; widen "
         "the bound, fix the parameter, or doubt the model",
-        fitted.front()->runs[run].label, parameters[j].name, remark.specimens.size(), fitted.size());
+        fitted.front()->runs[run].label, parameters[j].name, remark.specimens.size(), fitted.size(),
+        remark.specimens.size() < 4 ? fmt::format(" ({})", text::joined(remark.specimens)) : "");
     remarks.push_back(std::move(remark));
   }
 }
@@ -103,6 +135,7 @@ std::vector<Remark> remarks_of(const SpecimenTable& table, const Collection& fou
   for (const Record& record : found.records)
     if (record.outcome == Outcome::fitted) fitted.push_back(&record);
   if (fitted.empty()) return remarks;
+  if (!fitted.front()->runs.empty()) remark_large_values(fitted, remarks);
   for (std::size_t run = 0; run < fitted.front()->runs.size(); ++run) {
     remark_far_off(fitted, run, remarks);
     remark_bounds(fitted, run, remarks);
