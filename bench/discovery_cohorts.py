@@ -60,7 +60,7 @@ def generate_all(program, cohorts, seed, counts, effects, jobs):
 
 def diagnose_all(program, cohorts, jobs):
     """Verdicts of what has none, twenty cohorts at a time."""
-    left = sorted(seal.parent for seal in cohorts.glob("*/truth.sha256") if not (seal.parent / "verdict.json").exists())
+    left = sorted(seal.parent for seal in cohorts.glob("[!.]*/truth.sha256") if not (seal.parent / "verdict.json").exists())
     for first in range(0, len(left), 20):
         run([program, jobs, *left[first:first + 20]])
         print(f"diagnosed {min(first + 20, len(left))} of {len(left)} cohorts", file=sys.stderr)
@@ -251,7 +251,7 @@ def main():
     diagnose_all(told.build / "bin/bench_cohort_diagnosis", cohorts, told.jobs)
 
     scores = Scores(look_alikes(told.build))
-    folders = sorted(seal.parent for seal in cohorts.glob("*/truth.sha256"))
+    folders = sorted(seal.parent for seal in cohorts.glob("[!.]*/truth.sha256"))
     for folder in folders:
         scores.judge(folder.name, *opened(folder))
     kind = ("development", "scored", "reduced")[column]

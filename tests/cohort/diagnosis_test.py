@@ -11,11 +11,15 @@ import shutil
 import sys
 import tempfile
 
+import jsonschema
+
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cluster"))
 from laboratory import Program, expect, expect_same, make_cohort, run_cases
 
 root = pathlib.Path(tempfile.mkdtemp(prefix="cohort"))
+SCHEMA = json.loads((pathlib.Path(__file__).resolve().parents[2] /
+                     "schemas/tunica-cohort-result.schema.json").read_text(encoding="utf-8"))
 OFFSET = 0.6  # kPa, on stresses up to some hundred
 
 
@@ -46,7 +50,11 @@ def laboratory(name, specimens=8, offset=0.0, seed=5):
 
 
 def verdict_of(folder, results):
-    return json.loads((folder / results / "result.json").read_text(encoding="utf-8"))["diagnosis"]
+    """From a result.json that is as its schema says."""
+    result = json.loads((folder / results / "result.json").read_text(encoding="utf-8"))
+    faults = [error.message for error in jsonschema.Draft7Validator(SCHEMA).iter_errors(result)]
+    expect(not faults, faults[:3])
+    return result["diagnosis"]
 
 
 def a_cohort_in_which_nothing_is_wrong_has_no_verdict_but_that():
