@@ -181,8 +181,8 @@ TEST(Overview, NamesJobsThatWaitForAPerson) {
       "9|1|array|PENDING|launch failed requeued held|\n"
       "9|2|array|PENDING|Resources|\n"
       "10|N/A|array-merge|PENDING|JobHeldUser|\n");
-  const Overview view = overview({"array", {2, 1, "30", "256M", "31", "1G", ""}, {{"9", "1-2"}, {"10", ""}}}, {}, tasks,
-                                 folder.path());
+  const Overview view =
+      overview({"array", {2, 1, "30", "256M", "31", "1G", ""}, {{"9", "1-2"}, {"10", ""}}}, {}, tasks, folder.path());
   ASSERT_EQ(view.held.size(), 2);
   const std::string words = in_words(view, {});
   EXPECT_THAT(words, HasSubstr("scontrol release 9_1\n"));

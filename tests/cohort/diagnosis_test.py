@@ -114,7 +114,7 @@ def shards_give_the_same_verdict_as_one_start():
     text = damaged.read_text(encoding="utf-8")
     damaged.write_text(text[:len(text) // 2], encoding="utf-8")
     said = tunica("cohort", "merge", "cohort.json", "-o", "parts", code=2)
-    expect("s3/evidence.json" in said and "Delete the file" in said, said)
+    expect("s3/evidence.json" in said and "Remove the file" in said, said)
 
 
 def a_specimen_without_diagnosis_harms_no_other():

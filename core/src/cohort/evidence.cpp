@@ -43,7 +43,7 @@ Json what_is_found(const Specification& cohort, const Template& pattern, const S
 
 [[noreturn]] void refuse(const std::filesystem::path& file) {
   throw InputError(
-      fmt::format("{}: this is no evidence of a specimen, or a part of it. Delete the file, and run the cohort again, "
+      fmt::format("{}: this is no evidence of a specimen, or a part of it. Remove the file, and run the cohort again, "
                   "which makes it anew",
                   file.string()));
 }
