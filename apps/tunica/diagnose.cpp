@@ -22,6 +22,7 @@
 #include "diagnosis_folder.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
+#include "execution/share.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
@@ -37,7 +38,7 @@ namespace tunica::app {
 namespace {
 
 struct DiagnoseOptions {
-  std::string file, directory;
+  std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
@@ -120,12 +121,13 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
     throw InputError(fmt::format("--batch {}: no such folder. Name one that holds folders with an experiment.json each",
                                  root.string()));
   const std::filesystem::path into = options.directory.empty() ? root : std::filesystem::path(options.directory);
-  std::vector<std::filesystem::path> cases;
+  const auto share = options.share.empty() ? execution::Share{} : execution::parse_share(options.share);
+  std::vector<std::filesystem::path> all, cases;
   for (const auto& entry : std::filesystem::directory_iterator(root))
-    if (std::filesystem::exists(entry.path() / "experiment.json") &&
-        !std::filesystem::exists(into / entry.path().filename() / "result.json"))
-      cases.push_back(entry.path());
-  std::sort(cases.begin(), cases.end());
+    if (std::filesystem::exists(entry.path() / "experiment.json")) all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (share.holds(k) && !std::filesystem::exists(into / all[k].filename() / "result.json")) cases.push_back(all[k]);
   std::atomic<std::size_t> failures = 0, finished = 0;
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t k) {
     // A diagnosis runs its own loops side by side; here its neighbours do.
@@ -174,15 +176,20 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag(
       "--quick", options->quick,
       "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of several");
-  verb->add_flag("--batch", options->batch,
-                 "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
+  auto* batch =
+      verb->add_flag("--batch", options->batch,
+                     "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
+  verb->add_option("--shard", options->share, "With --batch: only part k of N of the folders, as 2/7")
+      ->needs(batch)
+      ->type_name("k/N");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Examples:\n"
       "  tunica diagnose experiment.json\n"
       "  tunica diagnose experiment.json -o results/a --quick\n"
       "  tunica diagnose experiment.json --mechanisms fibre_dispersion,force_offset\n"
-      "  tunica diagnose --batch --quick cases/\n\n"
+      "  tunica diagnose --batch --quick cases/\n"
+      "  tunica diagnose --batch --quick --shard 2/7 cases/\n\n"
       "Writes report.html, result.json, extended.json (the experiment with the cause added: `tunica run` takes it),\n"
       "residuals.csv, confusability.csv and input.json. Exit code 0 whatever the verdict.");
   verb->callback([&global, &action, options] {

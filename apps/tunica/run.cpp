@@ -28,9 +28,9 @@ namespace tunica::app {
 namespace {
 
 struct RunOptions {
-  std::string file, directory;
+  std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
-  bool resume = false, certificate = true;
+  bool resume = false, merge = false, certificate = true;
   calibration::Overrides overrides;
 };
 
@@ -56,7 +56,11 @@ std::string quoted(const std::string& word) {
 /// With everything that decides the result, so that it works as it is printed.
 std::string resume_command(const GlobalOptions& global, const RunOptions& options,
                            const std::filesystem::path& directory) {
-  std::string command = fmt::format("tunica run {} -o {} --resume", quoted(options.file), quoted(directory.string()));
+  std::string command = fmt::format("tunica run {} ", quoted(options.file));
+  if (options.share.empty())
+    command += fmt::format("-o {} --resume", quoted(directory.string()));
+  else
+    command += fmt::format("-o {} --shard {}", quoted(options.directory), options.share);
   if (options.overrides.seed) command += fmt::format(" --seed {}", *options.overrides.seed);
   if (!options.overrides.profiles.empty())
     command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.overrides.profiles, ",")));
@@ -101,6 +105,8 @@ calibration::Options options_of(const GlobalOptions& global, const RunOptions& o
   calibration::Options result;
   if (!options.directory.empty()) result.directory = options.directory;
   result.resume = options.resume;
+  result.merge = options.merge;
+  if (!options.share.empty()) result.share = execution::parse_share(options.share);
   result.threads = options.threads;
   result.progress = global.quiet ? execution::Progress::Style::none : execution::Progress::style_of_stderr();
   result.refusals = session.refusals();
@@ -146,6 +152,10 @@ int run(const GlobalOptions& global, const RunOptions& options) {
     case calibration::Outcome::Ending::interrupted:
       say_interrupted(global, options, outcome.directory);
       return interrupted;
+    case calibration::Outcome::Ending::part_finished:
+      fmt::print("shard {} is done\nMerge:    tunica run {} -o {} --merge\n", options.share, quoted(options.file),
+                 quoted(options.directory));
+      return done;
     case calibration::Outcome::Ending::finished:
       break;
   }
@@ -168,7 +178,14 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--seed", options->overrides.seed, "Root seed in place of the one in the file")
       ->check(seed_number())
       ->type_name("S");
-  verb->add_flag("--resume", options->resume, "Resume an interrupted run; the result is identical");
+  auto* resume = verb->add_flag("--resume", options->resume, "Resume an interrupted run; the result is identical");
+  auto* shard = verb->add_option("--shard", options->share,
+                                 "Only part k of N of the realisations, as 2/7; killed and repeated at will")
+                    ->excludes(resume)
+                    ->type_name("k/N");
+  verb->add_flag("--merge", options->merge, "Make the results from what the shards in DIR have left")
+      ->excludes(resume)
+      ->excludes(shard);
   verb->add_option("--profiles", options->overrides.profiles,
                    "Profile the likelihood of these parameters: names separated by commas, or all")
       ->delimiter(',')
@@ -186,7 +203,9 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
       "  tunica run experiment.json\n"
       "  tunica run experiment.json -o results/a -j 4 --seed 7\n"
       "  tunica run experiment.json -o results/a --resume\n"
-      "  tunica run experiment.json --profiles all --bootstrap 200\n\n"
+      "  tunica run experiment.json --profiles all --bootstrap 200\n"
+      "  tunica run experiment.json -o results/a --shard 2/7\n"
+      "  tunica run experiment.json -o results/a --merge\n\n"
       "Writes result.json, evaluations.csv (live), fit_<test>.csv, ranking.csv, realisations.csv, convergence.csv,\n"
       "performance_profile.csv, data_profile.csv, input.json, run.log and checkpoint.json.");
   verb->callback([&global, &action, options] { action = [&global, options] { return run(global, *options); }; });

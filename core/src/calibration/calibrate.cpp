@@ -20,6 +20,7 @@
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
+#include "execution/shards.hpp"
 #include "report/report.hpp"
 #include "tunica/error.hpp"
 
@@ -27,13 +28,36 @@ namespace tunica::calibration {
 
 namespace {
 
-execution::Execution search(const execution::Plan& plan, const std::filesystem::path& directory,
-                            const Options& options) {
+/// Whether a run is gone on with.
+bool resumes(const Options& options) {
+  if (!options.share) return options.resume || options.merge;
+  return std::filesystem::exists(execution::shard_folder(*options.directory, *options.share) / "checkpoint.json");
+}
+
+/// The folder of this run, or of this part of it.
+execution::RunDirectory folder_of(const Options& options, const std::string& name) {
+  if ((options.share || options.merge) && !options.directory)
+    throw InputError("parts of a run need a folder that all of them know; name it with -o");
+  std::optional<std::filesystem::path> directory = options.directory;
+  if (options.share) {
+    if (std::filesystem::exists(*options.directory / "checkpoint.json"))
+      throw InputError(
+          fmt::format("{}: holds a run that is not in parts, or whose parts are merged; name another folder with -o",
+                      options.directory->string()));
+    directory = execution::shard_folder(*options.directory, *options.share);
+  }
+  return resumes(options) ? execution::RunDirectory::reopen(directory, name)
+                          : execution::RunDirectory::create(directory, name);
+}
+
+execution::Execution search(const execution::Plan& plan, const std::filesystem::path& directory, const Options& options,
+                            bool resume) {
   const execution::InterruptWatch watch;
   execution::RunSettings settings;
   settings.directory = directory;
   settings.threads = options.threads;
-  settings.resume = options.resume;
+  settings.resume = resume;
+  settings.share = options.share.value_or(execution::Share{});
   settings.progress = options.progress;
   settings.told = options.told;
   return execution::execute(plan, settings);
@@ -100,8 +124,9 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   const auto plan = execution::make_plan(experiment, catalogue);
   refuse_runs_without_data(plan);
   comparison::check_analysis(plan, catalogue);
-  const auto folder = options.resume ? execution::RunDirectory::reopen(options.directory, experiment.name)
-                                     : execution::RunDirectory::create(options.directory, experiment.name);
+  const bool resume = resumes(options);
+  const auto folder = folder_of(options, experiment.name);
+  if (options.merge) execution::gather_shards(plan, folder.path());
   Outcome outcome;
   outcome.directory = folder.path();
   if (options.started) options.started({plan, outcome.directory});
@@ -109,10 +134,11 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   std::function<void()> leave;
   if (options.abandon) leave = [&options, directory = outcome.directory] { options.abandon(directory); };
   const execution::InterruptLimit limit(std::move(leave));
-  const auto found = search(plan, outcome.directory, options);
+  const auto found = search(plan, outcome.directory, options, resume);
   outcome.write_failure = found.write_failure;
   if (!found.write_failure.empty()) outcome.ending = Outcome::Ending::write_failure;
   if (outcome.ending == Outcome::Ending::finished && found.interrupted) outcome.ending = Outcome::Ending::interrupted;
+  if (outcome.ending == Outcome::Ending::finished && options.share) outcome.ending = Outcome::Ending::part_finished;
   if (outcome.ending != Outcome::Ending::finished) return outcome;
 
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of

@@ -11,6 +11,7 @@
 #include "comparison/summary.hpp"
 #include "execution/plan.hpp"
 #include "execution/progress.hpp"
+#include "execution/share.hpp"
 
 /// Everything that `tunica run` does, as a function.
 namespace tunica::calibration {
@@ -30,6 +31,8 @@ struct Start {
 struct Options {
   std::optional<std::filesystem::path> directory = {};  ///< new, or to be resumed; without it results/<name>-<n>
   bool resume = false;
+  std::optional<execution::Share> share = {};  ///< search this part of the realisations, and no more
+  bool merge = false;                          ///< take all realisations from the parts in the directory
   unsigned threads = 1;
   execution::Progress::Style progress = execution::Progress::Style::none;
   std::function<void(double share, const std::string& text)> told = {};  ///< see execution::RunSettings
@@ -42,7 +45,7 @@ struct Options {
 };
 
 struct Outcome {
-  enum class Ending { finished, interrupted, write_failure };
+  enum class Ending { finished, part_finished, interrupted, write_failure };
   Ending ending = Ending::finished;
   std::string write_failure = {};  ///< which file, why, and what to do
   std::filesystem::path directory = {};

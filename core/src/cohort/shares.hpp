@@ -7,19 +7,13 @@
 #include <vector>
 
 #include "cohort/fitting.hpp"
+#include "execution/share.hpp"
 
 namespace tunica::cohort {
 
-/// Part k of N of the specimens: every N-th of the table, from the k-th. Parts are disjoint and together all, and what
-/// a specimen gives does not depend on the part it is in.
-struct Share {
-  std::size_t part = 1, of = 1;
-
-  [[nodiscard]] bool holds(std::size_t specimen) const { return specimen % of == part - 1; }
-};
-
-/// "2/7". Throws InputError.
-Share parse_share(const std::string& text);
+/// Of the specimens of the table.
+using execution::parse_share;
+using execution::Share;
 
 struct ShareOutcome {
   std::size_t specimens = 0;  ///< of the share

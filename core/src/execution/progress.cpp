@@ -38,8 +38,8 @@ Progress::Style Progress::style_of_stderr() {
   return text::Terminal::of(STDERR_FILENO).redraws ? Style::bar : Style::lines;
 }
 
-Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters)
-    : style_(style), line_(text::Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters) {}
+Progress::Progress(Style style, const Plan& plan, const std::vector<Meter>& meters, const Share& part)
+    : style_(style), line_(text::Terminal::of(STDERR_FILENO)), plan_(plan), meters_(meters), part_(part) {}
 
 void Progress::Spent::add(const Meter& meter, std::uint64_t most) {
   const auto done = meter.evaluations.load(std::memory_order_relaxed);
@@ -50,7 +50,7 @@ void Progress::Spent::add(const Meter& meter, std::uint64_t most) {
 double Progress::share() const {
   Spent spent;
   for (std::size_t task = 0; task < meters_.size(); ++task)
-    spent.add(meters_[task], plan_.runs[plan_.tasks[task].run].entry->stop.max_evaluations);
+    if (part_.holds(task)) spent.add(meters_[task], plan_.runs[plan_.tasks[task].run].entry->stop.max_evaluations);
   return spent.share();
 }
 
@@ -60,9 +60,11 @@ double Progress::seconds() const {
 
 std::string Progress::text(double seconds, std::size_t columns) const {
   Spent spent;
-  std::size_t finished = 0, current = meters_.size();
+  std::size_t finished = 0, count = 0, current = meters_.size();
   std::vector<double> best(plan_.runs.size(), std::numeric_limits<double>::infinity());
   for (std::size_t task = 0; task < meters_.size(); ++task) {
+    if (!part_.holds(task)) continue;
+    ++count;
     const auto& meter = meters_[task];
     const bool over = meter.finished.load(std::memory_order_relaxed);
     const std::size_t run = plan_.tasks[task].run;
@@ -73,7 +75,7 @@ std::string Progress::text(double seconds, std::size_t columns) const {
   }
   const double rate = seconds > 0 ? static_cast<double>(spent.evaluations) / seconds : 0;
   const std::string head =
-      fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * spent.share(), finished, meters_.size(), rate_text(rate));
+      fmt::format("{:3.0f} %  {}/{} searches  {}/s", 100 * spent.share(), finished, count, rate_text(rate));
   std::string label, value, left;
   if (current < meters_.size()) {
     const auto run = plan_.tasks[current].run;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "execution/plan.hpp"
+#include "execution/share.hpp"
 #include "text/terminal.hpp"
 
 namespace tunica::execution {
@@ -29,7 +30,7 @@ class Progress {
   /// Style for stderr as it is: a bar on a terminal that can redraw a line, else lines.
   static Style style_of_stderr();
 
-  Progress(Style style, const Plan& plan, const std::vector<Meter>& meters);
+  Progress(Style style, const Plan& plan, const std::vector<Meter>& meters, const Share& part = {});
   /// Draws when it is time to; `last` takes the bar off the screen again.
   void draw(bool last = false);
   /// The line after so many seconds: share of the budget, searches finished, rate, best value, time left. Where it
@@ -52,6 +53,7 @@ class Progress {
   text::StatusLine line_;
   const Plan& plan_;
   const std::vector<Meter>& meters_;
+  const Share part_;  ///< of the searches: the others are none of this process
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double drawn_ = 0;  ///< s since the beginning
 };

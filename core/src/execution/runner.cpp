@@ -168,7 +168,7 @@ void Run::run_task(std::size_t task) {
 
 void Run::work() {
   for (std::size_t task = next_++; task < plan_.tasks.size() && !stopping(); task = next_++) {
-    if (results_[task].finished) continue;
+    if (results_[task].finished || !settings_.share.holds(task)) continue;
     try {
       // Without isolation a thread that waits for its population could pick up another whole realisation.
       tbb::this_task_arena::isolate([&] { run_task(task); });
@@ -181,7 +181,7 @@ void Run::work() {
 
 Execution Run::execute() {
   const auto begin = Clock::now();
-  Progress progress(settings_.progress, plan_, meters_);
+  Progress progress(settings_.progress, plan_, meters_, settings_.share);
   std::mutex waiting;
   std::condition_variable wake;
   bool over = false;
@@ -221,7 +221,7 @@ Execution Run::execute() {
   execution.write_failure = journal_->failed() ? journal_->failure() : write_failure_;
   execution.runs.resize(plan_.runs.size());
   for (std::size_t task = 0; task < results_.size(); ++task) {
-    if (!results_[task].finished) execution.interrupted = true;
+    if (!results_[task].finished && settings_.share.holds(task)) execution.interrupted = true;
     execution.runs[plan_.tasks[task].run].realisations.push_back(std::move(results_[task]));
   }
   execution.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

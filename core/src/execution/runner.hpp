@@ -9,6 +9,7 @@
 #include "execution/plan.hpp"
 #include "execution/progress.hpp"
 #include "execution/results.hpp"
+#include "execution/share.hpp"
 
 namespace tunica::execution {
 
@@ -16,6 +17,7 @@ struct RunSettings {
   std::filesystem::path directory;  ///< of a RunDirectory
   unsigned threads = 1;             ///< the one budget for realisations and population members together
   bool resume = false;
+  Share share = {};  ///< of the realisations; the others stay unfinished, which is then no interruption
   Progress::Style progress = Progress::Style::none;
   /// Told ten times a second by a thread of its own: the share of the budget that is spent, and the line of Progress.
   std::function<void(double share, const std::string& text)> told = {};
