@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t points_of_small = 60;  ///< of a small curve
 constexpr std::size_t most_measured = 40;    ///< specimens whose data lie under a band
 constexpr std::size_t most_fits = 500;       ///< small multiples
+constexpr std::size_t most_intervals = 80;   ///< specimens of which a chart of estimates shows intervals
 
 /// The name of a specimen's group as populations have it: its levels of the factors.
 std::vector<std::string> factors_of(const Json& population) {
@@ -48,19 +49,27 @@ Chart estimate_chart(const std::string& name, const std::string& unit, bool log,
   chart.about = fmt::format("{} of every specimen, group by group", name);
   chart.x.title = "specimens, by group";
   chart.y = {text::titled(name, unit), log, {}, {}};
+  const bool with_intervals = points.size() <= most_intervals;
   std::vector<std::string> groups;
   for (const auto& entry : means.items()) groups.push_back(entry.key());
   double at = 0;
   int style = 0;
   for (const std::string& group : groups) {
     Series own{group, "points", style}, helped{group + ", with the others' help", "points", style};
-    Series typical{group, "line", style};
+    Series typical{group, "line", style}, interval{group, "bars", style};
+    interval.faint = true;
     helped.faint = true;
     const double begin = at;
     for (const Point& point : points) {
       if (point.group != group) continue;
       own.x.push_back(at);
       own.y.push_back(point.value);
+      if (with_intervals && std::isfinite(point.low) && std::isfinite(point.high)) {
+        interval.x.push_back(at);
+        interval.y.push_back(point.value);
+        interval.low.push_back(point.low);
+        interval.high.push_back(point.high);
+      }
       if (std::isfinite(point.shrunken)) {
         helped.x.push_back(at + 0.3);
         helped.y.push_back(point.shrunken);
@@ -80,6 +89,7 @@ Chart estimate_chart(const std::string& name, const std::string& unit, bool log,
       typical.high.clear();
     }
     chart.series.push_back(std::move(typical));
+    if (!interval.x.empty()) chart.series.push_back(std::move(interval));
     chart.series.push_back(std::move(own));
     if (!helped.x.empty()) {
       helped.hidden = true;
@@ -90,6 +100,7 @@ Chart estimate_chart(const std::string& name, const std::string& unit, bool log,
   }
   chart.legend = true;
   chart.note = "Line and band: the typical specimen of the group with its 95 % interval.";
+  if (with_intervals) chart.note += " Bars: 95 % intervals of the specimens by themselves.";
   return chart;
 }
 

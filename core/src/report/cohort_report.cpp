@@ -74,12 +74,38 @@ void add_effect_rows(const Json& analysis, std::vector<std::vector<Cell>>& rows)
   }
 }
 
-void add_groups(Page& page, const Json& population) {
+/// A forest: ratios to the reference with their intervals.
+void add_forest(Page& page, const Folder& folder, const Json& population) {
+  Chart chart;
+  chart.kind = "rows";
+  chart.id = "effects_" + word(population, "run");
+  chart.title = "Ratios to the reference, with 95 % intervals";
+  chart.about = "Effect of every factor on every parameter and reading, as a ratio with its interval";
+  chart.x = {"ratio to the reference", true, {1}, {}};
+  chart.rule(1, "no effect", 'x');
+  chart.files = {"population.csv"};
+  RowSeries ratios{"ratio", 0, {}};
+  for (const char* of : {"parameters", "readings"})
+    for (const Json& one : list(member(population, of), "effects")) {
+      if (word(one, "kind") != "ratio") continue;
+      const auto [low, high] = ends(one);
+      chart.labels.push_back(fmt::format("{}: {}", word(one, "level"), word(one, "of")));
+      ratios.rows.push_back({number(one, "value"), low, high,
+                             fmt::format("× {} ({} … {}), {} for all parameters", figure(number(one, "value")),
+                                         figure(low), figure(high), chance(number(one, "p_adjusted")))});
+    }
+  if (chart.labels.empty()) return;
+  chart.rows = {std::move(ratios)};
+  page.chart(std::move(chart), folder.address());
+}
+
+void add_groups(Page& page, const Folder& folder, const Json& population) {
   std::vector<std::vector<Cell>> rows;
   add_effect_rows(member(population, "parameters"), rows);
   add_effect_rows(member(population, "readings"), rows);
   if (rows.empty()) return;
   page.heading("Effects of groups");
+  add_forest(page, folder, population);
   page.html(table_html(
       {"groups", "of", "effect", "95 % interval", "p (permutation)", "for all parameters", "p (t, Holm)"}, rows));
   std::vector<std::string> notes;
@@ -98,7 +124,7 @@ std::string specimen_count(const Folder& folder) {
   return fmt::format("{} of {} specimens were fitted.", fitted, specimens.size());
 }
 
-void add_population(Page& page, const Json& population) {
+void add_population(Page& page, const Folder& folder, const Json& population) {
   page.section("Population: " + word(population, "run"));
   if (const std::string problem = word(population, "problem"); !problem.empty()) {
     page.box("bad", "No population", {problem});
@@ -115,7 +141,7 @@ void add_population(Page& page, const Json& population) {
        {"−2 ln L, AIC, BIC", fmt::format("{}, {}, {}", figure(number(population, "neg2_log_likelihood")),
                                          figure(number(population, "aic")), figure(number(population, "bic")))}});
   add_typical(page, population);
-  add_groups(page, population);
+  add_groups(page, folder, population);
   std::vector<std::string> outlying;
   for (const Json& one : list(population, "outlying"))
     outlying.push_back(fmt::format("{}, most in {} ({} for all specimens together)", word(one, "specimen"),
@@ -179,7 +205,7 @@ void add_cohort(Page& page, const Folder& folder) {
   page.section("Summary");
   add_warnings(page, folder);
   page.paragraph(specimen_count(folder));
-  for (const Json& population : populations(folder)) add_population(page, population);
+  for (const Json& population : populations(folder)) add_population(page, folder, population);
   add_models(page, folder);
   add_cohort_diagnosis(page, folder);
   add_bands(page, folder);
