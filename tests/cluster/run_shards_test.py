@@ -77,6 +77,9 @@ def a_shard_that_is_killed_goes_on():
             harmed += 1
         process.communicate()
     expect(harmed > 0, "the shard was never killed")
+    # Killed before its first checkpoint, a part leaves a folder that nothing can go on with.
+    (folder / "r/shards/2of2").mkdir()
+    (folder / "r/shards/2of2/evaluations.csv").write_text("id,run,real", encoding="utf-8")
     for part in ("1/2", "2/2"):
         tunica("run", "experiment.json", "-o", "r", "--shard", part, "--quiet")
     tunica("run", "experiment.json", "-o", "r", "--merge", "--quiet")

@@ -28,26 +28,30 @@ namespace tunica::calibration {
 
 namespace {
 
-/// Whether a run is gone on with.
-bool resumes(const Options& options) {
-  if (!options.share) return options.resume || options.merge;
-  return std::filesystem::exists(execution::shard_folder(*options.directory, *options.share) / "checkpoint.json");
+/// The folder of a part. One that was killed before its first checkpoint begins again.
+execution::RunDirectory folder_of_part(const std::filesystem::path& directory, const execution::Share& share,
+                                       const std::string& name) {
+  if (std::filesystem::exists(directory / "checkpoint.json"))
+    throw InputError(
+        fmt::format("{}: holds a run that is not in parts, or whose parts are merged; name another folder with -o",
+                    directory.string()));
+  const auto folder = execution::shard_folder(directory, share);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return execution::RunDirectory::create(folder, name);  // says what is wrong
+  auto held = execution::RunDirectory::reopen(folder, name);
+  if (!std::filesystem::exists(folder / "checkpoint.json"))
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::remove_all(entry.path());
+  return held;
 }
 
 /// The folder of this run, or of this part of it.
 execution::RunDirectory folder_of(const Options& options, const std::string& name) {
   if ((options.share || options.merge) && !options.directory)
     throw InputError("parts of a run need a folder that all of them know; name it with -o");
-  std::optional<std::filesystem::path> directory = options.directory;
-  if (options.share) {
-    if (std::filesystem::exists(*options.directory / "checkpoint.json"))
-      throw InputError(
-          fmt::format("{}: holds a run that is not in parts, or whose parts are merged; name another folder with -o",
-                      options.directory->string()));
-    directory = execution::shard_folder(*options.directory, *options.share);
-  }
-  return resumes(options) ? execution::RunDirectory::reopen(directory, name)
-                          : execution::RunDirectory::create(directory, name);
+  if (options.share) return folder_of_part(*options.directory, *options.share, name);
+  return options.resume || options.merge ? execution::RunDirectory::reopen(options.directory, name)
+                                         : execution::RunDirectory::create(options.directory, name);
 }
 
 execution::Execution search(const execution::Plan& plan, const std::filesystem::path& directory, const Options& options,
@@ -124,8 +128,9 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   const auto plan = execution::make_plan(experiment, catalogue);
   refuse_runs_without_data(plan);
   comparison::check_analysis(plan, catalogue);
-  const bool resume = resumes(options);
   const auto folder = folder_of(options, experiment.name);
+  const bool resume =
+      options.share ? std::filesystem::exists(folder.path() / "checkpoint.json") : options.resume || options.merge;
   if (options.merge) execution::gather_shards(plan, folder.path());
   Outcome outcome;
   outcome.directory = folder.path();
