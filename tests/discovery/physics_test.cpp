@@ -142,8 +142,6 @@ double largest_difference(const blind::CaseOrder& order) {
 
 class Physics : public ::testing::TestWithParam<std::string> {};
 
-}  // namespace
-
 TEST(GeneratorPhysics, BaseCurvesAgreeToAHundredthOfTheNoise) {
   for (std::size_t index = 0; index < 5; ++index) {
     const double off = largest_difference({11, "nulls", "", 0, index, {"none"}});
@@ -260,3 +258,5 @@ INSTANTIATE_TEST_SUITE_P(Every, Physics, ::testing::ValuesIn([] {
                            return ids;
                          }()),
                          [](const auto& test) { return test.param; });
+
+}  // namespace

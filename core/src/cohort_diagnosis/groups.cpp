@@ -14,7 +14,7 @@ namespace tunica::cohort_diagnosis {
 namespace {
 
 constexpr double in_one_level = 0.2;  ///< of effects, before the data
-constexpr double sure = 0.7;          ///< that one level alone has it
+constexpr double sure = 0.5;          ///< that one level alone has it
 
 /// ln of the evidence with its odds: of all specimens, then of each level alone.
 std::vector<double> structures(const Hypothesis& hypothesis, const std::vector<Level>& levels, std::size_t specimens) {
