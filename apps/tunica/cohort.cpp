@@ -9,6 +9,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include "cluster/command.hpp"
 #include "cohort/collection.hpp"
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
@@ -37,6 +38,15 @@ struct CohortOptions {
 /// Above so many specimens a report for each is made only where somebody asks for it: a page is half a megabyte.
 constexpr std::size_t most_reports = 50;
 
+/// The command that goes on with it, with the options that decide the result.
+std::string command(const std::string& verb, const CohortOptions& options, const std::filesystem::path& results) {
+  std::vector<std::string> words{"tunica", "cohort"};
+  if (!verb.empty()) words.push_back(verb);
+  words.insert(words.end(), {options.file, "-o", results.string()});
+  if (options.diagnose) words.emplace_back("--diagnose");
+  return cluster::quoted(words);
+}
+
 /// The cohort as it was read, and where its results go.
 struct Opened {
   cohort::Specification cohort;
@@ -59,6 +69,11 @@ void write_results(const Opened& opened, const cohort::Collection& found, const 
   execution::write_atomically(results / "population.csv", cohort::population_table(study));
   execution::write_atomically(results / "shrunken.csv", cohort::shrunken_table(opened.table, study));
   cohort::write_bands(results, study);
+  // What an earlier diagnosis left there, and this one would not write over.
+  for (const char* name : {"mechanisms.csv", "extended.json", "extended_cohort.json"}) {
+    std::error_code error;
+    std::filesystem::remove(results / name, error);
+  }
   if (study.diagnosis) {
     execution::write_atomically(results / "mechanisms.csv", cohort::mechanism_table(opened.table, *study.diagnosis));
     if (!study.diagnosis->extended.empty()) {
@@ -69,15 +84,15 @@ void write_results(const Opened& opened, const cohort::Collection& found, const 
   execution::write_atomically(results / "result.json", cohort::study_json(opened.cohort, opened.table, found, study));
 }
 
-int merge(const GlobalOptions& global, const Session& session, const Opened& opened,
+int merge(const GlobalOptions& global, const Session& session, const CohortOptions& options, const Opened& opened,
           const std::filesystem::path& results) {
   const auto found = cohort::collect(opened.cohort, opened.table, opened.pattern, session.catalogue(), results);
   if (!found.missing.empty())
     throw InputError(
         fmt::format("{}: {} of {} specimens have no result yet, the first is '{}'. Run "
-                    "`tunica cohort {} -o {}`, which makes what is missing",
+                    "`{}`, which makes what is missing",
                     results.string(), found.missing.size(), opened.table.specimens.size(),
-                    opened.table.specimens[found.missing.front()].id, opened.cohort.file.string(), results.string()));
+                    opened.table.specimens[found.missing.front()].id, command("", options, results)));
   cohort::Study study;
   {
     Stages stages(global.quiet);
@@ -89,7 +104,7 @@ int merge(const GlobalOptions& global, const Session& session, const Opened& ope
   fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
              cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
   if (study.diagnosis && !study.diagnosis->extended.empty())
-    fmt::print("Try:      tunica cohort {}\n", (results / "extended_cohort.json").string());
+    fmt::print("Try:      {}\n", cluster::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
@@ -116,22 +131,22 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
                                 });
   }
   if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  tunica cohort {} -o {}{}\n",
-               options.file, results.string(), options.share.empty() ? "" : " --shard " + options.share);
+    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  {}{}\n",
+               command("", options, results), options.share.empty() ? "" : " --shard " + options.share);
     return interrupted;
   }
   if (!options.share.empty()) {  // one of one, too: its limits on a cluster are those of fits
-    fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    tunica cohort merge {} -o {}\n", share.part,
-               share.of, outcome.fitted, outcome.specimens, options.file, results.string());
+    fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    {}\n", share.part, share.of, outcome.fitted,
+               outcome.specimens, command("merge", options, results));
     return done;
   }
-  return merge(global, session, opened, results);
+  return merge(global, session, options, opened, results);
 }
 
 int merge_only(const GlobalOptions& global, const CohortOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
-  return merge(global, session, Opened(options), options.directory);
+  return merge(global, session, options, Opened(options), options.directory);
 }
 
 void add_common(CLI::App& verb, CohortOptions& options, bool directory_required) {

@@ -12,6 +12,7 @@
 
 #include "calibration/calibrate.hpp"
 #include "calibration/overrides.hpp"
+#include "cluster/command.hpp"
 #include "comparison/ranking_table.hpp"
 #include "data/nearest.hpp"
 #include "exit_codes.hpp"
@@ -44,23 +45,11 @@ void check_names(const std::vector<std::string>& names) {
                       name));
 }
 
-/// For a POSIX shell: quoted where it has to be.
-std::string quoted(const std::string& word) {
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=+@%") == word.npos)
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// With everything that decides the result, so that it works as it is printed.
-std::string resume_command(const GlobalOptions& global, const RunOptions& options,
-                           const std::filesystem::path& directory) {
-  std::string command = fmt::format("tunica run {} ", quoted(options.file));
-  if (options.share.empty())
-    command += fmt::format("-o {} --resume", quoted(directory.string()));
-  else
-    command += fmt::format("-o {} --shard {}", quoted(options.directory), options.share);
+std::string command(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
+                    const std::string& how) {
+  using cluster::quoted;
+  std::string command = fmt::format("tunica run {} -o {} {}", quoted(options.file), quoted(directory.string()), how);
   if (options.overrides.seed) command += fmt::format(" --seed {}", *options.overrides.seed);
   if (!options.overrides.profiles.empty())
     command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.overrides.profiles, ",")));
@@ -70,6 +59,12 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
     command += " --plugin-path " + quoted(std::filesystem::path(path).string());
   if (global.allow_world_writable_plugins) command += " --allow-world-writable-plugins";
   return command;
+}
+
+std::string resume_command(const GlobalOptions& global, const RunOptions& options,
+                           const std::filesystem::path& directory) {
+  return options.share.empty() ? command(global, options, directory, "--resume")
+                               : command(global, options, options.directory, "--shard " + options.share);
 }
 
 void say_interrupted(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory) {
@@ -153,8 +148,8 @@ int run(const GlobalOptions& global, const RunOptions& options) {
       say_interrupted(global, options, outcome.directory);
       return interrupted;
     case calibration::Outcome::Ending::part_finished:
-      fmt::print("shard {} is done\nMerge:    tunica run {} -o {} --merge\n", options.share, quoted(options.file),
-                 quoted(options.directory));
+      fmt::print("shard {} is done\nMerge:    {}\n", options.share,
+                 command(global, options, options.directory, "--merge"));
       return done;
     case calibration::Outcome::Ending::finished:
       break;

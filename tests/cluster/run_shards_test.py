@@ -88,6 +88,12 @@ def a_shard_that_is_killed_goes_on():
 
 def what_is_missing_or_changed_is_said():
     folder, tunica = laboratory("missing")
+    (folder / "empty").mkdir()
+    said = tunica("run", "experiment.json", "-o", "empty", "--merge", code=2)
+    expect("holds no part of a run" in said and "--shard k/N" in said, said)
+    said = tunica("run", "experiment.json", "-o", "r", "--shard", "2/3", "--seed", "1", "--quiet")
+    expect("tunica run experiment.json -o r --merge --seed 1" in said, said)
+    shutil.rmtree(folder / "r")
     tunica("run", "experiment.json", "-o", "r", "--shard", "2/3", "--quiet")
     said = tunica("run", "experiment.json", "-o", "r", "--merge", code=2)
     expect("5 of 8 searches are not finished, the first is realisation 1 of gho/es" in said, said)

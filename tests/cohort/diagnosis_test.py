@@ -63,9 +63,12 @@ def a_cohort_in_which_nothing_is_wrong_has_no_verdict_but_that():
     found = verdict_of(folder, "r")
     expect(found["verdict"] == "nothing_detected" and not found["alarm"], said)
     expect("NOTHING DETECTED" in said and not (folder / "r/extended.json").exists(), said)
-    plain = tunica("cohort", "cohort.json", "-o", "plain", "--no-reports", "--quiet")
-    result = json.loads((folder / "plain/result.json").read_text(encoding="utf-8"))
+    # Without the option nothing is diagnosed, and nothing of the earlier diagnosis stays.
+    expect((folder / "r/mechanisms.csv").exists(), said)
+    plain = tunica("cohort", "cohort.json", "-o", "r", "--no-reports", "--quiet")
+    result = json.loads((folder / "r/result.json").read_text(encoding="utf-8"))
     expect("diagnosis" not in result and "what the model gets wrong" not in plain, plain)
+    expect(not (folder / "r/mechanisms.csv").exists(), plain)
 
 
 def an_effect_of_one_group_is_named_and_placed():
@@ -102,6 +105,8 @@ def shards_give_the_same_verdict_as_one_start():
     tunica("cohort", "cohort.json", "-o", "whole", "--no-reports", "--quiet")
     for part in ("3/3", "1/3"):
         tunica("cohort", "cohort.json", "-o", "parts", "--shard", part, "--no-reports", "--quiet")
+    shard = tunica("cohort", "cohort.json", "-o", "told", "--shard", "1/8", "--diagnose", "--no-reports", "--quiet")
+    expect("tunica cohort merge cohort.json -o told --diagnose" in shard, shard)
     # Fits that are there without evidence are not done.
     said = tunica("cohort", "merge", "cohort.json", "-o", "parts", code=2)
     expect("have no result yet" in said, said)
@@ -123,7 +128,8 @@ def a_specimen_without_diagnosis_harms_no_other():
     said = tunica("cohort", "cohort.json", "-o", "r", "--diagnose", "--no-reports", "--quiet")
     found = verdict_of(folder, "r")
     expect([one["specimen"] for one in found["not_diagnosed"]] == ["s2"], said)
-    expect("s2 was not diagnosed" in said and "s2_c.csv" in said, said)
+    # It is said once, among the specimens that cannot be read.
+    expect("s2 was not diagnosed" not in said and "s2_c.csv" in said, said)
     expect(found["factors"][0]["only_in"] == "treated" and len(found["specimens"]) == 7, said)
 
 

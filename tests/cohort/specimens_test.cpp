@@ -30,6 +30,24 @@ TEST(Specimens, AreTheRowsOfTheTable) {
   EXPECT_THAT(table.factors[0].of, ElementsAre(0U, 1U, 0U));
 }
 
+TEST(Specimens, CalledLikeUnitsAreSpecimens) {
+  const SpecimenTable table = table_of("id,treatment,width [mm]\ns,K,\nm,Pa,\nN,K,5\n");
+  ASSERT_EQ(table.specimens.size(), 3U);
+  EXPECT_EQ(table.specimens[0].id, "s");
+  EXPECT_EQ(table.specimens[0].line, 2U);
+}
+
+TEST(Specimens, BeginUnderTheFirstLine) {
+  const SpecimenTable table = table_of("id,treatment,file\na,x,a.csv\nb,y,b.csv\nc,1,2\nd,3,4\n");
+  EXPECT_EQ(table.specimens.size(), 4U);
+}
+
+TEST(Specimens, MayHaveARowOfUnitsThatNamesNobody) {
+  const SpecimenTable table = table_of("id,treatment,width\n,,mm\na,control,5\nb,treated,6\n");
+  ASSERT_EQ(table.specimens.size(), 2U);
+  EXPECT_EQ(table.columns[2].unit, "mm");
+}
+
 TEST(Specimens, WithOneIdTwiceAreBothRefusedAndTheOthersGoOn) {
   const SpecimenTable table = table_of("id,treatment,width [mm]\na,control,5\nb,treated,6\na,treated,7\n");
   EXPECT_THAT(table.specimens[0].problem, HasSubstr("the id 'a' stands in lines 2 and 4"));

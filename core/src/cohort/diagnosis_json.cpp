@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cohort/diagnosis_study.hpp"
+#include "cohort/tables.hpp"
 #include "cohort_diagnosis/verdict_json.hpp"
 #include "text/csv.hpp"
 
@@ -15,23 +16,17 @@ Json diagnosis_json(const SpecimenTable& table, const DiagnosisStudy& study) {
   json["alpha"] = study.alpha;
   json["sentences"] = diagnosis_sentences(study);
   json["not_diagnosed"] = Json::array();
-  for (const auto& [specimen, reason] : study.problems)
-    json["not_diagnosed"].push_back({{"specimen", table.specimens[specimen].id}, {"reason", reason}});
+  for (const NotDiagnosed& one : study.problems)
+    json["not_diagnosed"].push_back({{"specimen", table.specimens[one.position].id}, {"reason", one.reason}});
   if (!study.extended.empty()) json["extended"] = {{"experiment", "extended.json"}, {"cohort", "extended_cohort.json"}};
   return json;
 }
 
 std::string mechanism_table(const SpecimenTable& table, const DiagnosisStudy& study) {
-  std::string text = "specimen,";
-  for (std::size_t k = 0; k < table.columns.size(); ++k)
-    if (k != table.id) text += text::csv_cell(table.columns[k].text) + ",";
-  text += "p_value,mechanism,place,log_evidence\n";
+  std::string text = column_cells(table) + "p_value,mechanism,place,log_evidence\n";
   for (std::size_t s = 0; s < study.positions.size(); ++s) {
     const Specimen& specimen = table.specimens[study.positions[s]];
-    std::string begin = text::csv_cell(specimen.id) + ",";
-    for (std::size_t k = 0; k < specimen.cells.size(); ++k)
-      if (k != table.id) begin += text::csv_cell(specimen.cells[k]) + ",";
-    begin += fmt::format("{},", study.verdict.p_values[s]);
+    const std::string begin = cells_of(table, specimen) + fmt::format("{},", study.verdict.p_values[s]);
     if (study.verdict.matrix.empty()) text += begin + ",,\n";
     for (const auto& row : study.verdict.matrix)
       text += begin + fmt::format("{},{},{}\n", row.id, text::csv_cell(row.place.words()), row.log_evidence[s]);

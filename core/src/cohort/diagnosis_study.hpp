@@ -15,11 +15,11 @@ namespace tunica::cohort {
 struct DiagnosisStudy {
   cohort_diagnosis::CohortVerdict verdict;
   double alpha = 0.05;
-  std::vector<std::size_t> positions;                         ///< in the table, of the specimens of the matrix
-  std::vector<std::pair<std::size_t, std::string>> problems;  ///< specimens without evidence, and why
-  std::string none;                                           ///< why there is no verdict; empty = there is
-  std::string extended,
-      extended_cohort;  ///< texts of extended.json and extended_cohort.json; empty = no cause is named
+  std::vector<std::size_t> positions;  ///< in the table, of the specimens of the matrix
+  std::vector<NotDiagnosed> problems;
+  std::string none;  ///< why there is no verdict; empty = there is
+  /// Texts of extended.json and extended_cohort.json; empty = no cause is named.
+  std::string extended, extended_cohort;
 };
 
 /// From the evidence in a results folder. Deterministic, for any number of threads and shards.

@@ -113,8 +113,9 @@ std::string diagnosis_words(const SpecimenTable& table, const DiagnosisStudy& st
   for (const std::string& sentence : diagnosis_sentences(study)) words += text::hanging("  ", sentence) + "\n";
   std::vector<std::string> apart, without;
   for (const auto& one : study.verdict.contradictions) apart.push_back(fmt::format("{}: {}", one.specimen, one.text));
-  for (const auto& [specimen, reason] : study.problems)
-    without.push_back(fmt::format("{} was not diagnosed: {}", table.specimens[specimen].id, reason));
+  for (const NotDiagnosed& one : study.problems)
+    if (!one.unreadable)
+      without.push_back(fmt::format("{} was not diagnosed: {}", table.specimens[one.position].id, one.reason));
   // Where most go against it, the verdict has said so.
   if (2 * apart.size() > study.verdict.specimens.size())
     words += text::hanging("  ! ", fmt::format("{} of {} specimens do not go with it; result.json says why",

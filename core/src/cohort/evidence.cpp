@@ -102,7 +102,7 @@ CollectedEvidence collect_evidence(const SpecimenTable& table, const Collection&
       collected.specimens.push_back(std::move(*all[k]));
       collected.positions.push_back(k);
     } else {
-      collected.problems.emplace_back(k, problems[k]);
+      collected.problems.push_back({k, problems[k], found.records[k].outcome == Outcome::unreadable});
     }
   return collected;
 }

@@ -20,11 +20,18 @@ void gather_evidence(const Specification& cohort, const Template& pattern, const
 bool lacks_evidence(const Specification& cohort, const Specimen& specimen, const Record& record,
                     const std::filesystem::path& results);
 
+/// A specimen without evidence.
+struct NotDiagnosed {
+  std::size_t position = 0;  ///< in the table
+  std::string reason;
+  bool unreadable = false;  ///< it could not be fitted either, which is said elsewhere
+};
+
 /// The evidence of a cohort, and the specimens that have none.
 struct CollectedEvidence {
   std::vector<cohort_diagnosis::SpecimenEvidence> specimens;
-  std::vector<std::size_t> positions;                         ///< of each in the table
-  std::vector<std::pair<std::size_t, std::string>> problems;  ///< position in the table, and why it has none
+  std::vector<std::size_t> positions;  ///< of each in the table
+  std::vector<NotDiagnosed> problems;
 };
 
 /// Throws InputError where a file of evidence is damaged.

@@ -16,6 +16,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Errors of a channel are as large as its numbers, which no declared bound knows: room for every specimen.
+void give_room(const cohort_diagnosis::CommonAmplitude& amplitude, Json& setting) {
+  constexpr double room = 10;
+  const double reach = room * (std::abs(amplitude.mean) + amplitude.spread);
+  if (!(reach > 0)) return;
+  setting["min"] = -reach;
+  setting["max"] = reach;
+}
+
 /// One mechanism as an experiment has it.
 Json mechanism_json(const std::string& id, const MechanismFactory& mechanism, const diagnosis::Place& place,
                     const std::vector<std::pair<std::string, double>>& setting,
@@ -34,6 +43,8 @@ Json mechanism_json(const std::string& id, const MechanismFactory& mechanism, co
     for (const auto& [name, value] : setting)
       if (name == parameter.name) start = value;
     if (std::isfinite(start)) parameters[parameter.name]["initial"] = std::clamp(start, parameter.min, parameter.max);
+    if (k == 0 && json.contains("channel") && parameter.unit != "1" && !amplitude.squared)
+      give_room(amplitude, parameters[parameter.name]);
     // One amplitude in several tests: they share a parameter.
     if (place.tests.size() > 1) parameters[parameter.name]["share"] = id + "_" + parameter.name;
   }

@@ -129,7 +129,9 @@ void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohor
   shared->count = cohort.channels.size();
   shared->common.assign(shared->count, 0);
   if (noise == NoisePool::cohort) share_noise(likelihoods, *shared);
+  bool costly = false;
   likelihoods.with(0, [&](SpecimenLikelihood& one) {
+    costly = one.layout().has_costly_tests;
     for (const assembly::FreeParameter& parameter : one.layout().parameters)
       cohort.parameters.push_back({parameter.name, parameter.scale == Scale::log,
                                    parameter.scale == Scale::log ? 1 : 0.25 * (parameter.max - parameter.min)});
@@ -145,6 +147,8 @@ void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohor
     });
     return found;
   };
+  // The correction of means asks for hundreds of points a specimen: too many where a simulation takes seconds.
+  if (costly) return;
   cohort.misfits = [&likelihoods, shared](std::size_t i, const Eigen::MatrixXd& points,
                                           const std::vector<double>& variances) {
     Eigen::VectorXd misfits;

@@ -34,6 +34,7 @@ class Likelihoods {
 
 /// Adds parameters, channels, start and expansions to a cohort of specimens: what their likelihoods say. With noise of
 /// the cohort, σ of a channel that nobody stated is one number for all specimens, and estimated with the population.
+/// Where a test is costly, the means are not corrected by sampling (population/integration.hpp).
 /// Refers to `likelihoods`.
 void add_expansions(Likelihoods& likelihoods, NoisePool noise, population::Cohort& cohort);
 

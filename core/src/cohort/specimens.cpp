@@ -87,7 +87,9 @@ std::size_t SpecimenTable::column(const std::string& name, const std::string& pl
 }
 
 SpecimenTable read_specimens(const Specification& cohort) {
-  const data::Csv csv = data::parse_csv(cohort.table, data::read_bytes(cohort.table));
+  data::TableLayout layout;
+  layout.row_names = cohort.id_column;
+  const data::Csv csv = data::parse_csv(cohort.table, data::read_bytes(cohort.table), layout);
   SpecimenTable table{cohort.table, csv.columns, 0, {}, {}};
   if (!cohort.id_column.empty()) table.id = table.column(cohort.id_column, cohort.table_place);
   const std::size_t id = table.id;

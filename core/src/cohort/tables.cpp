@@ -16,21 +16,6 @@ namespace {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-/// The columns of the table but the id, as header cells, each with a comma behind it.
-std::string columns_of(const SpecimenTable& table) {
-  std::string text;
-  for (std::size_t k = 0; k < table.columns.size(); ++k)
-    if (k != table.id) text += text::csv_cell(table.columns[k].text) + ",";
-  return text;
-}
-
-std::string cells_of(const SpecimenTable& table, const Specimen& specimen) {
-  std::string text;
-  for (std::size_t k = 0; k < specimen.cells.size(); ++k)
-    if (k != table.id) text += text::csv_cell(specimen.cells[k]) + ",";
-  return text;
-}
-
 std::optional<double> least_r2(const Record::Run& run) {
   std::optional<double> least;
   for (const Record::Quality& one : run.quality)
@@ -40,10 +25,24 @@ std::optional<double> least_r2(const Record::Run& run) {
 
 }  // namespace
 
+std::string column_cells(const SpecimenTable& table) {
+  std::string text = "specimen,";
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (k != table.id) text += text::csv_cell(table.columns[k].text) + ",";
+  return text;
+}
+
+std::string cells_of(const SpecimenTable& table, const Specimen& specimen) {
+  std::string text = text::csv_cell(specimen.id) + ",";
+  for (std::size_t k = 0; k < specimen.cells.size(); ++k)
+    if (k != table.id) text += text::csv_cell(specimen.cells[k]) + ",";
+  return text;
+}
+
 std::string parameter_table(const SpecimenTable& table, const Collection& found) {
-  std::string text = "specimen," + columns_of(table) + "run,parameter,unit,estimate,lower,upper,at_bound,identified\n";
+  std::string text = column_cells(table) + "run,parameter,unit,estimate,lower,upper,at_bound,identified\n";
   for (std::size_t k = 0; k < table.specimens.size(); ++k) {
-    const std::string begin = text::csv_cell(table.specimens[k].id) + "," + cells_of(table, table.specimens[k]);
+    const std::string begin = cells_of(table, table.specimens[k]);
     for (const Record::Run& run : found.records[k].runs)
       for (const Record::Parameter& one : run.parameters)
         text += fmt::format("{}{},{},{},{},{},{},{},{}\n", begin, text::csv_cell(run.label), text::csv_cell(one.name),
@@ -54,12 +53,10 @@ std::string parameter_table(const SpecimenTable& table, const Collection& found)
 }
 
 std::string specimen_table(const SpecimenTable& table, const Collection& found) {
-  std::string text =
-      "specimen," + columns_of(table) + "folder,run,outcome,objective,least_r2,misfit,stable,warnings,reason\n";
+  std::string text = column_cells(table) + "folder,run,outcome,objective,least_r2,misfit,stable,warnings,reason\n";
   for (std::size_t k = 0; k < table.specimens.size(); ++k) {
     const Record& record = found.records[k];
-    const std::string begin = text::csv_cell(table.specimens[k].id) + "," + cells_of(table, table.specimens[k]) +
-                              table.specimens[k].folder + ",";
+    const std::string begin = cells_of(table, table.specimens[k]) + table.specimens[k].folder + ",";
     const std::string end = fmt::format("{},{}\n", record.warnings.size(), text::csv_cell(record.reason));
     const std::string outcome(text::code_of(outcome_codes, record.outcome));
     if (record.runs.empty()) text += fmt::format("{},{},,,,,{}", begin, outcome, end);

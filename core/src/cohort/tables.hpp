@@ -8,6 +8,11 @@
 
 namespace tunica::cohort {
 
+/// What every table by specimen begins with: the id, then the other columns of the table of specimens, a comma behind
+/// each. The header, and one specimen's.
+std::string column_cells(const SpecimenTable& table);
+std::string cells_of(const SpecimenTable& table, const Specimen& specimen);
+
 /// parameters.csv in long form, for R and pandas: one row a specimen, run and parameter,
 ///
 ///   specimen, <column of the table> …, run, parameter, unit, estimate, lower, upper, at_bound, identified
@@ -17,7 +22,7 @@ std::string parameter_table(const SpecimenTable& table, const Collection& found)
 
 /// specimens.csv: one row a specimen and run,
 ///
-///   specimen, folder, <column of the table> …, run, outcome, least_r2, misfit, stable, warnings, reason
+///   specimen, <column of the table> …, folder, run, outcome, objective, least_r2, misfit, stable, warnings, reason
 std::string specimen_table(const SpecimenTable& table, const Collection& found);
 
 /// What the program prints: how many were fitted, and each that was not with its reason.

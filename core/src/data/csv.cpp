@@ -174,7 +174,7 @@ void refuse_encodings(const std::filesystem::path& file, std::string_view text) 
 }
 
 /// A row of units under the names: every cell that is not empty is a unit, so that no cell is a number.
-void read_unit_row(Cutter& cutter, Csv& csv) {
+void read_unit_row(Cutter& cutter, const TableLayout& layout, Csv& csv) {
   cutter.skip_comments();
   if (cutter.at_end()) return;
   Cutter below = cutter;
@@ -185,6 +185,10 @@ void read_unit_row(Cutter& cutter, Csv& csv) {
     any = any || !cell.empty();
   }
   if (!any || cells.size() > csv.columns.size()) return;
+  if (layout.row_names) {
+    const std::size_t names = layout.row_names->empty() ? 0 : csv.column(*layout.row_names);
+    if (names < cells.size() && !cells[names].empty()) return;
+  }
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (!cells[k].empty()) csv.columns[k].unit = stated_unit(cells[k]);
   cutter = below;
@@ -215,7 +219,7 @@ void read_header(Cutter& cutter, const TableLayout& layout, Csv& csv) {
   } else {
     for (const std::string& cell : header) csv.columns.push_back(header_cell(cell));
     cutter = below;
-    read_unit_row(cutter, csv);
+    read_unit_row(cutter, layout, csv);
   }
   for (const auto& [name, unit] : layout.units) csv.columns[csv.column(name)].unit = unit;
 }
@@ -247,7 +251,8 @@ Csv parse_csv(const std::filesystem::path& file, std::string_view text, const Ta
   csv.file = file;
   csv.stated_decimal = layout.decimal;
   Cutter cutter(file, text);
-  const std::optional<TablePlace> place = layout.skip_lines ? std::nullopt : find_table(text, layout.delimiter);
+  const std::optional<TablePlace> place =
+      layout.skip_lines || layout.row_names ? std::nullopt : find_table(text, layout.delimiter);
   const bool nameless = place && !place->header && layout.by_position;
   if (layout.skip_lines)
     cutter.skip_to_line(*layout.skip_lines + 1);

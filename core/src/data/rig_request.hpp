@@ -19,6 +19,9 @@ struct TableLayout {
   std::optional<char> delimiter, decimal;                  ///< ' ' = white space
   std::vector<std::pair<std::string, std::string>> units;  ///< column → unit, before what the header says
   bool by_position = false;                                ///< no column is named, so that no header is needed
+  /// Column that names every row, "" = the first: names may look like units ("m1"), so the first line is the header,
+  /// and a row of units leaves this column empty.
+  std::optional<std::string> row_names;
 };
 
 /// Sizes of the unloaded specimen along one direction, mm. The force along it acts on the section width × thickness.

@@ -73,7 +73,13 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory) {
   const Facts facts = facts_of(plan);
   const std::string& input = plan.experiment->input_json;
   std::map<std::size_t, std::string> finished, rows;
-  for (const auto& part : parts_of(directory)) {
+  const auto parts = parts_of(directory);
+  if (parts.empty())
+    throw InputError(fmt::format(
+        "{}: holds no part of a run, so there is nothing to merge. Make the parts first, with `--shard k/N` "
+        "and the same -o",
+        directory.string()));
+  for (const auto& part : parts) {
     const auto held = RunDirectory::reopen(part, {});  // refuses one that is still at work
     const Checkpoint checkpoint = read_checkpoint(part);
     refuse_changes(part, checkpoint.facts, facts, input);
