@@ -37,6 +37,8 @@ struct ModelDescription {
   /// Doubles of state that remember() carries for a point in principal axes; 0 = the model remembers in tensors only,
   /// or not at all. With it, tests have exact derivatives along the whole path.
   std::size_t axis_history_size = 0;
+  /// The energy as people write it, for a model whose formula depends on its options; may be empty.
+  std::string formula = {};
 };
 
 /// The input of one evaluation: a batch of n material points as a structure of arrays.

@@ -60,6 +60,8 @@ struct Option {
   std::optional<double> max = {};
   /// Choice: the words that are allowed.
   std::vector<std::string> choices = {};
+  /// Json: a JSON Schema of the value, for completion in editors; may be empty.
+  std::string schema = {};
 
   /// A whole number with a default. Read it with Options::integer(), or with Options::count() if it is a size.
   ///

@@ -60,7 +60,8 @@ Json option_schema(const Option& option) {
       schema["type"] = "string";
       break;
     case Kind::json:
-      break;  // anything: the plugin reads it
+      if (!option.schema.empty()) schema.update(Json::parse(option.schema));
+      break;  // otherwise anything: the plugin reads it
   }
   if (option.min) schema["minimum"] = *option.min;
   if (option.max) schema["maximum"] = *option.max;

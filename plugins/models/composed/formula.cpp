@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formula.hpp"
+
+#include <cctype>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace tunica::composed {
+
+namespace {
+
+/// The squared stretch along the family, or what stands for it where fibres scatter.
+std::string fibre_words(const Term& term) {
+  const std::string along = term.family == Family::axial             ? "C_zz"
+                            : term.family == Family::circumferential ? "C_tt"
+                                                                     : "I4";
+  switch (term.dispersion) {
+    case Dispersion::none:
+      return along;
+    case Dispersion::rotational:
+      return fmt::format("{0}_kappa I1 + (1 - 3 {0}_kappa) {1}", term.name, along);
+    case Dispersion::two_planes:
+      return fmt::format("{0}_A I1 + {0}_B {1} + (1 - 3 {0}_A - {0}_B) C_rr", term.name, along);
+  }
+  return along;
+}
+
+std::string invariant_words(const Term& term) {
+  const std::string& angle = term.angle_of.empty() ? term.name : term.angle_of;
+  switch (term.quantity) {
+    case Quantity::first_invariant:
+      return "(I1 - 3)";
+    case Quantity::second_invariant:
+      return "(I2 - 3)";
+    case Quantity::radial:
+      return "(C_rr - 1)";
+    case Quantity::coupling:
+      return fmt::format("(I8 - cos 2 {}_theta)", angle);
+    case Quantity::fibre:
+      return fmt::format("({} - 1)", fibre_words(term));
+    case Quantity::stretches:
+      break;
+  }
+  return "";
+}
+
+/// The law's formula with the invariant for x and the term's names for its parameters. An x within a word is a letter.
+std::string filled(const Term& term) {
+  const std::string& pattern = term.law.formula;
+  const auto is_letter = [&](std::size_t k) {
+    return k < pattern.size() && std::isalpha(static_cast<unsigned char>(pattern[k])) != 0;
+  };
+  std::string text;
+  for (std::size_t k = 0; k < pattern.size(); ++k) {
+    if (pattern[k] == '$')
+      text += term.name + "_";
+    else if (pattern[k] == 'x' && !is_letter(k + 1) && (k == 0 || !is_letter(k - 1)))
+      text += invariant_words(term);
+    else
+      text += pattern[k];
+  }
+  return text;
+}
+
+std::string term_words(const Term& term) {
+  if (term.quantity == Quantity::stretches)
+    return fmt::format("{0}_mu/{0}_alpha (l1^{0}_alpha + l2^{0}_alpha + l3^{0}_alpha - 3)", term.name);
+  std::string text = filled(term);
+  if (term.law.name == "spline" || term.law.name == "inverse_langevin")
+    text = fmt::format("[{}{}]", text, term.law.name == "spline" ? "" : ", x = " + invariant_words(term));
+  if (term.quantity == Quantity::fibre && term.family == Family::diagonal)
+    text = fmt::format("sum over +-{}_theta of {}", term.angle_of.empty() ? term.name : term.angle_of, text);
+  return text;
+}
+
+}  // namespace
+
+std::string formula_of(const std::vector<Term>& terms) {
+  std::vector<std::string> words;
+  for (const Term& term : terms) words.push_back(term_words(term));
+  return fmt::format("W = {}", fmt::join(words, " + "));
+}
+
+}  // namespace tunica::composed

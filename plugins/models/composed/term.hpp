@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "law_table.hpp"
+
+namespace tunica::composed {
+
+/// What a term is a function of. docs/plugins/composed.md has the formulas.
+enum class Quantity {
+  first_invariant,   ///< I1 − 3
+  second_invariant,  ///< I2 − 3
+  fibre,             ///< E of a family, its squared stretch less 1 without dispersion
+  coupling,          ///< M1·C M2 − cos 2θ of the two families at ±θ
+  radial,            ///< C_rr − 1, across the wall
+  stretches          ///< Σ over the principal stretches (Ogden)
+};
+enum class Family { axial, circumferential, diagonal, single };
+enum class Dispersion { none, rotational, two_planes };
+
+/// One entry of "terms", checked.
+struct Term {
+  std::string name;
+  Quantity quantity = Quantity::first_invariant;
+  Family family = Family::diagonal;
+  Dispersion dispersion = Dispersion::none;
+  EnergyPart::Active active = EnergyPart::Active::always;
+  std::string angle_of;  ///< the term whose angle it shares; empty = its own, where it has one
+  Law law;               ///< empty for stretches
+
+  [[nodiscard]] bool isotropic() const {
+    return quantity == Quantity::first_invariant || quantity == Quantity::second_invariant ||
+           quantity == Quantity::stretches;
+  }
+  /// Whether it depends on an angle that is a parameter.
+  [[nodiscard]] bool is_angled() const {
+    return quantity == Quantity::coupling ||
+           (quantity == Quantity::fibre && (family == Family::diagonal || family == Family::single));
+  }
+};
+
+/// From the JSON text of the option "terms". Throws InputError that says which term, what was found and what to do.
+std::vector<Term> read_terms(const std::string& json);
+
+/// JSON Schema of the option, for completion in editors.
+std::string terms_schema();
+
+}  // namespace tunica::composed

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// The model that is put together in the file: every built-in energy of sum form again, and what it refuses.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "conformance/material_point.hpp"
+#include "conformance/model_properties.hpp"
+#include "data/written_file.hpp"
+#include "support/loaded.hpp"
+
+namespace tunica::testing::composed_test {
+using namespace conformance;
+namespace {
+
+std::unique_ptr<Model> composed(const std::string& terms) {
+  Options options;
+  options.set("terms", terms);
+  return make_model("composed", options);
+}
+
+/// A built-in model and the same energy term by term: parameter j of the built-in is `factor` times parameter
+/// `index` of the composed one.
+struct Twin {
+  struct Same {
+    std::size_t index;
+    double factor = 1;
+  };
+  std::string model, terms;
+  std::vector<Same> same;
+  std::int64_t ogden_terms = 0;
+};
+
+const std::string matrix = R"({"name": "m", "invariant": "I1", "law": "linear"})";
+std::string fibre(const std::string& name, const std::string& family, const std::string& more = "") {
+  return R"({"name": ")" + name + R"(", "invariant": "fibre", "law": "exponential_square", "family": ")" + family +
+         "\"" + more + "}";
+}
+
+const std::vector<Twin>& twins() {
+  static const std::vector<Twin> all{
+      {"neo_hooke", "[" + matrix + "]", {{0}}},
+      // c10 (I1 − 3) is mu/2 x
+      {"mooney_rivlin", "[" + matrix + R"(, {"name": "n", "invariant": "I2", "law": "linear"}])", {{0, 0.5}, {1, 0.5}}},
+      {"yeoh",
+       "[" + matrix + R"(, {"name": "q", "invariant": "I1", "law": "quadratic"},
+          {"name": "c", "invariant": "I1", "law": "cubic"}])",
+       {{0, 0.5}, {1, 0.5}, {2, 1. / 3}}},
+      {"gent", R"([{"name": "g", "invariant": "I1", "law": "gent"}])", {{0}, {1}}},
+      {"ogden",
+       R"([{"name": "a", "invariant": "stretches"}, {"name": "b", "invariant": "stretches"}])",
+       {{0}, {1}, {2}, {3}},
+       2},
+      {"hgo", "[" + matrix + ", " + fibre("f", "diagonal") + "]", {{0}, {1}, {2}, {3}}},
+      {"gho",
+       "[" + matrix + ", " + fibre("f", "diagonal", R"(, "dispersion": "rotational")") + "]",
+       {{0}, {4}, {1}, {2}, {3}}},
+      {"holzapfel_2015",
+       "[" + matrix + ", " + fibre("f", "diagonal", R"(, "dispersion": "two_planes")") + "]",
+       {{0}, {4}, {5}, {1}, {2}, {3}}},
+      {"four_fibre",
+       "[" + matrix + ", " + fibre("f", "diagonal") + ", " + fibre("a", "axial") + ", " +
+           fibre("c", "circumferential") + "]",
+       {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}}}};
+  return all;
+}
+
+class ComposedTwin : public ::testing::TestWithParam<Twin> {};
+
+// Energy, stress, tangent and derivatives by parameters at 30 seeded states, to 1e-11 of the largest entry.
+TEST_P(ComposedTwin, IsTheBuiltInModel) {
+  const Twin& twin = GetParam();
+  Options options;
+  if (twin.ogden_terms > 0) options.set("terms", twin.ogden_terms);
+  const auto built_in = make_model(twin.model, options), own = composed(twin.terms);
+  ASSERT_EQ(built_in->describe().parameters.size(), own->describe().parameters.size());
+  Sampler sampler(19);
+  for (int draw = 0; draw < 30; ++draw) {
+    const auto [C, p] = sampler.point(*built_in);
+    std::vector<double> q(p.size());
+    for (std::size_t j = 0; j < p.size(); ++j) q[twin.same[j].index] = p[j] / twin.same[j].factor;
+    const Evaluated a = evaluate(*built_in, C, p), b = evaluate(*own, C, q);
+    const auto expect_near = [](double x, double y, double scale) { EXPECT_NEAR(x, y, 1e-11 * std::max(1.0, scale)); };
+    expect_near(a.energy, b.energy, std::abs(a.energy));
+    double largest = 0;
+    for (const double entry : a.tangent) largest = std::max(largest, std::abs(entry));
+    for (std::size_t k = 0; k < 36; ++k) expect_near(a.tangent[k], b.tangent[k], largest);
+    for (std::size_t k = 0; k < 6; ++k) expect_near(a.stress[k], b.stress[k], largest);
+    for (std::size_t j = 0; j < p.size(); ++j)
+      for (std::size_t k = 0; k < 6; ++k) {
+        const double mine = b.stress_dp[6 * twin.same[j].index + k] / twin.same[j].factor;
+        expect_near(a.stress_dp[6 * j + k], mine, std::abs(mine) + largest);
+      }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Composed, ComposedTwin, ::testing::ValuesIn(twins()),
+                         [](const auto& at) { return at.param.model; });
+
+/// Every law of every invariant that takes it.
+std::vector<std::string> single_terms() {
+  std::vector<std::string> all;
+  const std::string knots = R"(, "knots": [0, 0.2, 0.6, 1.5])";
+  for (const std::string invariant : {"I1", "I2"})
+    for (const std::string law : {"linear", "quadratic", "cubic", "power", "exponential", "exponential_square", "gent",
+                                  "inverse_langevin", "logarithm", "spline"})
+      all.push_back(R"("invariant": ")" + invariant + R"(", "law": ")" + law + "\"" + (law == "spline" ? knots : ""));
+  for (const std::string family : {"axial", "diagonal", "single"})
+    for (const std::string law : {"quadratic", "cubic", "power", "exponential_square", "spline"})
+      all.push_back(R"("invariant": "fibre", "fibre_switch": "none", "family": ")" + family + R"(", "law": ")" + law +
+                    "\"" + (law == "spline" ? knots : ""));
+  for (const std::string law : {"quadratic", "exponential_square"})
+    all.push_back(R"("invariant": "coupling", "law": ")" + law + "\"");
+  all.push_back(R"("invariant": "radial", "law": "quadratic")");
+  all.push_back(R"("invariant": "fibre", "family": "single", "dispersion": "two_planes", "law": "quadratic")");
+  return all;
+}
+
+// Seed 20230211, the same on every run: the outcome is deterministic.
+TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
+  for (const std::string& term : single_terms()) {
+    const auto model = composed("[" + matrix + R"(, {"name": "t", )" + term + "}]");
+    for (const ModelProperty& property : model_properties())
+      EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
+  }
+}
+
+// M1·C M2 of the two families, by the vectors themselves.
+TEST(Composed, CouplesTheTwoFamilies) {
+  const auto model = composed(R"([{"name": "c", "invariant": "coupling", "law": "quadratic"}])");
+  Sampler sampler(3);
+  for (int draw = 0; draw < 20; ++draw) {
+    const Tensor C = sampler.right_cauchy_green();
+    const double theta = 10 + 3 * draw, a = theta * M_PI / 180, k = 7;
+    const Eigen::Vector3d one(std::sin(a), std::cos(a), 0), other(-std::sin(a), std::cos(a), 0);
+    const double x = one.dot(to_matrix(C) * other) - std::cos(2 * a);
+    EXPECT_NEAR(evaluate(*model, C, std::vector{k, theta}).energy, k / 2 * x * x, 1e-12);
+  }
+}
+
+TEST(Composed, SharesAnAngleBetweenTerms) {
+  const auto model = composed("[" + fibre("f", "diagonal") +
+                              R"(, {"name": "c", "invariant": "coupling", "law": "quadratic", "angle_of": "f"}])");
+  std::vector<std::string> names;
+  for (const Parameter& parameter : model->describe().parameters) names.push_back(parameter.name);
+  EXPECT_THAT(names, ::testing::ElementsAre("f_k1", "f_k2", "f_theta", "c_k"));
+}
+
+// The eight chains at rest and close to their length: ψ' = μ β/(6y) with L(β) = y, β = 1/(1 − y) to first order there.
+TEST(Composed, EightChainsStiffenAsTheInverseLangevinFunction) {
+  const auto model = composed(R"([{"name": "r", "invariant": "I1", "law": "inverse_langevin"}])");
+  const double mu = 30, links = 8;
+  const auto slope = [&](double lambda) {  // of ψ by I1 from the stress in the first direction less that of the second
+    const Tensor C{lambda * lambda, 1 / lambda, 1 / lambda, 0, 0, 0};
+    const Tensor S = evaluate(*model, C, std::vector{mu, links}).stress;
+    return S[0] / 2;
+  };
+  const double y0 = 1 / std::sqrt(links);
+  // 3y + 9/5 y³ + 297/175 y⁵ + 1539/875 y⁷ + 126117/67375 y⁹, the series of the inverse
+  const double beta0 =
+      y0 * (3 + y0 * y0 * (9. / 5 + y0 * y0 * (297. / 175 + y0 * y0 * (1539. / 875 + y0 * y0 * 126117. / 67375))));
+  EXPECT_NEAR(slope(1), mu * beta0 / (6 * y0), 1e-4 * mu);
+  const double i1 = 3 * links * 0.99 * 0.99;  // y = 0.99
+  double lambda = std::sqrt(i1);
+  for (int step = 0; step < 50; ++step) lambda = std::sqrt(i1 - 2 / lambda);
+  EXPECT_NEAR(slope(lambda), mu * 100 / (6 * 0.99), 1e-3 * mu * 100);
+}
+
+std::string refusal(const std::string& terms) {
+  return message_of<InputError>([&] { (void)composed(terms); });
+}
+
+TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refusal("{}"), HasSubstr("no list of terms"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I3", "law": "linear"}])"),
+              HasSubstr("\"terms\", term 1 ('a'): \"invariant\" is 'I3'. It may be I1, I2"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linar"}])"), HasSubstr("\"law\" is 'linar'"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "fibre", "family": "axial", "law": "linear"}])"),
+              HasSubstr("'linear' pulls at rest"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "coupling", "law": "power"}])"), HasSubstr("both sides of 0"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "spline"}])"), HasSubstr("has no \"knots\""));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "spline", "knots": [0, 2, 1]}])"),
+              HasSubstr("no rising list"));
+  EXPECT_THAT(refusal("[" + matrix + ", " + matrix + "]"), HasSubstr("two terms are called 'm'"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linear", "angle": 3}])"),
+              HasSubstr("the key 'angle' is not known"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "coupling", "law": "quadratic", "angle_of": "b"}])"),
+              HasSubstr("which is no term with an angle of its own"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linear", "family": "axial"}])"),
+              HasSubstr("goes with the invariant 'fibre' only"));
+}
+
+TEST(Composed, WritesItsEnergyAsAFormula) {
+  EXPECT_EQ(composed("[" + matrix + ", " + fibre("f", "diagonal") + "]")->describe().formula,
+            "W = m_mu/2 (I1 - 3) + sum over +-f_theta of f_k1/(2 f_k2) (exp(f_k2 (I4 - 1)^2) - 1)");
+}
+
+}  // namespace
+}  // namespace tunica::testing::composed_test
