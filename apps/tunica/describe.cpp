@@ -95,6 +95,7 @@ void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   print_head("model", factory.type, factory.doc, factory.reference, entry.plugin);
   const auto model = plugins::create(entry, any_options(factory.options));
   const auto& description = model->describe();
+  if (!description.formula.empty()) fmt::print("\n{}\n", hanging("energy: ", description.formula));
   print_parameters(description.parameters);
   print_options(factory.options);
   if (description.history_size > 0)

@@ -175,7 +175,7 @@ TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
   using ::testing::HasSubstr;
   EXPECT_THAT(refusal("{}"), HasSubstr("no list of terms"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I3", "law": "linear"}])"),
-              HasSubstr("\"terms\", term 1 ('a'): \"invariant\" is 'I3'. It may be I1, I2"));
+              HasSubstr("\"terms\", term 1 ('a'): \"invariant\" is 'I3'. Write one of I1, I2"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linar"}])"), HasSubstr("\"law\" is 'linar'"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "fibre", "family": "axial", "law": "linear"}])"),
               HasSubstr("'linear' pulls at rest"));

@@ -9,6 +9,7 @@
 
 #include "comparison/ranking.hpp"
 #include "comparison/uncertainty.hpp"
+#include "plugins/guarded.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace tunica::calibration {
@@ -111,6 +112,11 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;
+  for (const auto& entry : experiment.models) {
+    const auto model = plugins::create(catalogue.models().find(entry.type)->second, entry.options);
+    if (const std::string& formula = model->describe().formula; !formula.empty())
+      found.notes.push_back(fmt::format("model {}: {}", entry.name, formula));
+  }
   std::set<std::string> posed;
   for (const auto& run : found.plan.runs) {
     for (const auto& sentence : run.assembly->layout().warnings) {

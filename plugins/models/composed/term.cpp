@@ -49,7 +49,7 @@ class Entry {
     if (!json.is_object()) fail("found no object", "Write {\"name\": …, \"invariant\": …, \"law\": …}");
     for (const auto& [key, value] : json.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        fail(fmt::format("the key '{}' is not known", key), fmt::format("A term has {}", fmt::join(keys, ", ")));
+        fail(fmt::format("the key '{}' is not known", key), fmt::format("Write one of {}", fmt::join(keys, ", ")));
   }
 
   [[noreturn]] void fail(const std::string& found, const std::string& cure) const {
@@ -67,7 +67,7 @@ class Entry {
     const std::string given = text(key);
     for (const auto& [word, value] : all)
       if (word == given) return value;
-    fail(fmt::format("\"{}\" is '{}'", key, given), fmt::format("It may be {}", fmt::join(words_of(all), ", ")));
+    fail(fmt::format("\"{}\" is '{}'", key, given), fmt::format("Write one of {}", fmt::join(words_of(all), ", ")));
   }
   /// Knots of a spline: 0, and rising.
   [[nodiscard]] std::vector<double> knots() const {
@@ -125,7 +125,7 @@ Term read_term(const Json& json, std::size_t position) {
   }
   const std::string law_name = entry.text("law");
   if (std::find(law_names().begin(), law_names().end(), law_name) == law_names().end())
-    entry.fail(fmt::format("\"law\" is '{}'", law_name), fmt::format("It may be {}", fmt::join(law_names(), ", ")));
+    entry.fail(fmt::format("\"law\" is '{}'", law_name), fmt::format("Write one of {}", fmt::join(law_names(), ", ")));
   const auto knots = law_name == "spline" ? entry.knots() : std::vector<double>{};
   term.law = law(law_name, knots, term.isotropic());
   if (term.quantity == Quantity::fibre) {
