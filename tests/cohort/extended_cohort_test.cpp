@@ -64,13 +64,13 @@ TEST(ExtendedCohort, HasACauseOfOneTestThere) {
 }
 
 TEST(ExtendedCohort, HasACauseOfOneRowThere) {
-  const auto experiment = extended_by("force_offset", {{"along"}, "stress", 1, "", 1}, 2.5);
+  const auto experiment = extended_by("outliers", {{"along"}, "stress", 1, "", 1}, 2.5);
   for (const auto& test : experiment.tests)
     if (test.name == "along") EXPECT_EQ(test.mechanisms.at(0).options.text("rows"), "1:2:1");
 }
 
 TEST(ExtendedCohort, SharesOneAmplitudeBetweenTests) {
-  const auto experiment = extended_by("force_gain", {{"along", "across"}, "stress"}, 0.05);
+  const auto experiment = extended_by("force_scale_error", {{"along", "across"}, "stress"}, 0.05);
   for (const auto& test : experiment.tests) {
     ASSERT_EQ(test.mechanisms.size(), 1U);
     EXPECT_TRUE(amplitude_of(test.mechanisms.front()).share.has_value()) << test.name;

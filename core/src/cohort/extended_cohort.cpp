@@ -42,9 +42,13 @@ Json mechanism_json(const std::string& id, const MechanismFactory& mechanism, co
     if (k == 0) start = amplitude.squared ? mechanism.null + std::sqrt(std::max(amplitude.mean, 0.0)) : amplitude.mean;
     for (const auto& [name, value] : setting)
       if (name == parameter.name) start = value;
-    if (std::isfinite(start)) parameters[parameter.name]["initial"] = std::clamp(start, parameter.min, parameter.max);
-    if (k == 0 && json.contains("channel") && parameter.unit != "1" && !amplitude.squared)
+    const bool of_channel =
+        k == 0 && !place.tests.empty() && (mechanism.plausible_effect > 0 || json.contains("channel"));
+    if (of_channel && !amplitude.squared)
       give_room(amplitude, parameters[parameter.name]);
+    else
+      start = std::clamp(start, parameter.min, parameter.max);
+    if (std::isfinite(start)) parameters[parameter.name]["initial"] = start;
     // One amplitude in several tests: they share a parameter.
     if (place.tests.size() > 1) parameters[parameter.name]["share"] = id + "_" + parameter.name;
   }
