@@ -43,7 +43,7 @@ struct SimpleShear {
     const std::string &direction = setup.options.text("direction"), &normal = setup.options.text("normal");
     if (direction == normal)
       throw InputError("simple_shear: \"direction\" and \"normal\" are both '" + normal +
-                       "', and a plate slides across its normal; change one");
+                       "', and a plate slides across its normal; give two different ones");
     const double angle = setup.options.number("angle") * degree;
     // z turns towards t, and t away from z.
     const std::array<Vector, 3> axes{
