@@ -15,10 +15,12 @@ using testing::CohortFiles;
 /// Two strips of one tissue: a cause may act in the tissue, in one strip, in one row of it, or alike in both.
 constexpr const char* two_strips = R"({
   "format": 1,
-  "models": { "tissue": { "type": "gho" } },
+  "models": { "tissue": { "type": "hgo" } },
   "tests": {
-    "along": { "type": "uniaxial", "direction": "circumferential", "data": { "file": "a.csv" } },
-    "across": { "type": "uniaxial", "direction": "axial", "data": { "file": "a.csv" } }
+    "along": { "type": "uniaxial", "direction": "circumferential", "data": { "file": "a.csv",
+      "columns": { "stretch": "stretch", "stress": "stress" }, "stress_measure": "cauchy" } },
+    "across": { "type": "uniaxial", "direction": "axial", "data": { "file": "a.csv",
+      "columns": { "stretch": "stretch", "stress": "stress" }, "stress_measure": "cauchy" } }
   },
   "optimizers": { "lm": { "type": "ceres_lm" } },
   "runs": [ { "model": "tissue", "optimizer": "lm" } ]

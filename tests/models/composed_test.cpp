@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Composed, ComposedTwin, ::testing::ValuesIn(twins()),
 /// Every law of every invariant that takes it.
 std::vector<std::string> single_terms() {
   std::vector<std::string> all;
-  const std::string knots = R"(, "knots": [0, 0.2, 0.6, 1.5])";
+  const std::string knots = R"(, "knots": [0, 0.1, 0.2, 0.3])";
   for (const std::string invariant : {"I1", "I2"})
     for (const std::string law : {"linear", "quadratic", "cubic", "power", "exponential", "exponential_square", "gent",
                                   "inverse_langevin", "logarithm", "spline"})
@@ -121,8 +121,11 @@ std::vector<std::string> single_terms() {
 TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
   for (const std::string& term : single_terms()) {
     const auto model = composed("[" + matrix + R"(, {"name": "t", )" + term + "}]");
+    // One family alone is no wall with paired fibres.
+    const bool paired = term.find("single") == std::string::npos;
     for (const ModelProperty& property : model_properties())
-      EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
+      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall")
+        EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
   }
 }
 

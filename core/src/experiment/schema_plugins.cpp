@@ -133,6 +133,9 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     const ModelFactory& factory = entry.factory;
     Json properties = with_options(type, factory.options);
     properties["parameters"] = parameters_schema(possible_parameters(entry));
+    const auto names_parameters = [](const Option& option) { return option.kind == Option::Kind::json; };
+    if (std::any_of(factory.options.begin(), factory.options.end(), names_parameters))
+      properties["parameters"]["additionalProperties"] = reference("parameter");
     properties["mechanisms"] = mechanism_list(of_models);
     definitions["model_" + type] = object_schema(described(factory.doc, factory.reference, entry.plugin),
                                                  std::move(properties), required_keys(factory.options, {"type"}));

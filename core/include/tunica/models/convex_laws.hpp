@@ -52,20 +52,19 @@ struct Quadratic {
   }
 };
 
-/// ψ = (k/3) x³ for x > 0, and 0 below.
+/// ψ = (k/3) x³, convex for x ≥ 0.
 struct ThirdPower {
   static constexpr std::size_t parameter_count = 1;  ///< k, kPa
 
   /// ψ for any scalar type.
   template <class T>
   static T energy(const T& x, std::span<const T> p) {
-    return x > T(0.0) ? p[0] / 3.0 * x * x * x : T(0.0);
+    return p[0] / 3.0 * x * x * x;
   }
   /// Derivatives by hand.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     respond_pointwise<1>(b, [k = p[0]](double x) -> Point<1> {
-      const double y = std::max(x, 0.0);
-      return {k / 3 * y * y * y, k * y * y, 2 * k * y, {y * y * y / 3}, {y * y}};
+      return {k / 3 * x * x * x, k * x * x, 2 * k * x, {x * x * x / 3}, {x * x}};
     });
   }
 };
