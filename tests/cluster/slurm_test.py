@@ -151,12 +151,16 @@ def harm_slurmd(slurm, results):
 
 
 def harm_slurmctld(slurm, results):
-    slurm.kill("slurmctld")
-    time.sleep(1)
+    """Slurm writes its state every five seconds. A job that it has taken since would be lost with it, by Slurm itself."""
+    state, submitted = folder / "slurm/state/job_state", results / "slurm/jobs.json"
     with paused(results):
+        wait_until(lambda: state.exists() and state.stat().st_mtime > submitted.stat().st_mtime + 0.1, "Slurm's state on disk")
+        slurm.kill("slurmctld")
+        time.sleep(1)
         said = tunica("cohort", "submit", "cohort.json", "-o", str(results), "--slurm", "--shards", "1", code=2)
         expect("are alive" in said or "squeue ended with" in said, said)
         slurm.call("controller")
+        ask("squeue", "--noheader")  # until it answers
 
 
 def harm_node(slurm, results):
@@ -223,7 +227,7 @@ folder = pathlib.Path(tempfile.mkdtemp(prefix="cluster"))
 tunica = Program(sys.argv[1], folder)
 slurm = Slurm(folder / "slurm")
 try:
-    make_cohort(folder, SPECIMENS, realisations=20)
+    make_cohort(folder, SPECIMENS, realisations=60)
     begin = time.monotonic()
     tunica("cohort", "cohort.json", "-o", "whole", "--no-reports", "--quiet")
     print(f"one machine: {time.monotonic() - begin:.0f} s", flush=True)

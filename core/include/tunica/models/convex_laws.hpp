@@ -13,13 +13,17 @@
 /// rules they follow. With stiffnesses ≥ 0 each is convex where it is used.
 namespace tunica::laws {
 
-/// Writes ψ, ψ', ψ'' and their derivatives by parameters, point by point. `law(x)` returns a Point; what nobody wants
-/// is not written.
+/// A law at one x.
 template <std::size_t parameters>
 struct Point {
-  double value = 0, first = 0, second = 0;
-  double value_dp[parameters] = {}, first_dp[parameters] = {};
+  double value = 0;                  ///< ψ, kPa
+  double first = 0;                  ///< dψ/dx, kPa
+  double second = 0;                 ///< d²ψ/dx², kPa
+  double value_dp[parameters] = {};  ///< ∂ψ/∂p_j
+  double first_dp[parameters] = {};  ///< ∂(dψ/dx)/∂p_j
 };
+
+/// Writes the outputs that are wanted, point by point; `law(x)` returns a Point.
 template <std::size_t parameters, class Law>
 void respond_pointwise(const ResponseBatch& b, const Law& law) {
   const std::size_t n = b.x.size();
@@ -138,8 +142,10 @@ struct Logarithm {
 /// L(β) = coth β − 1/β, the mean extension of a freely jointed chain, and its slope. The series about 0 keeps the
 /// digits that the difference would lose.
 struct Langevin {
-  double value, slope;
+  double value;  ///< L(β)
+  double slope;  ///< dL/dβ
 
+  /// At β ≥ 0.
   explicit Langevin(double beta) {
     const double b = beta * beta;
     if (b < 0.04) {

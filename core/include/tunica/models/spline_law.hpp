@@ -25,6 +25,7 @@ class SplineLaw {
   /// At least two knots, rising, the first 0.
   SplineLaw(std::vector<double> knots, bool has_slope) : knots_(std::move(knots)), first_height_(has_slope ? 1 : 0) {}
 
+  /// The number of the c_j, and the slope where it has one.
   [[nodiscard]] std::size_t parameter_count() const { return knots_.size() + first_height_; }
 
   /// As EnergyPart::respond(), at the parameters of the law.
