@@ -9,7 +9,6 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
-#include "cluster/command.hpp"
 #include "cohort/collection.hpp"
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
@@ -22,6 +21,7 @@
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "text/shell.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -39,12 +39,16 @@ struct CohortOptions {
 constexpr std::size_t most_reports = 50;
 
 /// The command that goes on with it, with the options that decide the result.
-std::string command(const std::string& verb, const CohortOptions& options, const std::filesystem::path& results) {
+std::string command(const GlobalOptions& global, const std::string& verb, const CohortOptions& options,
+                    const std::filesystem::path& results) {
   std::vector<std::string> words{"tunica", "cohort"};
   if (!verb.empty()) words.push_back(verb);
   words.insert(words.end(), {options.file, "-o", results.string()});
   if (options.diagnose) words.emplace_back("--diagnose");
-  return cluster::quoted(words);
+  if (!options.share.empty() && verb.empty()) words.insert(words.end(), {"--shard", options.share});
+  const auto plugins = plugin_words(global);
+  words.insert(words.end(), plugins.begin(), plugins.end());
+  return text::quoted(words);
 }
 
 /// The cohort as it was read, and where its results go.
@@ -92,7 +96,7 @@ int merge(const GlobalOptions& global, const Session& session, const CohortOptio
         fmt::format("{}: {} of {} specimens have no result yet, the first is '{}'. Run "
                     "`{}`, which makes what is missing",
                     results.string(), found.missing.size(), opened.table.specimens.size(),
-                    opened.table.specimens[found.missing.front()].id, command("", options, results)));
+                    opened.table.specimens[found.missing.front()].id, command(global, "", options, results)));
   cohort::Study study;
   {
     Stages stages(global.quiet);
@@ -104,7 +108,7 @@ int merge(const GlobalOptions& global, const Session& session, const CohortOptio
   fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
              cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
   if (study.diagnosis && !study.diagnosis->extended.empty())
-    fmt::print("Try:      {}\n", cluster::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
+    fmt::print("Try:      {}\n", text::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
@@ -131,13 +135,13 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
                                 });
   }
   if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  {}{}\n",
-               command("", options, results), options.share.empty() ? "" : " --shard " + options.share);
+    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  {}\n",
+               command(global, "", options, results));
     return interrupted;
   }
   if (!options.share.empty()) {  // one of one, too: its limits on a cluster are those of fits
     fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    {}\n", share.part, share.of, outcome.fitted,
-               outcome.specimens, command("merge", options, results));
+               outcome.specimens, command(global, "merge", options, results));
     return done;
   }
   return merge(global, session, options, opened, results);

@@ -10,6 +10,7 @@
 #include "cluster/overview.hpp"
 #include "cohort/presence.hpp"
 #include "exit_codes.hpp"
+#include "text/shell.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -54,14 +55,17 @@ ClusterCohort::ClusterCohort(const GlobalOptions& global, const ClusterOptions& 
       table(cohort::read_specimens(specification)),
       pattern(specification, table),
       file(std::filesystem::absolute(options.file).lexically_normal()),
-      results(absolute_folder(options.directory)) {}
+      results(absolute_folder(options.directory)),
+      plugins(plugin_words(global)) {}
 
 std::vector<char> ClusterCohort::missing() const {
   return cohort::missing_records(specification, table, pattern, session.catalogue(), results);
 }
 
 std::string ClusterCohort::command(const std::string& verb) const {
-  return cluster::quoted({"tunica", "cohort", verb, file.string(), "-o", results.string()});
+  std::vector<std::string> words{"tunica", "cohort", verb, file.string(), "-o", results.string()};
+  words.insert(words.end(), plugins.begin(), plugins.end());
+  return text::quoted(words);
 }
 
 int tell_status(const GlobalOptions& global, const ClusterOptions& options) {

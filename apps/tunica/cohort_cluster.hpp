@@ -26,6 +26,7 @@ struct ClusterCohort {
   cohort::SpecimenTable table;
   cohort::Template pattern;
   std::filesystem::path file, results;
+  std::vector<std::string> plugins;  ///< plugin_words()
 
   ClusterCohort(const GlobalOptions& global, const ClusterOptions& options);
 

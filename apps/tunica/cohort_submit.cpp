@@ -14,6 +14,7 @@
 #include "cohort_cluster.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "text/shell.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -79,7 +80,7 @@ cluster::Pilot run_pilot(const cluster::Invocation& call, const ClusterOptions& 
     throw InputError(fmt::format(
         "the pilot ended with code {}: {}. Nothing was submitted, for each shard would end so. Run it by itself "
         "to see more: `{}`",
-        ended.code, cluster::last_line(ended.err), cluster::quoted(words)));
+        ended.code, cluster::last_line(ended.err), text::quoted(words)));
   cluster::Pilot pilot;
   double sum = 0;
   std::string reason;
@@ -185,11 +186,10 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
   if (dry_run) {
     if (!array.empty()) {
       fmt::print("{}\n",
-                 cluster::quoted(cluster::slurm::words_of(cluster::shards_order(submission, cohort.results, array))));
+                 text::quoted(cluster::slurm::words_of(cluster::shards_order(submission, cohort.results, array))));
       after += (after.empty() ? "" : ":") + std::string("JOB");
     }
-    fmt::print("{}\n",
-               cluster::quoted(cluster::slurm::words_of(cluster::merge_order(submission, cohort.results, after))));
+    fmt::print("{}\n", text::quoted(cluster::slurm::words_of(cluster::merge_order(submission, cohort.results, after))));
     return;
   }
   cluster::store(submission, cohort.results);

@@ -12,13 +12,13 @@
 
 #include "calibration/calibrate.hpp"
 #include "calibration/overrides.hpp"
-#include "cluster/command.hpp"
 #include "comparison/ranking_table.hpp"
 #include "data/nearest.hpp"
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
 #include "text/lists.hpp"
+#include "text/shell.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
@@ -47,24 +47,23 @@ void check_names(const std::vector<std::string>& names) {
 
 /// With everything that decides the result, so that it works as it is printed.
 std::string command(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory,
-                    const std::string& how) {
-  using cluster::quoted;
-  std::string command = fmt::format("tunica run {} -o {} {}", quoted(options.file), quoted(directory.string()), how);
-  if (options.overrides.seed) command += fmt::format(" --seed {}", *options.overrides.seed);
-  if (!options.overrides.profiles.empty())
-    command += " --profiles " + quoted(fmt::format("{}", fmt::join(options.overrides.profiles, ",")));
-  if (options.overrides.bootstrap_draws) command += fmt::format(" --bootstrap {}", *options.overrides.bootstrap_draws);
-  if (!options.certificate) command += " --no-certificate";
-  for (const auto& path : global.plugin_paths)
-    command += " --plugin-path " + quoted(std::filesystem::path(path).string());
-  if (global.allow_world_writable_plugins) command += " --allow-world-writable-plugins";
-  return command;
+                    const std::vector<std::string>& how) {
+  std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
+  words.insert(words.end(), how.begin(), how.end());
+  const auto& [seed, profiles, draws] = options.overrides;
+  if (seed) words.insert(words.end(), {"--seed", fmt::format("{}", *seed)});
+  if (!profiles.empty()) words.insert(words.end(), {"--profiles", fmt::format("{}", fmt::join(profiles, ","))});
+  if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
+  if (!options.certificate) words.emplace_back("--no-certificate");
+  const auto plugins = plugin_words(global);
+  words.insert(words.end(), plugins.begin(), plugins.end());
+  return text::quoted(words);
 }
 
 std::string resume_command(const GlobalOptions& global, const RunOptions& options,
                            const std::filesystem::path& directory) {
-  return options.share.empty() ? command(global, options, directory, "--resume")
-                               : command(global, options, options.directory, "--shard " + options.share);
+  return options.share.empty() ? command(global, options, directory, {"--resume"})
+                               : command(global, options, options.directory, {"--shard", options.share});
 }
 
 void say_interrupted(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory) {
@@ -78,8 +77,8 @@ calibration::Certified certify(const GlobalOptions& global, unsigned threads, co
                                const std::filesystem::path& points) {
   std::vector<std::string> arguments{"certify",       directory.string(), "--quiet", "-j", std::to_string(threads),
                                      "--best-points", points.string()};
-  for (const auto& path : global.plugin_paths) arguments.insert(arguments.end(), {"--plugin-path", path});
-  if (global.allow_world_writable_plugins) arguments.emplace_back("--allow-world-writable-plugins");
+  const auto plugins = plugin_words(global);
+  arguments.insert(arguments.end(), plugins.begin(), plugins.end());
   Answer answer = ask_fresh_process(arguments);
   if (!answer.problem.empty()) return {"", std::move(answer.problem)};
   return {std::move(answer.out), ""};
@@ -149,7 +148,7 @@ int run(const GlobalOptions& global, const RunOptions& options) {
       return interrupted;
     case calibration::Outcome::Ending::part_finished:
       fmt::print("shard {} is done\nMerge:    {}\n", options.share,
-                 command(global, options, options.directory, "--merge"));
+                 command(global, options, options.directory, {"--merge"}));
       return done;
     case calibration::Outcome::Ending::finished:
       break;

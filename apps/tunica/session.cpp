@@ -36,6 +36,13 @@ std::set<std::string> types_named_in(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::vector<std::string> plugin_words(const GlobalOptions& global) {
+  std::vector<std::string> words;
+  for (const std::string& path : global.plugin_paths) words.insert(words.end(), {"--plugin-path", path});
+  if (global.allow_world_writable_plugins) words.emplace_back("--allow-world-writable-plugins");
+  return words;
+}
+
 Session::Session(const GlobalOptions& options) {
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path path : options.plugin_paths) {

@@ -19,6 +19,9 @@ struct GlobalOptions {
   bool quiet = false;  ///< nothing on stderr but errors
 };
 
+/// The options by which another process, or a command that is printed, finds the same plugins.
+std::vector<std::string> plugin_words(const GlobalOptions& global);
+
 /// Something the user named needs a plugin that was refused. Exit code 3.
 class PluginRefused : public std::runtime_error {
  public:

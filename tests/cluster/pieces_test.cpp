@@ -8,6 +8,7 @@
 #include "cluster/overview.hpp"
 #include "cluster/submission.hpp"
 #include "execution/folder.hpp"
+#include "text/shell.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -75,10 +76,10 @@ TEST(Command, PassesWordsWithoutAShell) {
 
 TEST(Command, QuotesWordsSoThatAShellReadsThemBack) {
   const std::string awkward = "it's; $HOME `ls` \\ \"x\"\n%a";
-  EXPECT_EQ(run_command({"sh", "-c", "printf %s " + quoted(awkward)}).out, awkward);
-  EXPECT_EQ(run_command({"sh", "-c", "printf '%s,' " + quoted(std::vector<std::string>{"", "a b", "~"})}).out,
+  EXPECT_EQ(run_command({"sh", "-c", "printf %s " + text::quoted(awkward)}).out, awkward);
+  EXPECT_EQ(run_command({"sh", "-c", "printf '%s,' " + text::quoted(std::vector<std::string>{"", "a b", "~"})}).out,
             ",a b,~,");
-  EXPECT_EQ(quoted("/plain/path-1.json"), "/plain/path-1.json");
+  EXPECT_EQ(text::quoted("/plain/path-1.json"), "/plain/path-1.json");
 }
 
 TEST(Command, ReadsBothStreamsHoweverLong) {

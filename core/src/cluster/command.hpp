@@ -25,8 +25,4 @@ Ended run_command(const std::vector<std::string>& words);
 /// The last line that is not empty; "" where there is none.
 std::string last_line(const std::string& text);
 
-/// A word as a POSIX shell reads it back: 'it'\''s'. Plain words stay as they are.
-std::string quoted(const std::string& word);
-std::string quoted(const std::vector<std::string>& words);
-
 }  // namespace tunica::cluster

@@ -14,6 +14,7 @@
 #include "cluster/command.hpp"
 #include "data/sha256.hpp"
 #include "execution/files.hpp"
+#include "text/shell.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cluster {
@@ -29,8 +30,8 @@ std::string script_of(const Invocation& call, const char* what, const std::vecto
   words.insert(words.end(), verb.begin(), verb.end());
   words.insert(words.end(), {call.cohort.string(), "-o", call.results.string()});
   std::string text = fmt::format("#!/bin/sh\n# {}\n", what);
-  if (!call.plugin_path.empty()) text += "export TUNICA_PLUGIN_PATH=" + quoted(call.plugin_path) + "\n";
-  return text + "exec " + quoted(words) + after + "\n";
+  if (!call.plugin_path.empty()) text += "export TUNICA_PLUGIN_PATH=" + text::quoted(call.plugin_path) + "\n";
+  return text + "exec " + text::quoted(words) + after + "\n";
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ SubmissionLock::~SubmissionLock() { ::close(descriptor_); }
 
 std::string shard_script(const Invocation& call, const Wishes& wishes) {
   std::string options = fmt::format(" --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads {}", wishes.shards, wishes.threads);
-  for (const auto& option : call.shard_options) options += " " + quoted(option);
+  for (const auto& option : call.shard_options) options += " " + text::quoted(option);
   return script_of(call, "Fits one shard: a task of a job array. Written by tunica cohort submit.", {"cohort"},
                    options);
 }
