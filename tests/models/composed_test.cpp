@@ -186,6 +186,9 @@ TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "spline"}])"), HasSubstr("has no \"knots\""));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "spline", "knots": [0, 2, 1]}])"),
               HasSubstr("no rising list"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "spline", "knots": {"a": 0, "b": 1}}])"),
+              HasSubstr("\"knots\" is no list"));
+  EXPECT_THAT(refusal(R"([{"name": "1", "invariant": "I1", "law": "linear"}])"), HasSubstr("is not a letter"));
   EXPECT_THAT(refusal("[" + matrix + ", " + matrix + "]"), HasSubstr("two terms are called 'm'"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linear", "angle": 3}])"),
               HasSubstr("the key 'angle' is not known"));

@@ -75,6 +75,7 @@ class Entry {
     const char* const cure = "Give 2 to 14 rising numbers, the first 0, over the range of the invariant in the data";
     if (!has("knots")) fail("a spline has no \"knots\"", cure);
     std::vector<double> knots;
+    if (!json_["knots"].is_array()) fail("\"knots\" is no list", cure);
     for (const Json& one : json_["knots"]) {
       if (!one.is_number()) fail("\"knots\" has an entry that is no number", cure);
       knots.push_back(one);
@@ -113,9 +114,11 @@ Term read_term(const Json& json, std::size_t position) {
   Term term;
   term.name = entry.text("name");
   entry.name_it(term.name);
-  const bool plain = !term.name.empty() && std::all_of(term.name.begin(), term.name.end(),
-                                                       [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-  if (!plain) entry.fail("the name is not of letters, digits and '_'", "Give another; parameters begin with it");
+  const bool plain =
+      !term.name.empty() && std::isalpha(static_cast<unsigned char>(term.name.front())) &&
+      std::all_of(term.name.begin(), term.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  if (!plain)
+    entry.fail("the name is not a letter, then letters, digits and '_'", "Give another; parameters begin with it");
   term.quantity = entry.word("invariant", quantities);
   if (term.quantity == Quantity::stretches) {
     if (entry.has("law") && entry.text("law") != "power")
@@ -167,7 +170,7 @@ std::string terms_schema() {
   const Json text = {{"type", "string"}};
   Json term = {{"type", "object"}, {"required", {"name", "invariant"}}, {"additionalProperties", false}};
   term["properties"]["name"] = {
-      {"description", "Its parameters begin with it."}, {"type", "string"}, {"pattern", "^[A-Za-z0-9_]+$"}};
+      {"description", "Its parameters begin with it."}, {"type", "string"}, {"pattern", "^[A-Za-z][A-Za-z0-9_]*$"}};
   term["properties"]["invariant"] = {{"description", "What the term is a function of."},
                                      {"enum", words_of(quantities)}};
   term["properties"]["law"] = {{"description", "How the term grows with it."}, {"enum", law_names()}};

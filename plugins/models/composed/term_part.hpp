@@ -19,7 +19,8 @@ class TermPart final : public EnergyPart {
   TermPart(const Term& term, std::vector<std::size_t> law_parameters, std::vector<std::size_t> invariant_parameters)
       : quantity_(term.quantity), family_(term.family), dispersion_(term.dispersion), respond_(term.law.respond) {
     description_.name = term.name;
-    description_.role = term.isotropic() || quantity_ == Quantity::radial ? Role::matrix : Role::fibre;
+    // A coupling is no family that could be dispersed or taken up late.
+    description_.role = quantity_ == Quantity::fibre ? Role::fibre : Role::matrix;
     description_.active = term.active;
     description_.mirrored = quantity_ == Quantity::fibre && family_ == Family::diagonal;
     description_.invariant_parameters = std::move(invariant_parameters);

@@ -28,23 +28,21 @@ class WithStretches final : public Model {
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
 
   Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
-    if (invariants_)
-      (void)invariants_->evaluate(points, out);
-    else
+    if (invariants_) {
+      if (Status status = invariants_->evaluate(points, out); !status.ok()) return status;
+    } else {
       for (const std::span<double> rows : {out.energy, out.stress, out.tangent, out.stress_dp}) clear(rows);
+    }
     const auto own = gathered(points.parameters);
     const std::size_t n = points.count;
     TensorScratch scratch;
     for (std::size_t begin = 0; begin < n; begin += chunk) {
       const std::size_t m = std::min(chunk, n - begin);
       take(points.C, n, begin, m, scratch.C);
-      const auto part = [m](auto& rows, const std::span<double>& wanted, std::size_t count) {
-        return std::span<double>(rows.data(), wanted.empty() ? 0 : count * m);
-      };
-      const MaterialResponse response{part(scratch.energy, out.energy, 1),
-                                      part(scratch.stress, out.stress, 6),
-                                      part(scratch.tangent, out.tangent, 36),
-                                      part(scratch.stress_dp, out.stress_dp, 6 * indices_.size()),
+      const MaterialResponse response{wanted(scratch.energy, out.energy, m),
+                                      wanted(scratch.stress, out.stress, 6 * m),
+                                      wanted(scratch.tangent, out.tangent, 36 * m),
+                                      wanted(scratch.stress_dp, out.stress_dp, 6 * indices_.size() * m),
                                       {}};
       const Status status = stretches_->evaluate({m, {scratch.C.data(), 6 * m}, own_span(own), {}, {}}, response);
       if (!status.ok()) return status;
@@ -58,24 +56,22 @@ class WithStretches final : public Model {
   }
 
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
-    if (invariants_)
-      (void)invariants_->evaluate_axes(points, out);
-    else
+    if (invariants_) {
+      if (Status status = invariants_->evaluate_axes(points, out); !status.ok()) return status;
+    } else {
       for (const std::span<double> rows : {out.energy, out.gradient, out.hessian, out.gradient_dp, out.energy_dp})
         clear(rows);
+    }
     const auto own = gathered(points.parameters);
     const std::size_t n = points.count;
     AxesScratch scratch;
     for (std::size_t begin = 0; begin < n; begin += chunk) {
       const std::size_t m = std::min(chunk, n - begin);
       take(points.c, n, begin, m, scratch.c);
-      const auto part = [m](auto& rows, const std::span<double>& wanted, std::size_t count) {
-        return std::span<double>(rows.data(), wanted.empty() ? 0 : count * m);
-      };
-      const AxisResponse response{part(scratch.energy, out.energy, 1), part(scratch.gradient, out.gradient, 3),
-                                  part(scratch.hessian, out.hessian, 6),
-                                  part(scratch.gradient_dp, out.gradient_dp, 3 * indices_.size()),
-                                  part(scratch.energy_dp, out.energy_dp, indices_.size())};
+      const AxisResponse response{wanted(scratch.energy, out.energy, m), wanted(scratch.gradient, out.gradient, 3 * m),
+                                  wanted(scratch.hessian, out.hessian, 6 * m),
+                                  wanted(scratch.gradient_dp, out.gradient_dp, 3 * indices_.size() * m),
+                                  wanted(scratch.energy_dp, out.energy_dp, indices_.size() * m)};
       const Status status = stretches_->evaluate_axes({m, {scratch.c.data(), 3 * m}, own_span(own)}, response);
       if (!status.ok()) return status;
       add(response.energy, 1, 0, n, begin, m, out.energy);
@@ -107,6 +103,11 @@ class WithStretches final : public Model {
     std::array<double, most * chunk> energy_dp;
   };
 
+  /// As much of the scratch as is wanted.
+  template <class Rows>
+  static std::span<double> wanted(Rows& scratch, std::span<double> out, std::size_t count) {
+    return {scratch.data(), out.empty() ? 0 : count};
+  }
   static void clear(std::span<double> rows) { std::fill(rows.begin(), rows.end(), 0.0); }
   [[nodiscard]] std::array<double, most> gathered(std::span<const double> parameters) const {
     std::array<double, most> own{};
