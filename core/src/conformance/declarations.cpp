@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "data/units.hpp"
 
@@ -32,6 +33,8 @@ std::string flaw_of(const Option& option) {
     return fmt::format("{} is in '{}', which is no unit that UDUNITS knows", what, option.unit);
   if ((option.kind == Kind::choice) == option.choices.empty())
     return what + (option.choices.empty() ? " has no choices" : " has choices, and is none");
+  if (!option.schema.empty() && !nlohmann::json::parse(option.schema, nullptr, false).is_object())
+    return what + " has a schema that is no JSON object";
   if (!option.fallback) return {};
   const Option::Value& value = *option.fallback;
   const bool fits = option.kind == Kind::flag      ? std::holds_alternative<bool>(value)

@@ -60,8 +60,8 @@ Json option_schema(const Option& option) {
       schema["type"] = "string";
       break;
     case Kind::json:
-      if (!option.schema.empty()) schema.update(Json::parse(option.schema));
-      break;  // otherwise anything: the plugin reads it
+      if (const Json own = Json::parse(option.schema, nullptr, false); own.is_object()) schema.update(own);
+      break;  // without a schema anything: the plugin reads it
   }
   if (option.min) schema["minimum"] = *option.min;
   if (option.max) schema["maximum"] = *option.max;
