@@ -24,12 +24,12 @@ struct SimpleShear {
 
   static std::vector<Option> options() {
     const std::vector<std::string> axes{"circumferential", "axial", "radial"};
-    return {
-        Option::choice("direction", axes, "circumferential", "Where the plate moves to."),
-        Option::choice("normal", axes, "axial", "The normal of the plates."),
-        Option::number("angle", 0, {-360, 360},
-                       "Degrees by which the specimen's circumferential and axial axes are turned from those of the "
-                       "material, from axial towards circumferential.")};
+    return {Option::choice("direction", axes, "circumferential", "Where the plate moves to."),
+            Option::choice("normal", axes, "axial", "The normal of the plates."),
+            Option::quantity("angle", "deg", -360,
+                             "Turn of the specimen's circumferential and axial axes from those of the material, from "
+                             "axial towards circumferential.",
+                             0.0)};
   }
   static std::vector<Observable> observables() {
     using Role = Observable::Role;
