@@ -52,6 +52,12 @@ const experiment::ParameterSetting& amplitude_of(const experiment::MechanismEntr
   return entry.parameters.at(name);
 }
 
+const experiment::MechanismEntry& only_mechanism(const experiment::Experiment& experiment, const std::string& test) {
+  for (const auto& entry : experiment.tests)
+    if (entry.name == test && entry.mechanisms.size() == 1) return entry.mechanisms.front();
+  throw std::runtime_error("the test '" + test + "' has no mechanism, or several");
+}
+
 TEST(ExtendedCohort, HasACauseOfTheMaterialInItsModel) {
   const auto experiment = extended_by("fibre_dispersion", {{}}, 0.1);
   ASSERT_EQ(experiment.models.front().mechanisms.size(), 1U);
@@ -67,8 +73,7 @@ TEST(ExtendedCohort, HasACauseOfOneTestThere) {
 
 TEST(ExtendedCohort, HasACauseOfOneRowThere) {
   const auto experiment = extended_by("outliers", {{"along"}, "stress", 1, "", 1}, 2.5);
-  for (const auto& test : experiment.tests)
-    if (test.name == "along") EXPECT_EQ(test.mechanisms.at(0).options.text("rows"), "1:2:1");
+  EXPECT_EQ(only_mechanism(experiment, "along").options.text("rows"), "1:2:1");
 }
 
 TEST(ExtendedCohort, SharesOneAmplitudeBetweenTests) {
@@ -82,12 +87,10 @@ TEST(ExtendedCohort, SharesOneAmplitudeBetweenTests) {
 // A stress may be read wrongly by more than the bounds of the mechanism, which know no specimen.
 TEST(ExtendedCohort, GivesAnErrorOfAChannelRoom) {
   const auto experiment = extended_by("force_offset", {{"across"}, "stress"}, 250);
-  for (const auto& test : experiment.tests)
-    for (const auto& entry : test.mechanisms) {
-      EXPECT_EQ(amplitude_of(entry).initial, 250);
-      EXPECT_GT(amplitude_of(entry).max, 1000);
-      EXPECT_LT(amplitude_of(entry).min, -1000);
-    }
+  const auto& amplitude = amplitude_of(only_mechanism(experiment, "across"));
+  EXPECT_EQ(amplitude.initial, 250);
+  EXPECT_GT(amplitude.max, 1000);
+  EXPECT_LT(amplitude.min, -1000);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(Specimens, CalledLikeUnitsAreSpecimens) {
 }
 
 TEST(Specimens, BeginUnderTheFirstLine) {
-  const SpecimenTable table = table_of("id,treatment,file\na,x,a.csv\nb,y,b.csv\nc,1,2\nd,3,4\n");
+  const SpecimenTable table = table_of("id,treatment,width\na,x,unknown\nb,y,2\nc,x,3\nd,y,4\n");
   EXPECT_EQ(table.specimens.size(), 4U);
 }
 
