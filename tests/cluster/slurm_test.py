@@ -118,7 +118,7 @@ def paused(results):
 def wait_until(holds, what):
     patience = Patience()
     while not holds():
-        hurry()
+        tend()
         queue = ask("squeue", "--array", "--states=all", "--noheader", "--format=%i %T %r")
         expect(patience.lasts((queue, len(list(folder.glob("of*/specimens/*/record.json"))))), f"nothing moves while it waits for {what}:\n{queue}")
         time.sleep(0.02)
@@ -172,12 +172,17 @@ def harm_node(slurm, results):
     subprocess.run(["scontrol", "update", f"NodeName={node}", "State=RESUME"], capture_output=True, check=False)
 
 
-def hurry():
-    """Slurm lets a requeued job wait for two minutes, which a test does not."""
-    for line in ask("squeue", "--noheader", "--array", "--states=PENDING", "--format=%i|%r").split():
+def tend():
+    """What the people of a computing centre do, and Slurm after two minutes: requeued jobs may start at once, jobs that
+    Slurm holds since a launch failed are released, as `status` advises, and nodes that it drained for that come back."""
+    for line in ask("squeue", "--noheader", "--array", "--states=PENDING", "--format=%i|%r").splitlines():
         job, _, reason = line.partition("|")
         if reason == "BeginTime":
             subprocess.run(["scontrol", "update", f"JobId={job}", "StartTime=now"], capture_output=True, check=False)
+        if "held" in reason:
+            subprocess.run(["scontrol", "release", job], capture_output=True, check=False)
+    for node in ask("sinfo", "--noheader", "--Node", "--states=drain", "--format=%N").split():
+        subprocess.run(["scontrol", "update", f"NodeName={node}", "State=RESUME"], capture_output=True, check=False)
 
 
 def jobs_that_slurm_knows(name):
@@ -212,7 +217,7 @@ def harmed_cohort_is_that_of_one_machine(slurm, shards):
             resubmitted += 1
         if merge == "ended" and not view["missing"]:
             break
-        hurry()
+        tend()
         time.sleep(0.3)
     expect_same(folder / "whole", results, f"{shards} shards")
     recorded = json.loads((results / "slurm/jobs.json").read_text(encoding="utf-8"))
