@@ -58,6 +58,10 @@ struct MechanismFactory {
   std::vector<std::string> applies_to = {};
   /// Its parameters: the amplitude first, nuisance parameters after it.
   std::vector<Parameter> parameters = {};
+  /// Set where the parameters depend on the options: those of an object with these options. `parameters` then holds
+  /// those of the default options. Diagnosis does not look for such a mechanism, which may stand for anything;
+  /// discovery does.
+  std::function<std::vector<Parameter>(const Options&)> parameters_of = {};
   /// The null of the amplitude.
   double null = 0;
   /// The side of the null on which amplitudes lie.
@@ -105,6 +109,11 @@ struct MechanismFactory {
   std::function<std::unique_ptr<Model>(std::unique_ptr<Model>, const Options&)> wrap_model = {};
   /// Wraps a test, for the stages test and data. Throws InputError if it cannot apply.
   std::function<std::unique_ptr<Test>(std::unique_ptr<Test>, const Options&)> wrap_test = {};
+
+  /// The parameters of an object with these options.
+  [[nodiscard]] std::vector<Parameter> parameters_with(const Options& with) const {
+    return parameters_of ? parameters_of(with) : parameters;
+  }
 };
 
 }  // namespace tunica

@@ -85,7 +85,7 @@ std::vector<Slot> own_slots(const std::vector<Parameter>& parameters, const Para
 /// Appends the parameters that `layer` put behind `slots`, as the decorator declares them.
 void append_slots(std::vector<Slot>& slots, const std::vector<Parameter>& decorated, const Layer& layer,
                   const std::string& prefix, const std::string& owner) {
-  const auto& declared = layer.mechanism->factory.parameters;
+  const auto declared = layer.mechanism->factory.parameters_with(layer.entry->options);
   if (decorated.size() != slots.size() + declared.size()) {
     throw plugins::PluginFailure(fmt::format(
         "plugin '{}': the mechanism '{}' declares {} parameters, but its decorator has {} behind the {} it wraps",

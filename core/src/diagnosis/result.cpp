@@ -16,6 +16,8 @@ const char* code_of(Verdict verdict) {
       return "indistinguishable";
     case Verdict::suspect_data:
       return "suspect_data";
+    case Verdict::discovered:
+      return "discovered";
     case Verdict::unknown:
       break;
   }

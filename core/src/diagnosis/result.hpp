@@ -11,7 +11,14 @@
 /// carries beside its sentences; sentences may change, codes do not.
 namespace tunica::diagnosis {
 
-enum class Verdict { nothing_detected, named, indistinguishable, unknown, suspect_data };
+enum class Verdict {
+  nothing_detected,
+  named,
+  indistinguishable,
+  unknown,
+  suspect_data,
+  discovered  ///< no mechanism, but a term of the energy that no name fits
+};
 const char* code_of(Verdict verdict);
 
 /// Why the verdict is what it is.

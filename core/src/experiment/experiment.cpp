@@ -67,7 +67,7 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
     format.fail(fmt::format("found format {} where 1 is expected", format.dumped()),
                 "This version of tunica reads format 1 only.");
   root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
-                   "stop", "initial", "runs", "on_failure", "analysis", "diagnosis"},
+                   "stop", "initial", "runs", "on_failure", "analysis", "diagnosis", "discovery"},
                   "the experiment file");
   Experiment experiment;
   experiment.file = file;
@@ -98,6 +98,7 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   check_shared(shared);
   if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
   if (const auto node = root.find("diagnosis")) experiment.diagnosis = read_diagnosis(*node, experiment, catalogue);
+  if (const auto node = root.find("discovery")) experiment.discovery = read_discovery(*node, experiment);
   experiment.input_json = write_input(experiment, catalogue);
   return experiment;
 }

@@ -133,6 +133,25 @@ struct DiagnosisEntry {
   std::optional<bool> admissibility;            ///< whether lost stability changes the verdict
 };
 
+/// What a term may be a function of, as "discovery" names it.
+inline const std::vector<std::string> discovery_invariants{
+    "I1", "I2", "stretches", "fibre axial", "fibre circumferential", "fibre diagonal"};
+
+/// How a term may grow, as "discovery" names it: the laws of `composed`.
+inline const std::vector<std::string> discovery_laws{
+    "linear", "quadratic",        "cubic",     "power", "exponential", "exponential_square",
+    "gent",   "inverse_langevin", "logarithm", "spline"};
+
+/// The block "discovery"; an absent member leaves the discovery its default.
+struct DiscoveryEntry {
+  std::optional<std::string> model;     ///< an entry of "models"
+  bool from_nothing = false;            ///< the terms make up the whole energy
+  std::vector<std::string> invariants;  ///< those to consider; empty = what suits the model
+  std::vector<std::string> laws;        ///< those to consider; empty = all
+  std::optional<std::size_t> most_terms;
+  std::optional<double> alpha;  ///< level of significance
+};
+
 /// What is to be said about the uncertainty of every run's best point beyond the Laplace intervals.
 struct Analysis {
   bool all_profiles = false;
@@ -167,6 +186,7 @@ struct Experiment {
   double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
   Analysis analysis;
   std::optional<DiagnosisEntry> diagnosis;
+  std::optional<DiscoveryEntry> discovery;
   std::string input_json;  ///< the file with defaults filled in: input.json
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;

@@ -106,6 +106,7 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
 /// "analysis": profiles, bootstrap, optimizer; needs the optimizers.
 void read_analysis(const Node& node, Experiment& experiment);
 DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue);
+DiscoveryEntry read_discovery(const Node& node, const Experiment& experiment);
 
 // writer.cpp
 /// input.json: the experiment with every default filled in, numbers in base units, file names absolute.

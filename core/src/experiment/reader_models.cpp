@@ -18,6 +18,15 @@ const char* stage_word(Stage stage) {
 
 bool acts_on_model(const MechanismFactory& mechanism) { return mechanism.stage < Stage::test; }
 
+/// The parameters of a mechanism with these options, which it may refuse.
+std::vector<Parameter> parameters_of(const Node& node, const MechanismFactory& factory, const Options& options) {
+  try {
+    return factory.parameters_with(options);
+  } catch (const InputError& problem) {
+    node.fail(fmt::format("the mechanism '{}' refuses its options", factory.id), problem.what());
+  }
+}
+
 /// The mechanisms of one list, checked by themselves; `suits` refuses those that do not belong there.
 template <class Suits>
 std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string& owner,
@@ -45,7 +54,7 @@ std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string
                 "Its parameters would share their names; remove one, or name one of them with \"as\".");
     const std::string name = fmt::format("mechanism '{}'", mechanism.name());
     mechanism.options = read_options(node, factory.options, {"type", "as", "parameters"}, name);
-    mechanism.parameters = read_parameters(node, factory.parameters, name, shared);
+    mechanism.parameters = read_parameters(node, parameters_of(node, factory, mechanism.options), name, shared);
     mechanisms.push_back(std::move(mechanism));
   }
   return mechanisms;

@@ -183,6 +183,19 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
   }
 }
 
+namespace {
+
+double read_alpha(const Node& node) {
+  const double alpha = node.number("a significance level");
+  if (!(alpha >= 0.0001 && alpha <= 0.5))
+    node.fail(
+        fmt::format("the significance level is {}", alpha),
+        "Expected a number from 0.0001 to 0.5, for example 0.05. The draws of noise are too few for a smaller one.");
+  return alpha;
+}
+
+}  // namespace
+
 DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
   node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility"}, "\"diagnosis\"");
   DiagnosisEntry diagnosis;
@@ -190,13 +203,7 @@ DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, co
   if (const auto child = node.find("optimizer"))
     diagnosis.optimizer = child->one_of(entry_names(experiment.optimizers), "optimizer");
   if (const auto child = node.find("admissibility")) diagnosis.admissibility = child->flag("true or false");
-  if (const auto child = node.find("alpha")) {
-    diagnosis.alpha = child->number("a significance level");
-    if (!(*diagnosis.alpha >= 0.0001 && *diagnosis.alpha <= 0.5))
-      child->fail(
-          fmt::format("the significance level is {}", *diagnosis.alpha),
-          "Expected a number from 0.0001 to 0.5, for example 0.05. The draws of noise are too few for a smaller one.");
-  }
+  if (const auto child = node.find("alpha")) diagnosis.alpha = read_alpha(*child);
   const auto child = node.find("mechanisms");
   if (!child) return diagnosis;
   if (child->is_text()) {
@@ -212,6 +219,32 @@ DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, co
   for (const Node& name : names)
     diagnosis.mechanisms.push_back(name.one_of(names_of(catalogue.mechanisms()), "mechanism"));
   return diagnosis;
+}
+
+DiscoveryEntry read_discovery(const Node& node, const Experiment& experiment) {
+  constexpr std::int64_t most = 6;
+  node.allow_only({"model", "from_nothing", "invariants", "laws", "most_terms", "alpha"}, "\"discovery\"");
+  DiscoveryEntry discovery;
+  if (const auto child = node.find("model")) discovery.model = child->one_of(entry_names(experiment.models), "model");
+  if (const auto child = node.find("from_nothing")) discovery.from_nothing = child->flag("true or false");
+  if (const auto child = node.find("alpha")) discovery.alpha = read_alpha(*child);
+  const auto read_words = [&](const char* key, const std::vector<std::string>& known, const char* noun) {
+    std::vector<std::string> words;
+    const auto child = node.find(key);
+    if (!child) return words;
+    for (const Node& word : child->elements("a list of names")) words.push_back(word.one_of(known, noun));
+    if (words.empty()) child->fail("the list is empty", fmt::format("Leave \"{}\" out to try every one.", key));
+    return words;
+  };
+  discovery.invariants = read_words("invariants", discovery_invariants, "invariant");
+  discovery.laws = read_words("laws", discovery_laws, "law");
+  if (const auto child = node.find("most_terms")) {
+    const std::int64_t count = child->integer("how many terms may be added");
+    if (count < 1 || count > most)
+      child->fail(fmt::format("most_terms is {}", count), fmt::format("Give a whole number from 1 to {}.", most));
+    discovery.most_terms = static_cast<std::size_t>(count);
+  }
+  return discovery;
 }
 
 }  // namespace tunica::experiment

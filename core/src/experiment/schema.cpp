@@ -205,6 +205,26 @@ Json diagnosis_schema() {
        {"admissibility", {{"description", "Lost stability changes the verdict."}, {"type", "boolean"}}}});
 }
 
+Json discovery_schema() {
+  return object_schema(
+      "Which terms the energy lacks, or is made of.",
+      {{"model", text_schema("Name of a model: the base.")},
+       {"from_nothing", {{"description", "The terms make up the whole energy; no base is kept."}, {"type", "boolean"}}},
+       {"invariants", list_schema("What a term may be a function of (default: what suits the model).",
+                                  choice_schema("An invariant.", discovery_invariants))},
+       {"laws", list_schema("How it may grow (default all).", choice_schema("A law.", discovery_laws))},
+       {"most_terms",
+        {{"description", "The most terms that are added (default 3; from nothing 4)."},
+         {"type", "integer"},
+         {"minimum", 1},
+         {"maximum", 6}}},
+       {"alpha",
+        {{"description", "Significance level: the share of false alarms that is accepted."},
+         {"type", "number"},
+         {"minimum", 0.0001},
+         {"maximum", 0.5}}}});
+}
+
 Json on_failure_schema() {
   Json schema = {{"description", "What to do when an evaluation fails (default penalise)."}};
   schema["anyOf"] = Json::array(
@@ -244,6 +264,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["on_failure"] = on_failure_schema();
   properties["analysis"] = analysis_schema();
   properties["diagnosis"] = diagnosis_schema();
+  properties["discovery"] = discovery_schema();
 
   Json schema = Json::object();
   schema["$schema"] = "http://json-schema.org/draft-07/schema#";

@@ -123,6 +123,7 @@ void define_plugins(Json& definitions, const plugins::Catalogue& catalogue) {
     if (factory.stage < Stage::test) of_models.push_back(id);
     Json properties = with_options(id, factory.options);
     properties["parameters"] = parameters_schema(factory.parameters);
+    if (factory.parameters_of) properties["parameters"]["additionalProperties"] = reference("parameter");
     if (factory.native.empty())
       properties["as"] = {{"type", "string"},
                           {"description", "Name of its parameters, where several of a type stand side by side."}};

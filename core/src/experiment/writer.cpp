@@ -222,6 +222,16 @@ Json to_json(const DiagnosisEntry& diagnosis) {
   return json;
 }
 
+Json to_json(const DiscoveryEntry& discovery) {
+  Json json = {{"from_nothing", discovery.from_nothing}};
+  if (discovery.model) json["model"] = *discovery.model;
+  if (!discovery.invariants.empty()) json["invariants"] = discovery.invariants;
+  if (!discovery.laws.empty()) json["laws"] = discovery.laws;
+  if (discovery.most_terms) json["most_terms"] = *discovery.most_terms;
+  if (discovery.alpha) json["alpha"] = *discovery.alpha;
+  return json;
+}
+
 }  // namespace
 
 std::string write_input(const Experiment& experiment, const plugins::Catalogue& catalogue) {
@@ -238,6 +248,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
                         {"max_rate", experiment.max_failure_rate}};
   if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);
+  if (experiment.discovery) json["discovery"] = to_json(*experiment.discovery);
   return json.dump(2) + "\n";
 }
 

@@ -3,9 +3,9 @@
 // invariant in the matrix, the tone of the smooth muscle.
 #include <functional>
 
-#include "model_with_part.hpp"
 #include "tunica/models/arterial_fibres.hpp"
 #include "tunica/models/decorated_model.hpp"
+#include "tunica/models/model_sum.hpp"
 #include "tunica/models/rubber_laws.hpp"
 
 namespace {
@@ -35,7 +35,10 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
   mechanism.wrap_model = [parameters = mechanism.parameters, make = std::move(make)](
                              std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> shared(std::move(base));
-    if (shared->parts().empty()) return std::make_unique<added_energy::ModelWithPart>(shared, parameters, make());
+    if (shared->parts().empty())
+      return std::make_unique<ModelSum>(
+          shared, parameters, 0,
+          std::make_unique<Hyperelastic>(ModelDescription{.parameters = parameters}, energy_parts(make())));
     EnergyParts parts;
     for (const auto& part : shared->parts()) parts.push_back(std::make_unique<ForwardedPart>(shared, *part));
     parts.push_back(std::make_unique<AddedPart>(shared->describe().parameters.size(), make()));

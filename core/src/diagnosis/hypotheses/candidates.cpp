@@ -303,7 +303,8 @@ std::vector<Candidate> candidates(const Inquiry& inquiry, const Evidence& eviden
   const std::vector<std::string>& requested = inquiry.request.mechanisms;
   std::vector<const plugins::Catalogue::Entry<MechanismFactory>*> asked;
   for (const auto& [id, entry] : inquiry.catalogue.mechanisms())
-    if (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end())
+    if (!entry.factory.parameters_of &&
+        (requested.empty() || std::find(requested.begin(), requested.end(), id) != requested.end()))
       asked.push_back(&entry);
   std::vector<Candidate> found(asked.size());
   const auto done = inquiry.steps("signatures of the mechanisms", 0.1, 0.2, asked.size());

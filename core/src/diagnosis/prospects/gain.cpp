@@ -101,15 +101,23 @@ double predictive_p(double all, double others, std::size_t n) {
   return numerics::chi_squared_above(std::max(all - others, 0.0), static_cast<double>(n));
 }
 
-/// Whether the rows that are fitted show the amplitudes of the extension.
-bool shows(const Prediction& prediction, const Refit& best, const std::vector<Eigen::Index>& in) {
-  std::size_t at = best.extension->base().size();
-  for (const Extension::Part& part : best.extension->parts()) {
-    const auto column = prediction.jacobian.col(static_cast<Eigen::Index>(at));
-    if (column(in).norm() < 0.1 * column.norm()) return false;
+/// Whether the rows that are fitted show what the extension adds.
+bool shows(const Prediction& prediction, const FittedExtension& best, const std::vector<Eigen::Index>& in) {
+  return std::all_of(best.needed.begin(), best.needed.end(), [&](std::size_t k) {
+    const auto column = prediction.jacobian.col(static_cast<Eigen::Index>(k));
+    return column(in).norm() >= 0.1 * column.norm();
+  });
+}
+
+/// The amplitudes of a refit among its variables.
+std::vector<std::size_t> amplitudes_of(const Refit& refit) {
+  std::vector<std::size_t> found;
+  std::size_t at = refit.extension->base().size();
+  for (const Extension::Part& part : refit.extension->parts()) {
+    found.push_back(at);
     at += 1 + part.nuisance.size();
   }
-  return true;
+  return found;
 }
 
 }  // namespace
@@ -130,6 +138,13 @@ Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& clai
   gain.after = best.fit.chi2;
   gain.expected_under_nothing = analysis.alarm.detector->gain_of_nothing();
   gain.best_rejected = claim.best_rejected;
+  const std::vector<Variable> variables = best.extension->variables();
+  gain.held_out = held_out_blocks(inquiry, evidence,
+                                  {best.extension->assembly(), variables, best.fit, amplitudes_of(best)});
+  return gain;
+}
+
+std::vector<HeldOut> held_out_blocks(const Inquiry& inquiry, const Evidence& evidence, const FittedExtension& best) {
   const std::vector<Block> blocks = blocks_of(evidence);
   std::vector<std::optional<HeldOut>> found(blocks.size());
   const auto done = inquiry.steps("gain on rows that were not fitted", 0.7, 0.85, blocks.size());
@@ -140,7 +155,7 @@ Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& clai
     const Prediction before =
         prediction_of(*evidence.base, all_variables(*evidence.base), evidence.fit.free, blocks[b].counted);
     const Prediction after =
-        prediction_of(best.extension->assembly(), best.extension->variables(), best.fit.free, blocks[b].counted);
+        prediction_of(best.assembly, best.variables, best.fit.free, blocks[b].counted);
     if (!before.ok || !after.ok || !shows(after, best, in)) return;
     HeldOut block{blocks[b].name, root_mean_square(before.residuals, out), root_mean_square(after.residuals, out),
                   predictive_p(best.fit.chi2, after.chi2, out.size()), out.size()};
@@ -151,9 +166,10 @@ Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& clai
     hold_out(b);
     done();
   });
+  std::vector<HeldOut> blocks_found;
   for (auto& block : found)
-    if (block) gain.held_out.push_back(std::move(*block));
-  return gain;
+    if (block) blocks_found.push_back(std::move(*block));
+  return blocks_found;
 }
 
 }  // namespace tunica::diagnosis

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tunica/model.hpp"
+
+namespace tunica {
+
+/// A base model and an energy beside it, W + ψ, each evaluated by itself and added up: for bases without energy parts,
+/// and for energies that are none. DecoratedModel is the faster choice where both have parts.
+///
+/// The parameters of the added energy stand behind those of the base, its amplitude first. While the amplitude is at
+/// its null, the base answers alone, bit for bit, unless derivatives by parameters are wanted. History is the base's.
+/// Threads and failure: as Model. Ownership: shares the base, owns the added energy.
+class ModelSum final : public Model {
+ public:
+  /// `own` are the parameters of `added` as the mechanism calls them. `added` has principal axes. A null that is not a
+  /// number is never met.
+  ModelSum(std::shared_ptr<const Model> base, std::vector<Parameter> own, double null, std::unique_ptr<Model> added)
+      : base_(std::move(base)),
+        added_(std::move(added)),
+        count_(base_->describe().parameters.size()),
+        null_(null),
+        description_(described(*base_, own)) {}
+
+  [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& out) const override {
+    const std::size_t by_base = out.stress_dp.empty() ? 0 : 6 * count_ * points.count;
+    MaterialPoints bare = points;
+    bare.parameters = points.parameters.first(count_);
+    MaterialResponse of_base = out;
+    of_base.stress_dp = out.stress_dp.first(by_base);
+    if (Status status = base_->evaluate(bare, of_base); !status.ok()) return status;
+    if (points.parameters[count_] == null_ && out.stress_dp.empty()) return {};
+    std::vector<double> energy(out.energy.size()), stress(out.stress.size()), tangent(out.tangent.size());
+    const MaterialPoints elastic{points.count, points.C, points.parameters.subspan(count_), {}, {}};
+    if (Status status = added_->evaluate(elastic, {energy, stress, tangent, out.stress_dp.subspan(by_base), {}});
+        !status.ok())
+      return status;
+    add(energy, out.energy);
+    add(stress, out.stress);
+    add(tangent, out.tangent);
+    return {};
+  }
+
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
+    const std::size_t n = points.count;
+    const std::size_t gradients = out.gradient_dp.empty() ? 0 : 3 * count_ * n;
+    const std::size_t energies = out.energy_dp.empty() ? 0 : count_ * n;
+    AxisResponse of_base = out;
+    of_base.gradient_dp = out.gradient_dp.first(gradients);
+    of_base.energy_dp = out.energy_dp.first(energies);
+    if (Status status = base_->evaluate_axes({n, points.c, points.parameters.first(count_)}, of_base); !status.ok())
+      return status;
+    if (points.parameters[count_] == null_ && out.gradient_dp.empty() && out.energy_dp.empty()) return {};
+    std::vector<double> energy(out.energy.size()), gradient(out.gradient.size()), hessian(out.hessian.size());
+    if (Status status = added_->evaluate_axes(
+            {n, points.c, points.parameters.subspan(count_)},
+            {energy, gradient, hessian, out.gradient_dp.subspan(gradients), out.energy_dp.subspan(energies)});
+        !status.ok())
+      return status;
+    add(energy, out.energy);
+    add(gradient, out.gradient);
+    add(hessian, out.hessian);
+    return {};
+  }
+
+ private:
+  static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
+    ModelDescription description = base.describe();
+    description.parameters.insert(description.parameters.end(), own.begin(), own.end());
+    description.axis_history_size = 0;  // memory of the base is followed in tensors
+    return description;
+  }
+  static void add(const std::vector<double>& more, std::span<double> onto) {
+    for (std::size_t i = 0; i < more.size(); ++i) onto[i] += more[i];
+  }
+
+  std::shared_ptr<const Model> base_;
+  std::unique_ptr<Model> added_;
+  std::size_t count_;
+  double null_;
+  ModelDescription description_;
+};
+
+}  // namespace tunica

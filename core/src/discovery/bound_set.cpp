@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/bound_set.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tunica::discovery {
+namespace {
+
+using experiment::ParameterSetting;
+using experiment::ParameterSettings;
+using Json = nlohmann::ordered_json;
+
+/// Ranges and first values of the parameters of a term, whose names begin with `prefix`.
+void set_ranges(const Kind& kind, const std::string& prefix, ParameterSettings& settings) {
+  const auto amplitude = [&](const std::string& name) {
+    ParameterSetting& setting = settings[prefix + name];
+    setting.scale = Scale::linear;
+    if (kind.largest > 0) setting.max = kind.largest;
+    if (kind.invariant == "stretches") {
+      setting.min = kind.negative ? (kind.largest < 0 ? kind.largest : -5000) : 0;
+      if (kind.negative) setting.max = 0;
+    }
+    const double edge = kind.negative ? *setting.min : setting.max.value_or(1);
+    setting.initial = 0.01 * edge;
+  };
+  amplitude(kind.amplitude());
+  for (const std::string& height : kind.heights) amplitude(height);
+  for (const Shape& shape : kind.shapes) {
+    ParameterSetting& setting = settings[prefix + shape.name];
+    setting.scale = shape.scale;
+    setting.min = shape.low;
+    setting.max = shape.high;
+    setting.initial = shape.starts.front();
+  }
+}
+
+/// An entry of "terms" of `composed`.
+Json term_json(const Kind& kind, const std::string& name) {
+  Json term = {{"name", name}, {"invariant", kind.invariant}};
+  if (kind.invariant != "stretches") term["law"] = kind.law;
+  if (!kind.family.empty()) term["family"] = kind.family;
+  if (!kind.knots.empty()) term["knots"] = kind.knots;
+  return term;
+}
+
+std::string joiner(const Subject& subject) { return subject.from_nothing ? "_" : "."; }
+
+}  // namespace
+
+experiment::Experiment with_first_term(experiment::Experiment experiment, const std::string& model) {
+  for (auto& entry : experiment.models) {
+    if (entry.name != model) continue;
+    entry.type = "composed";
+    entry.options = {};
+    entry.options.set("terms", Json::array({{{"name", "I1_linear"}, {"invariant", "I1"}, {"law", "linear"}}}).dump());
+    entry.parameters.clear();
+    entry.mechanisms.clear();
+  }
+  return experiment;
+}
+
+std::size_t index_of(const assembly::Assembly& assembly, const std::string& name) {
+  const auto& parameters = assembly.layout().parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const std::string& known = parameters[j].name;
+    if (known == name || known.ends_with("." + name)) return j;  // behind the name of the model, where there are several
+  }
+  throw std::logic_error(fmt::format("no free parameter is called '{}'", name));
+}
+
+BoundSet::BoundSet(const Subject& subject, const std::vector<KindPointer>& kinds) : experiment_(subject.experiment) {
+  auto& models = experiment_.models;
+  auto& model =
+      *std::find_if(models.begin(), models.end(), [&](const auto& entry) { return entry.name == subject.model; });
+  Json list = Json::array();
+  if (subject.from_nothing) {
+    model.parameters.clear();
+    model.mechanisms.clear();
+  }
+  for (const KindPointer& kind : kinds) {
+    BoundTerm term{kind->name, 0, {}, {}};
+    const auto taken = [&] {
+      return std::any_of(terms_.begin(), terms_.end(), [&](const BoundTerm& other) { return other.name == term.name; });
+    };
+    for (int copy = 2; taken(); ++copy) term.name = fmt::format("{}_{}", kind->name, copy);
+    if (subject.from_nothing) {
+      list.push_back(term_json(*kind, term.name));
+      set_ranges(*kind, term.name + "_", model.parameters);
+    } else {
+      experiment::MechanismEntry entry{"added_term", kind->options(), {}, term.name};
+      set_ranges(*kind, "", entry.parameters);
+      model.mechanisms.push_back(std::move(entry));
+    }
+    terms_.push_back(std::move(term));
+  }
+  if (subject.from_nothing) {
+    model.type = "composed";
+    model.options = {};
+    model.options.set("terms", list.dump());
+  }
+  assembly_ = std::make_unique<assembly::Assembly>(experiment_, subject.run, subject.catalogue);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const std::string prefix = terms_[k].name + joiner(subject);
+    terms_[k].amplitude = index_of(*assembly_, prefix + kinds[k]->amplitude());
+    for (const std::string& height : kinds[k]->heights) terms_[k].heights.push_back(index_of(*assembly_, prefix + height));
+    for (const Shape& shape : kinds[k]->shapes) terms_[k].shapes.push_back(index_of(*assembly_, prefix + shape.name));
+  }
+}
+
+}  // namespace tunica::discovery

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+#include "numerics/orthogonal.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::discovery {
+namespace {
+
+constexpr std::size_t points = 61;
+constexpr double two_sided = 1.96;
+
+/// The free parameters of a term in the order of a model of it alone.
+std::vector<std::size_t> parameters_of(const BoundTerm& term) {
+  std::vector<std::size_t> all{term.amplitude};
+  all.insert(all.end(), term.heights.begin(), term.heights.end());
+  all.insert(all.end(), term.shapes.begin(), term.shapes.end());
+  return all;
+}
+
+/// The term as a model of its own.
+std::unique_ptr<Model> alone(const Subject& subject, const Kind& kind) {
+  nlohmann::ordered_json term = {{"name", "t"}, {"invariant", kind.invariant}, {"law", kind.law}};
+  if (!kind.family.empty()) term["family"] = kind.family;
+  if (!kind.knots.empty()) term["knots"] = kind.knots;
+  Options options;
+  options.set("terms", nlohmann::ordered_json::array({term}).dump());
+  return plugins::create(subject.catalogue.models().at("composed"), options);
+}
+
+/// Fits a set kind by kind.
+std::optional<SetFit> assembled(const Fitter& fitter, const std::vector<KindPointer>& kinds) {
+  SetFit fit = fitter.root();
+  for (const KindPointer& kind : kinds) {
+    auto larger = fitter.grown(fit, kind, 0);
+    if (!larger) return std::nullopt;
+    fit = std::move(*larger);
+  }
+  return fit;
+}
+
+}  // namespace
+
+Eigen::MatrixXd covariance(const diagnosis::Fit& fit) {
+  Eigen::MatrixXd J = fit.jacobian;
+  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(J.cols());
+  for (Eigen::Index k = 0; k < J.cols(); ++k) {
+    if (fit.at_bound[static_cast<std::size_t>(k)]) J.col(k).setZero();
+    lengths[k] = J.col(k).norm();
+    if (lengths[k] > 0) J.col(k) /= lengths[k];
+  }
+  const Eigen::MatrixXd inverse = numerics::pseudo_inverse(J);
+  Eigen::MatrixXd C = inverse * inverse.transpose();
+  for (Eigen::Index k = 0; k < J.cols(); ++k) {
+    const double scale = lengths[k] > 0 ? 1 / lengths[k] : 0;
+    C.row(k) *= scale;
+    C.col(k) *= scale;
+  }
+  return C;
+}
+
+TermCurve curve_of_term(const Subject& subject, const SetFit& fit, std::size_t which) {
+  const Kind& kind = *fit.kinds[which];
+  const std::vector<std::size_t> indices = parameters_of(fit.set->terms()[which]);
+  std::vector<double> own;
+  for (const std::size_t j : indices) own.push_back(fit.fit.free[j]);
+  const auto n = static_cast<Eigen::Index>(points), m = static_cast<Eigen::Index>(own.size());
+  TermCurve curve;
+  curve.x.resize(points);
+  curve.slope.resize(points);
+  Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(n, m);
+  if (kind.invariant == "stretches") {
+    // ψ = μ/α λ^α:  ψ' = μ λ^(α−1),  ∂ψ'/∂μ = λ^(α−1),  ∂ψ'/∂α = μ λ^(α−1) ln λ
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(points - 1);
+      const double lambda = std::exp(kind.reach.low + t * (kind.reach.high - kind.reach.low));
+      const double power = std::pow(lambda, own[1] - 1);
+      curve.x[static_cast<std::size_t>(i)] = lambda;
+      curve.slope[static_cast<std::size_t>(i)] = own[0] * power;
+      by_parameters(i, 0) = power;
+      by_parameters(i, 1) = own[0] * power * std::log(lambda);
+    }
+  } else {
+    for (std::size_t i = 0; i < points; ++i)
+      curve.x[i] = kind.reach.high * static_cast<double>(i) / static_cast<double>(points - 1);
+    const std::unique_ptr<Model> model = alone(subject, kind);
+    const EnergyPart& part = *model->parts().front();
+    const std::size_t of_law = part.describe().response_parameters.size();
+    std::vector<double> by(of_law * points);
+    part.respond(own, {curve.x, {}, curve.slope, {}, {}, by});
+    for (std::size_t j = 0; j < of_law; ++j)
+      for (std::size_t i = 0; i < points; ++i)
+        by_parameters(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = by[j * points + i];
+  }
+  const Eigen::MatrixXd all = covariance(fit.fit);
+  Eigen::MatrixXd C(m, m);
+  for (Eigen::Index a = 0; a < m; ++a)
+    for (Eigen::Index b = 0; b < m; ++b)
+      C(a, b) = all(static_cast<Eigen::Index>(indices[static_cast<std::size_t>(a)]),
+                    static_cast<Eigen::Index>(indices[static_cast<std::size_t>(b)]));
+  for (std::size_t i = 0; i < points; ++i) {
+    const Eigen::VectorXd g = by_parameters.row(static_cast<Eigen::Index>(i)).transpose();
+    const double half = two_sided * std::sqrt(std::max(g.dot(C * g), 0.0));
+    curve.low.push_back(curve.slope[i] - half);
+    curve.high.push_back(curve.slope[i] + half);
+  }
+  return curve;
+}
+
+std::vector<SetFit> with_curves(const Fitter& fitter, const SetFit& best, const std::vector<KindPointer>& kinds,
+                                bool beside) {
+  struct Job {
+    std::vector<KindPointer> rest;
+    KindPointer curve;
+  };
+  std::map<std::string, KindPointer> invariants;
+  for (const KindPointer& kind : kinds)
+    if (kind->invariant != "stretches") invariants.emplace(kind->invariant_words(), kind);
+  std::vector<Job> jobs;
+  for (const auto& [words, kind] : invariants) {
+    std::vector<KindPointer> rest;
+    for (const KindPointer& one : best.kinds)
+      if (one->invariant_words() != words) rest.push_back(one);
+    const bool replaces = rest.size() < best.kinds.size();
+    if (!replaces && !beside) continue;
+    for (const std::size_t pieces : {3, 5, 8}) {
+      Kind curve = discovery::curve_of(*kind, pieces);
+      curve.largest = fitter.largest_amplitude(curve);
+      if (curve.largest == 0) continue;
+      jobs.push_back({replaces ? rest : best.kinds, std::make_shared<const Kind>(std::move(curve))});
+    }
+  }
+  std::vector<std::optional<SetFit>> results(jobs.size());
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
+    if (const auto rest = assembled(fitter, jobs[k].rest)) results[k] = fitter.grown(*rest, jobs[k].curve, 0);
+  });
+  std::vector<SetFit> found;
+  for (auto& result : results)
+    if (result) found.push_back(std::move(*result));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; });
+  return found;
+}
+
+}  // namespace tunica::discovery

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discovery/reach.hpp"
+#include "discovery/request.hpp"
+#include "tunica/options.hpp"
+#include "tunica/parameter.hpp"
+
+namespace tunica::discovery {
+
+/// A parameter of a term beside its amplitude: where it may lie on these data, and where a search for it begins.
+struct Shape {
+  std::string name;
+  double low, high;
+  Scale scale;
+  std::vector<double> starts;
+};
+
+/// A term that the energy may have: an invariant, a law, and the ranges of its parameters that these data can tell
+/// apart.
+struct Kind {
+  std::string invariant, family, law;  ///< as `composed` names them; the family of fibres only
+  std::string name;                    ///< "I2_linear", "fibre_axial_quadratic"
+  std::vector<double> knots = {};      ///< of a spline
+  bool negative = false;               ///< of stretches: exponents below 0
+  double largest = 0;                  ///< amplitude, with its sign where it is negative; 0 = as declared
+  std::vector<Shape> shapes = {};
+  std::vector<std::string> heights = {};  ///< of a spline: its other amplitudes
+  Reach reach = {};                       ///< of the invariant in the data
+  double log_prior = 0;                   ///< ln of its share among all kinds
+
+  [[nodiscard]] bool isotropic() const { return invariant != "fibre"; }
+  /// "I2", "fibre diagonal"
+  [[nodiscard]] std::string invariant_words() const { return family.empty() ? invariant : invariant + " " + family; }
+  /// Of its amplitude: "mu", "k", "k1", "slope", "c_1".
+  [[nodiscard]] std::string amplitude() const;
+  /// Options of the mechanism `added_term`.
+  [[nodiscard]] Options options() const;
+};
+
+/// Sets of terms share their kinds.
+using KindPointer = std::shared_ptr<const Kind>;
+
+/// Every kind that the request asks for and the data reach. Without a list, invariants of fibres take part only where
+/// the base has directions. Each invariant has the same prior weight, and in it each law.
+std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions);
+
+/// A free curve in the place of a law, with so many pieces, over the range that the data reach.
+Kind curve_of(const Kind& kind, std::size_t pieces);
+
+}  // namespace tunica::discovery

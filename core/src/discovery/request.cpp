@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/request.hpp"
+
+namespace tunica::discovery {
+
+Request request_of(const experiment::Experiment& experiment) {
+  Request request;
+  request.seed = experiment.seed;
+  request.model = diagnosis::request_of(experiment).model;
+  if (!experiment.discovery) return request;
+  const experiment::DiscoveryEntry& entry = *experiment.discovery;
+  request.model = entry.model.value_or(request.model);
+  request.from_nothing = entry.from_nothing;
+  request.invariants = entry.invariants;
+  request.laws = entry.laws;
+  request.most_terms = entry.most_terms.value_or(0);
+  request.alpha = entry.alpha.value_or(request.alpha);
+  return request;
+}
+
+diagnosis::Request analysis_request(const Request& request) {
+  diagnosis::Request of_analysis;
+  of_analysis.model = request.model;
+  of_analysis.alpha = request.alpha;
+  of_analysis.quick = request.quick;
+  of_analysis.seed = request.seed;
+  return of_analysis;
+}
+
+}  // namespace tunica::discovery

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+namespace tunica::discovery {
+namespace {
+
+constexpr std::size_t beam = 8;       ///< sets that larger ones grow from
+constexpr std::size_t exchanged = 4;  ///< sets in which terms make room for others
+constexpr double worth_trying = 4;    ///< of |r|², as the linearisation promises it
+
+using Key = std::vector<std::string>;
+
+Key key_of(const std::vector<KindPointer>& kinds) {
+  Key key;
+  for (const KindPointer& kind : kinds) key.push_back(kind->name);
+  return key;
+}
+
+Key key_with(const std::vector<KindPointer>& kinds, const Kind& more) {
+  Key key = key_of(kinds);
+  key.insert(std::upper_bound(key.begin(), key.end(), more.name), more.name);
+  return key;
+}
+
+bool likelier(const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; }
+
+/// What was tried, and what came of it.
+class Ledger {
+ public:
+  Ledger(const Fitter& fitter, const Search& request) : fitter_(fitter), request_(request) {}
+
+  /// Every set grown by every kind that suits it, if it is new; those that could be fitted.
+  std::vector<SetFit> grow(const std::vector<SetFit>& from) {
+    struct Job {
+      const SetFit* from;
+      const KindPointer* kind;
+      Key key;
+    };
+    std::vector<Job> jobs;
+    std::map<Key, std::size_t> planned;
+    for (const SetFit& smaller : from)
+      for (const KindPointer& kind : request_.kinds) {
+        if (!suits(smaller, *kind)) continue;
+        Key key = key_with(smaller.kinds, *kind);
+        // The same set from two sides is worth two starts only where the first fails.
+        if (tried_.contains(key) || planned[key]++ >= 2) continue;
+        jobs.push_back({&smaller, &kind, std::move(key)});
+      }
+    std::vector<std::optional<SetFit>> results(jobs.size());
+    tbb::parallel_for(std::size_t{0}, jobs.size(),
+                      [&](std::size_t k) { results[k] = fitter_.grown(*jobs[k].from, *jobs[k].kind, worth_trying); });
+    std::map<Key, SetFit> best;
+    for (std::size_t k = 0; k < jobs.size(); ++k) {
+      tried_.insert(jobs[k].key);
+      if (!results[k]) continue;
+      const auto found = best.find(jobs[k].key);
+      if (found == best.end())
+        best.emplace(jobs[k].key, std::move(*results[k]));
+      else if (likelier(*results[k], found->second))
+        found->second = std::move(*results[k]);
+    }
+    std::vector<SetFit> grown;
+    for (auto& [key, fit] : best) grown.push_back(fit);
+    std::stable_sort(grown.begin(), grown.end(), likelier);
+    for (auto& [key, fit] : best) all_.emplace(key, std::move(fit));
+    return grown;
+  }
+
+  /// The best sets with each of their terms taken out, where that set was fitted.
+  [[nodiscard]] std::vector<SetFit> with_room() const {
+    std::vector<SetFit> smaller;
+    std::set<Key> seen;
+    std::vector<SetFit> best = sorted();
+    if (best.size() > exchanged) best.resize(exchanged);
+    for (const SetFit& fit : best)
+      for (std::size_t out = 0; out < fit.kinds.size() && fit.kinds.size() > 1; ++out) {
+        std::vector<KindPointer> rest = fit.kinds;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(out));
+        const auto found = all_.find(key_of(rest));
+        if (found != all_.end() && seen.insert(found->first).second) smaller.push_back(found->second);
+      }
+    return smaller;
+  }
+
+  [[nodiscard]] std::vector<SetFit> sorted() const {
+    std::vector<SetFit> sets;
+    for (const auto& [key, fit] : all_) sets.push_back(fit);
+    std::stable_sort(sets.begin(), sets.end(), likelier);
+    return sets;
+  }
+
+ private:
+  /// Fibres alone hold nothing together. A second term of the same kind says something for powers of the stretches only.
+  [[nodiscard]] bool suits(const SetFit& from, const Kind& kind) const {
+    if (!from.set && !kind.isotropic()) return false;
+    if (kind.invariant == "stretches") return true;
+    return std::none_of(from.kinds.begin(), from.kinds.end(), [&](const KindPointer& k) { return k->name == kind.name; });
+  }
+
+  const Fitter& fitter_;
+  const Search& request_;
+  std::set<Key> tried_;
+  std::map<Key, SetFit> all_;
+};
+
+}  // namespace
+
+std::vector<SetFit> search(const Fitter& fitter, const Search& request, const IsClean& is_clean) {
+  constexpr std::size_t exhaustive = 2;
+  constexpr double hopeless = 60;  ///< of the evidence, behind the best: no set grows from it
+  Ledger ledger(fitter, request);
+  std::vector<SetFit> level{fitter.root()};
+  for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
+    std::vector<SetFit> grown = ledger.grow(level);
+    if (grown.empty()) break;
+    const SetFit best = ledger.sorted().front();
+    // Nothing is left to explain, and one term more was not worth its price.
+    if (size >= exhaustive && best.kinds.size() < size && is_clean(best)) break;
+    const std::size_t keep = size < exhaustive ? grown.size() : std::min(grown.size(), beam);
+    grown.resize(keep);
+    const double least = size < exhaustive ? -INFINITY : grown.front().log_evidence - hopeless;
+    std::erase_if(grown, [least](const SetFit& fit) { return fit.log_evidence < least; });
+    level = std::move(grown);
+  }
+  for (int round = 0; round < 2; ++round)
+    if (ledger.grow(ledger.with_room()).empty()) break;
+  return ledger.sorted();
+}
+
+}  // namespace tunica::discovery

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "discovery/set_fit.hpp"
+
+namespace tunica::discovery {
+
+/// Whether what a set leaves is noise.
+using IsClean = std::function<bool(const SetFit&)>;
+
+struct Search {
+  const std::vector<KindPointer>& kinds;
+  std::size_t most_terms;
+  bool from_nothing;
+};
+
+/// Sets of terms that were fitted, likeliest first. Single terms and pairs are tried exhaustively: the best single term
+/// often belongs to no pair. Larger sets grow from the best of the smaller ones, while what these leave is not noise, or
+/// while the last term was worth more than it costs. In the best sets each term then makes room for every other kind.
+/// The outcome does not depend on threads.
+std::vector<SetFit> search(const Fitter& fitter, const Search& request, const IsClean& is_clean);
+
+}  // namespace tunica::discovery

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/set_fit.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "numerics/eigenpairs.hpp"
+#include "numerics/orthogonal.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::discovery {
+namespace {
+
+using diagnosis::Fit;
+using diagnosis::Projection;
+
+constexpr double idle = 0.5;       ///< effect of a term in σ below which it does nothing
+constexpr std::size_t starts = 2;  ///< of a kind with shapes
+
+/// −L⁻¹y, the whitened residuals r of predictions that are all 0: with p any predictions, r(p; y) + r(p; 2p) = −L⁻¹y.
+Eigen::VectorXd residuals_of_nothing(const diagnosis::Evidence& evidence) {
+  const assembly::Assembly& base = *evidence.base;
+  const auto workspace = base.evaluator().make_workspace();
+  std::vector<double> twice(base.layout().prediction_count);
+  Eigen::VectorXd mirrored = Eigen::VectorXd::Zero(evidence.fit.residuals.size());
+  if (base.evaluator().predict(evidence.fit.free, twice, {}, *workspace).ok()) {
+    for (double& value : twice) value *= 2;
+    base.evaluator().measure(twice, *workspace);
+    (void)diagnosis::whitened(base, evidence.fit.free, *workspace, mirrored, nullptr);
+  }
+  return evidence.fit.residuals + mirrored;
+}
+
+/// All combinations of the first shapes of a kind.
+std::vector<std::vector<double>> combinations(const Kind& kind) {
+  std::vector<std::vector<double>> all{{}};
+  for (const Shape& shape : kind.shapes) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& one : all)
+      for (const double start : shape.starts) {
+        longer.push_back(one);
+        longer.back().push_back(start);
+      }
+    all.swap(longer);
+  }
+  return all;
+}
+
+/// What the linearisation promises of a term: amplitude, fall of |r|², and its signature.
+struct Promise {
+  std::vector<double> shapes;
+  double amplitude = 0, gain = 0;
+  Eigen::VectorXd signature;
+};
+
+/// A term acts in the direction that its amplitude may go.
+Promise promise_of(const Kind& kind, const Projection& absorbed, const Eigen::VectorXd& residuals,
+                   Eigen::VectorXd signature) {
+  const Eigen::VectorXd left = absorbed.off(signature);
+  const double length = left.squaredNorm();
+  Promise promise;
+  promise.signature = std::move(signature);
+  if (!(length > 1e-20 * promise.signature.squaredNorm()) || !std::isfinite(length)) return promise;
+  const double amplitude = -left.dot(residuals) / length;
+  if (kind.negative ? amplitude >= 0 : amplitude <= 0) return promise;
+  promise.amplitude = amplitude;
+  promise.gain = amplitude * amplitude * length;
+  return promise;
+}
+
+/// d value/d coordinate of the search.
+double slope(const assembly::FreeParameter& parameter, double value) {
+  return parameter.scale == Scale::log ? value * std::log(parameter.max / parameter.min)
+                                       : parameter.max - parameter.min;
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+double log_prior(const std::vector<KindPointer>& kinds, bool from_nothing) {
+  double sum = 0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    sum += kinds[k]->log_prior + std::log(static_cast<double>(k + 1));
+    if (k > 0) sum += std::log(from_nothing ? 0.5 : 0.1);
+  }
+  return sum;
+}
+
+Fitter::Fitter(const Subject& subject, const diagnosis::Evidence& evidence) : subject_(subject), evidence_(evidence) {
+  const Eigen::VectorXd nothing = residuals_of_nothing(evidence);
+  measured_ = std::max(nothing.norm(), 10.0);
+  if (subject.from_nothing) {
+    root_.fit.residuals = nothing;
+    root_.fit.chi2 = nothing.squaredNorm();
+    root_.fit.jacobian.resize(nothing.size(), 0);
+  } else {
+    root_.set = std::make_shared<const BoundSet>(subject, std::vector<KindPointer>{});
+    root_.fit = evidence.fit;
+  }
+  root_.log_evidence = log_evidence(root_);
+}
+
+double Fitter::log_evidence(const SetFit& fit) const {
+  const double prior = log_prior(fit.kinds, subject_.from_nothing);
+  if (!fit.set || fit.fit.jacobian.cols() == 0) return -fit.chi2() / 2 + prior;
+  const auto& parameters = fit.set->assembly().layout().parameters;
+  Eigen::MatrixXd J = fit.fit.jacobian;
+  const double of_box = 1 / std::sqrt(2 * std::numbers::pi), of_amplitude = of_box * std::log(measured_);
+  std::vector<bool> amplitude(parameters.size(), false);
+  for (const BoundTerm& term : fit.set->terms()) {
+    amplitude[term.amplitude] = true;
+    for (const std::size_t height : term.heights) amplitude[height] = true;
+  }
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    auto column = J.col(static_cast<Eigen::Index>(j));
+    if (amplitude[j])
+      column *= fit.fit.free[j] * of_amplitude;
+    else if (fit.fit.at_bound[j])
+      column.setZero();
+    else
+      column *= slope(parameters[j], fit.fit.free[j]) * of_box;
+  }
+  Eigen::MatrixXd H = J.transpose() * J;
+  H.diagonal().array() += 1;
+  return -fit.chi2() / 2 - 0.5 * numerics::eigenpairs(H).values.array().max(1.0).log().sum() + prior;
+}
+
+double Fitter::largest_amplitude(const Kind& kind) const {
+  constexpr double several = 20;
+  try {
+    const BoundSet set(subject_, {std::make_shared<const Kind>(kind)});
+    const auto workspace = set.assembly().evaluator().make_workspace();
+    std::vector<double> start = start_of(root_, set);
+    double weakest = INFINITY;
+    for (const auto& shapes : combinations(kind)) {
+      const BoundTerm& term = set.terms().front();
+      const auto& parameter = set.assembly().layout().parameters[term.amplitude];
+      start[term.amplitude] = kind.negative ? -1e-4 : std::max(parameter.min, subject_.from_nothing ? 1e-3 : 0.0);
+      for (std::size_t k = 0; k < shapes.size(); ++k) start[term.shapes[k]] = shapes[k];
+      Eigen::VectorXd r;
+      Eigen::MatrixXd J;
+      if (!diagnosis::whitened(set.assembly(), start, *workspace, r, &J).ok()) continue;
+      double effect = square(J.col(static_cast<Eigen::Index>(term.amplitude)).norm());
+      for (const std::size_t height : term.heights)
+        effect = std::max(effect, square(J.col(static_cast<Eigen::Index>(height)).norm()));
+      if (effect > 0) weakest = std::min(weakest, std::sqrt(effect));
+    }
+    if (!std::isfinite(weakest)) return 0;
+    const double most = std::min(several * measured_ / weakest, 1e5);
+    return kind.negative ? -std::min(most, 5000.0) : (kind.invariant == "stretches" ? std::min(most, 5000.0) : most);
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
+std::vector<double> Fitter::start_of(const SetFit& from, const BoundSet& set) const {
+  const auto& parameters = set.assembly().layout().parameters;
+  std::vector<double> start(parameters.size());
+  for (std::size_t j = 0; j < parameters.size(); ++j) start[j] = parameters[j].initial;
+  if (!from.set) return start;
+  const auto& known = from.set->assembly().layout().parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (std::size_t k = 0; k < known.size(); ++k)
+      if (known[k].name == parameters[j].name)
+        start[j] = std::clamp(from.fit.free[k], parameters[j].min, parameters[j].max);
+  return start;
+}
+
+bool Fitter::has_support(const SetFit& fit) const {
+  constexpr double most_of_it = 0.9, of_rows = 0.1;
+  const Eigen::MatrixXd& J = fit.fit.jacobian;
+  for (const BoundTerm& term : fit.set->terms()) {
+    const auto own = static_cast<Eigen::Index>(term.amplitude);
+    Eigen::VectorXd effect = J.col(own) * fit.fit.free[term.amplitude];
+    for (const std::size_t height : term.heights)
+      effect += J.col(static_cast<Eigen::Index>(height)) * fit.fit.free[height];
+    if (!(effect.norm() > idle)) return false;
+    std::vector<double> squares;
+    for (const double one : effect) squares.push_back(one * one);
+    std::sort(squares.rbegin(), squares.rend());
+    double sum = 0;
+    std::size_t rows = 0;
+    while (rows < squares.size() && sum < most_of_it * effect.squaredNorm()) sum += squares[rows++];
+    if (static_cast<double>(rows) < of_rows * static_cast<double>(squares.size())) return false;
+  }
+  return true;
+}
+
+std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double least) const {
+  const Kind& kind = *more;
+  SetFit found;
+  found.kinds = from.kinds;
+  // Sets are sorted by name, so that one set is one however it came about.
+  found.kinds.insert(std::upper_bound(found.kinds.begin(), found.kinds.end(), more,
+                                      [](const auto& a, const auto& b) { return a->name < b->name; }),
+                     more);
+  std::size_t own = 0;
+  for (std::size_t k = 0; k < found.kinds.size(); ++k)
+    if (found.kinds[k]->name == kind.name) own = k;
+  try {
+    found.set = std::make_shared<const BoundSet>(subject_, found.kinds);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  const assembly::Assembly& assembly = found.set->assembly();
+  const auto& parameters = assembly.layout().parameters;
+  const BoundTerm& term = found.set->terms()[own];
+  const auto workspace = assembly.evaluator().make_workspace();
+  const std::vector<double> beginning = start_of(from, *found.set);
+  const Projection absorbed(diagnosis::interior(from.fit));
+
+  std::vector<Promise> promises;
+  for (const auto& shapes : combinations(kind)) {
+    std::vector<double> at = beginning;
+    const double nothing = subject_.from_nothing ? 1e-4 * parameters[term.amplitude].max : 0.0;
+    at[term.amplitude] = kind.negative ? -1e-4 * std::abs(parameters[term.amplitude].min) : std::max(parameters[term.amplitude].min, nothing);
+    for (const std::size_t height : term.heights) at[height] = parameters[height].min;
+    for (std::size_t k = 0; k < shapes.size(); ++k) at[term.shapes[k]] = shapes[k];
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    if (!diagnosis::whitened(assembly, at, *workspace, r, &J).ok() || !J.allFinite()) continue;
+    Eigen::VectorXd signature = J.col(static_cast<Eigen::Index>(term.amplitude));
+    for (const std::size_t height : term.heights) signature += J.col(static_cast<Eigen::Index>(height));
+    Promise promise = promise_of(kind, absorbed, from.fit.residuals, std::move(signature));
+    promise.shapes = shapes;
+    if (promise.gain > 0) promises.push_back(std::move(promise));
+  }
+  std::stable_sort(promises.begin(), promises.end(),
+                   [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
+  if (promises.empty() || promises.front().gain < least) return std::nullopt;
+  if (promises.size() > starts) promises.resize(starts);
+
+  const std::vector<diagnosis::Variable> variables = diagnosis::all_variables(assembly);
+  bool ok = false;
+  double share = 1;
+  for (const Promise& promise : promises) {
+    std::vector<double> at = beginning;
+    const double amplitude = share * promise.amplitude;
+    for (const std::size_t index : [&] {
+           std::vector<std::size_t> all = term.heights;
+           all.push_back(term.amplitude);
+           return all;
+         }())
+      at[index] = std::clamp(amplitude, parameters[index].min, parameters[index].max);
+    for (std::size_t k = 0; k < promise.shapes.size(); ++k) at[term.shapes[k]] = promise.shapes[k];
+    // What the others do when it is added: J Δ = −s a.
+    if (from.set && from.fit.jacobian.cols() > 0) {
+      Eigen::MatrixXd scaled = from.fit.jacobian;
+      const Eigen::VectorXd lengths = scaled.colwise().norm().cwiseMax(1e-300);
+      for (Eigen::Index c = 0; c < scaled.cols(); ++c) scaled.col(c) /= lengths[c];
+      const Eigen::VectorXd shift =
+          numerics::least_squares_solution(scaled, -promise.signature * amplitude, 1e-6).cwiseQuotient(lengths);
+      const auto& known = from.set->assembly().layout().parameters;
+      for (std::size_t k = 0; k < known.size(); ++k)
+        for (std::size_t j = 0; j < parameters.size(); ++j) {
+          if (parameters[j].name != known[k].name || j == term.amplitude) continue;
+          const double step = shift[static_cast<Eigen::Index>(k)];
+          if (parameters[j].scale == Scale::log)
+            at[j] *= std::exp(std::clamp(step / at[j], -1.0, 1.0));
+          else
+            at[j] += std::clamp(step, -0.3 * (parameters[j].max - parameters[j].min),
+                                0.3 * (parameters[j].max - parameters[j].min));
+          at[j] = std::clamp(at[j], parameters[j].min, parameters[j].max);
+        }
+    }
+    share = 0.3;
+    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, 60,
+                                       {.negligible = diagnosis::says_nothing});
+    if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
+    found.fit = std::move(fit);
+    ok = true;
+  }
+  if (!ok || !has_support(found)) return std::nullopt;
+  found.log_evidence = log_evidence(found);
+  return found;
+}
+
+}  // namespace tunica::discovery

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "diagnosis/evidence/evidence.hpp"
+#include "diagnosis/evidence/projection.hpp"
+#include "discovery/bound_set.hpp"
+
+namespace tunica::discovery {
+
+/// A set of terms at its best fit, or the base without any.
+struct SetFit {
+  std::vector<KindPointer> kinds;
+  std::shared_ptr<const BoundSet> set;  ///< null: from nothing, and no term yet
+  diagnosis::Fit fit;
+  double log_evidence = -INFINITY;  ///< with the prior of the set
+
+  [[nodiscard]] double chi2() const { return fit.chi2; }
+};
+
+/// Fits sets of terms and weighs them. Const and thread-safe.
+class Fitter {
+ public:
+  /// `evidence`: of the base; from nothing of one neo-Hookean term.
+  Fitter(const Subject& subject, const diagnosis::Evidence& evidence);
+
+  /// The base alone, or nothing: what every set grows from.
+  [[nodiscard]] const SetFit& root() const { return root_; }
+
+  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises at
+  /// the best of the kind's first shapes. None where it promises less than `least` of |r|², where no start can be
+  /// evaluated, or where the term has nothing to do.
+  [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double least) const;
+
+  /// ln of the evidence of a fit with its prior: Laplace's approximation,
+  ///
+  ///   ln E = −|r|²/2 − ½ ln det(I + W JᵀJ W) + ln prior of the set,
+  ///
+  /// J by the coordinates of the search, for amplitudes by their logarithm, W their prior standard deviations: those of
+  /// a Gaussian as high as the uniform prior. Amplitudes are uniform in the logarithm from an effect of σ to all that is
+  /// measured.
+  [[nodiscard]] double log_evidence(const SetFit& fit) const;
+
+  /// The largest amplitude that is looked for: an effect of several times all that is measured.
+  [[nodiscard]] double largest_amplitude(const Kind& kind) const;
+
+ private:
+  [[nodiscard]] std::vector<double> start_of(const SetFit& from, const BoundSet& set) const;
+  [[nodiscard]] bool has_support(const SetFit& fit) const;
+
+  const Subject& subject_;
+  const diagnosis::Evidence& evidence_;
+  SetFit root_;
+  double measured_ = 1;  ///< √Σ(y/σ)²
+};
+
+/// ln of the prior of a set: each further term is in one data set of ten beside a base and in one of two from nothing;
+/// the order in which terms are listed says nothing.
+double log_prior(const std::vector<KindPointer>& kinds, bool from_nothing);
+
+}  // namespace tunica::discovery

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "energy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "formula.hpp"
+#include "term_part.hpp"
+#include "tunica/error.hpp"
+#include "tunica/models/principal_stretches.hpp"
+#include "tunica/models/rubber_laws.hpp"
+#include "with_stretches.hpp"
+
+namespace tunica::composed {
+namespace {
+
+constexpr std::size_t most_stretch_terms = 6;
+
+/// Where the parameters of a term stand in the model.
+struct Places {
+  std::vector<std::size_t> law, invariant;
+};
+
+/// The table of parameters grows term by term.
+class Layout {
+ public:
+  explicit Layout(const std::vector<Term>& terms) {
+    for (const Term& term : terms) places_[term.name] = places_of(term);
+    // A shared angle may be of a term further down.
+    for (const Term& term : terms)
+      if (!term.angle_of.empty()) {
+        auto& own = places_[term.name].invariant;
+        own.insert(own.begin(), places_[term.angle_of].invariant.front());
+      }
+  }
+
+  [[nodiscard]] const Places& of(const Term& term) const { return places_.at(term.name); }
+  [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
+
+ private:
+  std::size_t add(const Term& term, Parameter parameter) {
+    parameter.name = term.name + "_" + parameter.name;
+    parameters_.push_back(std::move(parameter));
+    return parameters_.size() - 1;
+  }
+
+  Places places_of(const Term& term) {
+    Places places;
+    if (term.quantity == Quantity::stretches) {
+      const char* const source = "Ogden 1972";
+      places.law = {
+          add(term, {"mu", "kPa", 100, -5000, 5000, Scale::linear, "Coefficient; mu alpha > 0 stiffens.", source}),
+          add(term, {"alpha", "1", 2, -30, 30, Scale::linear, "Exponent.", source})};
+      return places;
+    }
+    for (const Parameter& parameter : term.law.parameters) places.law.push_back(add(term, parameter));
+    if (term.is_angled() && term.angle_of.empty()) places.invariant.push_back(add(term, arterial::theta()));
+    if (term.dispersion == Dispersion::rotational)
+      places.invariant.push_back(add(term, {"kappa", "1", 0.1, 0, 1. / 3, Scale::linear, "Dispersion of the fibres.",
+                                            "Gasser, Ogden, Holzapfel 2006"}));
+    if (term.dispersion == Dispersion::two_planes) {
+      const char* const source = "Holzapfel, Niestrawska, Ogden, Reinisch, Schriefl 2015";
+      places.invariant.push_back(add(term, {"A", "1", 0.2, 0, 1. / 3, Scale::linear, "Weight of I1.", source}));
+      places.invariant.push_back(
+          add(term, {"B", "1", 0.4, 0, 1, Scale::linear, "Weight of the fibre direction.", source}));
+    }
+    return places;
+  }
+
+  std::vector<Parameter> parameters_;
+  std::map<std::string, Places> places_;
+};
+
+/// The generalised structure tensor has no negative weight (Holzapfel et al. 2015, §2.3).
+void add_admissible(const Term& term, const Places& places, std::vector<Combination>& all) {
+  if (term.dispersion != Dispersion::two_planes) return;
+  const std::size_t b = places.invariant.back(), a = places.invariant[places.invariant.size() - 2];
+  const auto named = [&](const char* pattern) { return fmt::format(fmt::runtime(pattern), fmt::arg("t", term.name)); };
+  all.push_back({named("{t}_A + {t}_B"), "1", {a, b}, [a, b](std::span<const double> p) { return p[a] + p[b]; }, ""});
+  all.push_back({named("1 - 2 {t}_A - {t}_B"),
+                 "1",
+                 {a, b},
+                 [a, b](std::span<const double> p) { return 1 - 2 * p[a] - p[b]; },
+                 ""});
+}
+
+template <std::size_t terms>
+std::unique_ptr<Model> stretches(ModelDescription description) {
+  return std::make_unique<PrincipalStretches<laws::Ogden<terms>>>(std::move(description));
+}
+
+std::unique_ptr<Model> stretch_model(const std::vector<Parameter>& all, const std::vector<std::size_t>& indices) {
+  ModelDescription description;
+  for (const std::size_t index : indices) description.parameters.push_back(all[index]);
+  static constexpr std::array makers{stretches<1>, stretches<2>, stretches<3>,
+                                     stretches<4>, stretches<5>, stretches<6>};
+  return makers.at(indices.size() / 2 - 1)(std::move(description));
+}
+
+}  // namespace
+
+std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
+  const Layout layout(terms);
+  ModelDescription description{.type = "composed", .parameters = layout.parameters()};
+  if (description.parameters.size() > hyperelastic::max_model_parameters)
+    throw InputError(
+        fmt::format("\"terms\" have {} parameters together, and a model may have {}. Take terms or knots out.",
+                    description.parameters.size(), hyperelastic::max_model_parameters));
+  description.formula = formula_of(terms);
+  EnergyParts parts;
+  std::vector<std::size_t> of_stretches;
+  for (const Term& term : terms) {
+    const Places& places = layout.of(term);
+    add_admissible(term, places, description.admissible);
+    if (term.quantity == Quantity::stretches)
+      of_stretches.insert(of_stretches.end(), places.law.begin(), places.law.end());
+    else
+      parts.push_back(std::make_unique<TermPart>(term, places.law, places.invariant));
+  }
+  if (of_stretches.empty()) return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+  if (of_stretches.size() > 2 * most_stretch_terms)
+    throw InputError(
+        fmt::format("\"terms\" have {} terms of the principal stretches, and a model may have {}. Take "
+                    "some out.",
+                    of_stretches.size() / 2, most_stretch_terms));
+  auto invariants = parts.empty() ? nullptr : std::make_unique<Hyperelastic>(description, std::move(parts));
+  auto of_principal = stretch_model(description.parameters, of_stretches);
+  return std::make_unique<WithStretches>(std::move(description), std::move(invariants), std::move(of_principal),
+                                         std::move(of_stretches));
+}
+
+}  // namespace tunica::composed
