@@ -24,6 +24,7 @@ inline CLI::Validator seed_number() {
 void add_run(CLI::App& app, GlobalOptions& global, Action& action);
 void add_cohort(CLI::App& app, GlobalOptions& global, Action& action);
 void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action);
+void add_discover(CLI::App& app, GlobalOptions& global, Action& action);
 void add_report(CLI::App& app, GlobalOptions& global, Action& action);
 void add_export(CLI::App& app, GlobalOptions& global, Action& action);
 void add_certify(CLI::App& app, GlobalOptions& global, Action& action);

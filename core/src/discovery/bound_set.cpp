@@ -67,7 +67,8 @@ std::size_t index_of(const assembly::Assembly& assembly, const std::string& name
   const auto& parameters = assembly.layout().parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const std::string& known = parameters[j].name;
-    if (known == name || known.ends_with("." + name)) return j;  // behind the name of the model, where there are several
+    if (known == name || known.ends_with("." + name))
+      return j;  // behind the name of the model, where there are several
   }
   throw std::logic_error(fmt::format("no free parameter is called '{}'", name));
 }
@@ -106,7 +107,8 @@ BoundSet::BoundSet(const Subject& subject, const std::vector<KindPointer>& kinds
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const std::string prefix = terms_[k].name + joiner(subject);
     terms_[k].amplitude = index_of(*assembly_, prefix + kinds[k]->amplitude());
-    for (const std::string& height : kinds[k]->heights) terms_[k].heights.push_back(index_of(*assembly_, prefix + height));
+    for (const std::string& height : kinds[k]->heights)
+      terms_[k].heights.push_back(index_of(*assembly_, prefix + height));
     for (const Shape& shape : kinds[k]->shapes) terms_[k].shapes.push_back(index_of(*assembly_, prefix + shape.name));
   }
 }

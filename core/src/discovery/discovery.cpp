@@ -47,10 +47,10 @@ Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis&
   const Fitter fitter(*subject, evidence);
   const std::vector<KindPointer> kinds = scaled_kinds(fitter, kinds_of(request, states, has_directions));
   inquiry.report("terms of the energy", 0.4);
-  Searched found{subject, search(fitter, {kinds, request.term_limit(), request.from_nothing}, [&](const SetFit& fit) {
-                   return diagnosis::is_clean(p_of_rest(analysis, fit.fit));
-                 })};
-  const bool curves = request.laws.empty() || std::find(request.laws.begin(), request.laws.end(), "spline") != request.laws.end();
+  Searched found{subject, search(fitter, {kinds, request.term_limit(), request.from_nothing},
+                                 [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); })};
+  const bool curves =
+      request.laws.empty() || std::find(request.laws.begin(), request.laws.end(), "spline") != request.laws.end();
   if (found.sets.empty() || !curves) return found;
   inquiry.report("curves in the place of laws", 0.7);
   const bool clean = diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
@@ -107,8 +107,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
     found.chi2_after = found.best->chi2();
     found.p_after = p_of_rest(found.analysis, found.best->fit);
   }
-  found.paths = path_dependence(found.analysis.evidence,
-                                found.best ? found.best->fit : found.analysis.evidence.fit);
+  found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
   judge(found, searched.sets);
   if (found.best) {
     for (std::size_t k = 0; k < found.terms.size(); ++k)
@@ -125,8 +124,9 @@ Discovery discover(const experiment::Experiment& experiment, const Request& requ
         "discovery: every test names the models of its layers, so that it is open which of them gets the terms. Name "
         "one in \"discovery\": {\"model\": …}");
   if (!catalogue.models().contains("composed"))
-    throw InputError("discovery: no loaded plugin provides the model 'composed', which terms are written in. Add its "
-                     "folder to the plugin path");
+    throw InputError(
+        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Add its "
+        "folder to the plugin path");
   const bool directions = has_directions(experiment, request.model, catalogue);
   experiment::Experiment measured = experiment::measured_only(experiment);
   if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);

@@ -130,10 +130,9 @@ PathDependence path_dependence(const diagnosis::Evidence& evidence, const diagno
     found.branches = std::any_of(branches.begin(), branches.end(), [&](const Branch& one) {
       return one.curve == branches.front().curve && &one != &branches.front();
     });
-    found.where = found.branches
-                      ? fmt::format("loading and unloading in the test '{}'", branches.front().curve->test)
-                      : fmt::format("the tests '{}' and '{}', which are alike in all that an energy sees",
-                                    branches.front().curve->test, branches.back().curve->test);
+    found.where = found.branches ? fmt::format("loading and unloading in the test '{}'", branches.front().curve->test)
+                                 : fmt::format("the tests '{}' and '{}', which are alike in all that an energy sees",
+                                               branches.front().curve->test, branches.back().curve->test);
   }
   if (freedom == 0) return found;
   found.p_value = numerics::chi_squared_above(found.chi2, static_cast<double>(freedom));

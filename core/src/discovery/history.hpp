@@ -10,11 +10,11 @@ namespace tunica::discovery {
 /// What no energy can explain: rows at the same strain, measured on the way there and on the way back or in tests that
 /// are alike in everything an energy sees, that differ by more than noise.
 struct PathDependence {
-  double chi2 = 0;      ///< of the residuals: what such differences take
-  double share = 0;     ///< of the misfit beyond noise
-  double p_value = 1;   ///< of the differences where there are none
+  double chi2 = 0;        ///< of the residuals: what such differences take
+  double share = 0;       ///< of the misfit beyond noise
+  double p_value = 1;     ///< of the differences where there are none
   bool branches = false;  ///< loading differs from unloading; else tests that are alike differ
-  std::string where;    ///< "loading and unloading in the test 'cycle'"
+  std::string where;      ///< "loading and unloading in the test 'cycle'"
 
   /// Whether the misfit is of this kind for the most part.
   [[nodiscard]] bool decides() const { return p_value < 1e-4 && share > 0.5; }

@@ -34,12 +34,9 @@ std::vector<Shape> shapes_of(const std::string& law, double X) {
     return {within({"k2", gentle / X / X, steep / X / X, Scale::log, {0.5 / X / X, 3 / X / X, 9 / X / X}}, 1e-3, 100)};
   if (law == "gent") return {within({"Jm", 1.002 * X, 50 * X, Scale::log, {1.1 * X, 2 * X, 8 * X}}, 0.01, 1e4)};
   if (law == "inverse_langevin")
-    return {within({"N",
-                    1 + 1.002 * X / 3,
-                    1 + 50 * X / 3,
-                    Scale::log,
-                    {1 + 1.1 * X / 3, 1 + 2 * X / 3, 1 + 8 * X / 3}},
-                   1.05, 1e4)};
+    return {
+        within({"N", 1 + 1.002 * X / 3, 1 + 50 * X / 3, Scale::log, {1 + 1.1 * X / 3, 1 + 2 * X / 3, 1 + 8 * X / 3}},
+               1.05, 1e4)};
   return {};
 }
 
@@ -50,8 +47,8 @@ Shape exponent(const Reach& logarithms, bool negative) {
   return within({"alpha", 0.2, wide, Scale::linear, {1.4, 3, 6, 12}}, -30, 30);
 }
 
-const std::vector<std::string> of_isotropic{"linear", "quadratic", "cubic",           "power",
-                                            "exponential", "gent",      "inverse_langevin", "logarithm"};
+const std::vector<std::string> of_isotropic{"linear", "quadratic",        "cubic",    "power", "exponential",
+                                            "gent",   "inverse_langevin", "logarithm"};
 const std::vector<std::string> of_fibres{"quadratic", "cubic", "power", "exponential_square"};
 
 /// What a law may be a function of, beyond what `composed` refuses: where it says something of its own. Chains are of

@@ -30,8 +30,7 @@ double log_evidence(const diagnosis::Inquiry& inquiry, const diagnosis::Refit& r
       continue;
     }
     double wide = parameters[j].max - parameters[j].min;
-    if (parameters[j].scale == Scale::log)
-      wide = refit.fit.free[j] * std::log(parameters[j].max / parameters[j].min);
+    if (parameters[j].scale == Scale::log) wide = refit.fit.free[j] * std::log(parameters[j].max / parameters[j].min);
     for (std::size_t a = 0; a < extension.parts().size(); ++a)
       if (extension.parts()[a].amplitude == variables[k]) {
         const auto range = diagnosis::range_of(inquiry.mechanism(refit.additions[a].id), refit.additions[a]);

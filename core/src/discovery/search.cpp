@@ -100,11 +100,13 @@ class Ledger {
   }
 
  private:
-  /// Fibres alone hold nothing together. A second term of the same kind says something for powers of the stretches only.
+  /// Fibres alone hold nothing together. A second term of the same kind says something for powers of the stretches
+  /// only.
   [[nodiscard]] bool suits(const SetFit& from, const Kind& kind) const {
     if (!from.set && !kind.isotropic()) return false;
     if (kind.invariant == "stretches") return true;
-    return std::none_of(from.kinds.begin(), from.kinds.end(), [&](const KindPointer& k) { return k->name == kind.name; });
+    return std::none_of(from.kinds.begin(), from.kinds.end(),
+                        [&](const KindPointer& k) { return k->name == kind.name; });
   }
 
   const Fitter& fitter_;

@@ -214,7 +214,8 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
   for (const auto& shapes : combinations(kind)) {
     std::vector<double> at = beginning;
     const double nothing = subject_.from_nothing ? 1e-4 * parameters[term.amplitude].max : 0.0;
-    at[term.amplitude] = kind.negative ? -1e-4 * std::abs(parameters[term.amplitude].min) : std::max(parameters[term.amplitude].min, nothing);
+    at[term.amplitude] = kind.negative ? -1e-4 * std::abs(parameters[term.amplitude].min)
+                                       : std::max(parameters[term.amplitude].min, nothing);
     for (const std::size_t height : term.heights) at[height] = parameters[height].min;
     for (std::size_t k = 0; k < shapes.size(); ++k) at[term.shapes[k]] = shapes[k];
     Eigen::VectorXd r;
@@ -265,8 +266,8 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
         }
     }
     share = 0.3;
-    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, 60,
-                                       {.negligible = diagnosis::says_nothing});
+    Fit fit =
+        diagnosis::least_squares(assembly, variables, at, *workspace, 60, {.negligible = diagnosis::says_nothing});
     if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
     found.fit = std::move(fit);
     ok = true;

@@ -34,8 +34,8 @@ class Fitter {
   /// The base alone, or nothing: what every set grows from.
   [[nodiscard]] const SetFit& root() const { return root_; }
 
-  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises at
-  /// the best of the kind's first shapes. None where it promises less than `least` of |r|², where no start can be
+  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises
+  /// at the best of the kind's first shapes. None where it promises less than `least` of |r|², where no start can be
   /// evaluated, or where the term has nothing to do.
   [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double least) const;
 
@@ -44,8 +44,8 @@ class Fitter {
   ///   ln E = −|r|²/2 − ½ ln det(I + W JᵀJ W) + ln prior of the set,
   ///
   /// J by the coordinates of the search, for amplitudes by their logarithm, W their prior standard deviations: those of
-  /// a Gaussian as high as the uniform prior. Amplitudes are uniform in the logarithm from an effect of σ to all that is
-  /// measured.
+  /// a Gaussian as high as the uniform prior. Amplitudes are uniform in the logarithm from an effect of σ to all that
+  /// is measured.
   [[nodiscard]] double log_evidence(const SetFit& fit) const;
 
   /// The largest amplitude that is looked for: an effect of several times all that is measured.

@@ -140,7 +140,9 @@ std::string words_of(const std::vector<KindPointer>& kinds) {
   std::vector<std::string> words;
   for (const KindPointer& kind : kinds)
     words.push_back(fmt::format("{} ({})", kind->invariant_words(),
-                                kind->law == "spline" ? "a curve" : kind->invariant == "stretches" ? "power" : kind->law));
+                                kind->law == "spline"            ? "a curve"
+                                : kind->invariant == "stretches" ? "power"
+                                                                 : kind->law));
   return fmt::format("{}", fmt::join(words, " and "));
 }
 
@@ -184,9 +186,8 @@ void judge(Discovery& found, const std::vector<SetFit>& sets) {
   found.terms = terms_of(found, all);
   const bool clean = diagnosis::is_clean(found.p_after);
   const double before = found.request.from_nothing ? sets.front().log_evidence : found.chi2_before;
-  const double share = found.request.from_nothing
-                           ? 1
-                           : std::clamp((before - found.chi2_after) / std::max(before - rows, 1.0), 0.0, 1.0);
+  const double share =
+      found.request.from_nothing ? 1 : std::clamp((before - found.chi2_after) / std::max(before - rows, 1.0), 0.0, 1.0);
   const double of_rig = mass_of(all, [](const Alternative& one) { return !one.mechanism.empty(); });
   const std::string words = words_of(found.best->kinds);
   if (of_rig > 1 - clear_of_rig) {
@@ -227,8 +228,7 @@ void judge(Discovery& found, const std::vector<SetFit>& sets) {
     because(ReasonKind::form_open,
             fmt::format("{} forms are about as likely on these data: {}{}.", found.ambiguity.size(),
                         laws_left(found.ambiguity), found.ambiguity.size() > 4 ? "; …" : ""));
-  if (!clean)
-    because(ReasonKind::not_clean, fmt::format("What they leave is not noise (p = {:.2g}).", found.p_after));
+  if (!clean) because(ReasonKind::not_clean, fmt::format("What they leave is not noise (p = {:.2g}).", found.p_after));
 }
 
 }  // namespace tunica::discovery

@@ -139,8 +139,8 @@ Gain gain_of(const Inquiry& inquiry, const Analysis& analysis, const Claim& clai
   gain.expected_under_nothing = analysis.alarm.detector->gain_of_nothing();
   gain.best_rejected = claim.best_rejected;
   const std::vector<Variable> variables = best.extension->variables();
-  gain.held_out = held_out_blocks(inquiry, evidence,
-                                  {best.extension->assembly(), variables, best.fit, amplitudes_of(best)});
+  gain.held_out =
+      held_out_blocks(inquiry, evidence, {best.extension->assembly(), variables, best.fit, amplitudes_of(best)});
   return gain;
 }
 
@@ -154,8 +154,7 @@ std::vector<HeldOut> held_out_blocks(const Inquiry& inquiry, const Evidence& evi
       (blocks[b].counted[i] ? in : out).push_back(static_cast<Eigen::Index>(i));
     const Prediction before =
         prediction_of(*evidence.base, all_variables(*evidence.base), evidence.fit.free, blocks[b].counted);
-    const Prediction after =
-        prediction_of(best.assembly, best.variables, best.fit.free, blocks[b].counted);
+    const Prediction after = prediction_of(best.assembly, best.variables, best.fit.free, blocks[b].counted);
     if (!before.ok || !after.ok || !shows(after, best, in)) return;
     HeldOut block{blocks[b].name, root_mean_square(before.residuals, out), root_mean_square(after.residuals, out),
                   predictive_p(best.fit.chi2, after.chi2, out.size()), out.size()};

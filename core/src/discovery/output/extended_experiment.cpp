@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "diagnosis/output/fitted_experiment.hpp"
+#include "discovery/output/outputs.hpp"
+#include "experiment/reader.hpp"
+
+namespace tunica::discovery {
+
+std::string extended_experiment(const Discovery& d, const plugins::Catalogue& catalogue) {
+  if (!d.best || !d.best->set || d.terms.empty()) return {};
+  experiment::Experiment experiment = d.best->set->experiment();
+  // What was asked of the discovery has been answered.
+  experiment.discovery.reset();
+  return experiment::write_input(diagnosis::fitted_experiment(std::move(experiment), d.analysis.evidence.run,
+                                                              d.best->set->assembly(), d.best->fit.free, "", catalogue),
+                                 catalogue);
+}
+
+}  // namespace tunica::discovery
