@@ -42,7 +42,7 @@ std::unique_ptr<Model> alone(const Subject& subject, const Kind& kind) {
 std::optional<SetFit> assembled(const Fitter& fitter, const std::vector<KindPointer>& kinds) {
   SetFit fit = fitter.root();
   for (const KindPointer& kind : kinds) {
-    auto larger = fitter.grown(fit, kind, 0);
+    auto larger = fitter.grown(fit, kind, -INFINITY);
     if (!larger) return std::nullopt;
     fit = std::move(*larger);
   }
@@ -142,7 +142,7 @@ std::vector<SetFit> with_curves(const Fitter& fitter, const SetFit& best, const 
   }
   std::vector<std::optional<SetFit>> results(jobs.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
-    if (const auto rest = assembled(fitter, jobs[k].rest)) results[k] = fitter.grown(*rest, jobs[k].curve, 0);
+    if (const auto rest = assembled(fitter, jobs[k].rest)) results[k] = fitter.grown(*rest, jobs[k].curve, -INFINITY);
   });
   std::vector<SetFit> found;
   for (auto& result : results)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,30 +37,73 @@ struct Searched {
   std::vector<SetFit> sets;  ///< likeliest first
 };
 
+/// Whether the tests show two directions of the sheet: strips cut along both, or stresses along both.
+bool shows_directions(const diagnosis::Evidence& evidence) {
+  std::set<std::string> directions;
+  for (const diagnosis::Curve& curve : evidence.curves) {
+    const experiment::TestEntry& test = evidence.experiment.test(curve.test);
+    directions.insert(test.options.has("direction") ? test.options.text("direction") : curve.channel);
+  }
+  return directions.size() > 1;
+}
+
+/// Of sets of the same invariants whose evidence is within 3 of the best, the one with the fewest parameters comes
+/// first: a law is not preferred to its own limit.
+void simplest_first(std::vector<SetFit>& sets) {
+  constexpr double as_likely = 3;
+  const auto invariants = [](const SetFit& set) {
+    std::set<std::string> words;
+    for (const KindPointer& kind : set.kinds) words.insert(kind->invariant_words());
+    return words;
+  };
+  const auto parameters = [](const SetFit& set) { return set.set->assembly().layout().parameters.size(); };
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < sets.size() && sets[k].log_evidence > sets.front().log_evidence - as_likely; ++k)
+    if (parameters(sets[k]) < parameters(sets[first]) && invariants(sets[k]) == invariants(sets.front())) first = k;
+  std::rotate(sets.begin(), sets.begin() + static_cast<std::ptrdiff_t>(first),
+              sets.begin() + static_cast<std::ptrdiff_t>(first) + 1);
+}
+
 /// All sets of closed laws, and of curves where these say more.
+std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
+                                  const std::vector<KindPointer>& kinds) {
+  constexpr double worth_a_curve = 3;
+  const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
+  std::vector<SetFit> sets = search(fitter, {kinds, request.term_limit(), request.from_nothing}, is_clean);
+  const std::vector<std::string>& laws = request.laws;
+  if (sets.empty() || !(laws.empty() || std::find(laws.begin(), laws.end(), "spline") != laws.end())) return sets;
+  const bool room = sets.front().kinds.size() < request.term_limit();
+  const double best = sets.front().log_evidence;
+  for (SetFit& curve : with_curves(fitter, sets.front(), kinds, room && !is_clean(sets.front())))
+    if (curve.log_evidence > best + worth_a_curve) sets.push_back(std::move(curve));
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; });
+  return sets;
+}
+
+/// From nothing, fibres are tried where an isotropic energy leaves more than noise.
 Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis, const Request& request,
                    bool has_directions) {
-  constexpr double worth_a_curve = 3;
   const diagnosis::Evidence& evidence = analysis.evidence;
   auto subject = std::make_shared<const Subject>(
       Subject{evidence.experiment, evidence.run, request.model, request.from_nothing, inquiry.catalogue});
   inquiry.report("what the data reach", 0.3);
   const States states = reached_states(*subject, evidence.fit.free);
   const Fitter fitter(*subject, evidence);
-  const std::vector<KindPointer> kinds = scaled_kinds(fitter, kinds_of(request, states, has_directions));
+  const auto over = [&](bool directions) {
+    return searched_over(analysis, request, fitter, scaled_kinds(fitter, kinds_of(request, states, directions)));
+  };
   inquiry.report("terms of the energy", 0.4);
-  Searched found{subject, search(fitter, {kinds, request.term_limit(), request.from_nothing},
-                                 [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); })};
-  const bool curves =
-      request.laws.empty() || std::find(request.laws.begin(), request.laws.end(), "spline") != request.laws.end();
-  if (found.sets.empty() || !curves) return found;
-  inquiry.report("curves in the place of laws", 0.7);
-  const bool clean = diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
-  const bool room = found.sets.front().kinds.size() < request.term_limit();
-  for (SetFit& curve : with_curves(fitter, found.sets.front(), kinds, !clean && room))
-    if (curve.log_evidence > found.sets.front().log_evidence + worth_a_curve) found.sets.push_back(std::move(curve));
-  std::stable_sort(found.sets.begin(), found.sets.end(),
-                   [](const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; });
+  Searched found{subject, over(has_directions)};
+  const bool clean = !found.sets.empty() && diagnosis::is_clean(p_of_rest(analysis, found.sets.front().fit));
+  if (request.from_nothing && !has_directions && !clean && request.invariants.empty() && shows_directions(evidence)) {
+    inquiry.report("terms of fibres", 0.6);
+    std::vector<SetFit> with_fibres = over(true);
+    if (!with_fibres.empty() &&
+        (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence))
+      found.sets = std::move(with_fibres);
+  }
+  if (!found.sets.empty()) simplest_first(found.sets);
   return found;
 }
 
@@ -97,7 +142,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
       searched = search_in(inquiry, analysis, request, has_directions);
     }
   Discovery found{request, std::move(analysis), searched.subject};
-  found.chi2_before = request.from_nothing ? 0 : found.analysis.evidence.fit.chi2;
+  found.chi2_before = found.analysis.evidence.fit.chi2;
   found.chi2_after = found.analysis.evidence.fit.chi2;
   found.sets_tried = searched.sets.size();
   inquiry.report("mechanisms as rivals", 0.8);
@@ -109,7 +154,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   }
   found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
   judge(found, searched.sets);
-  if (found.best) {
+  if (!found.terms.empty()) {
     for (std::size_t k = 0; k < found.terms.size(); ++k)
       found.terms[k].curve = curve_of_term(*found.subject, *found.best, k);
     found.held_out = gain_of(inquiry, found.analysis.evidence, *found.best);

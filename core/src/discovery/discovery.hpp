@@ -25,6 +25,7 @@ enum class ReasonKind {
   invariant_open,
   not_an_energy,
   rig_explains,
+  name_explains,
   rig_rival,
   not_clean,
   no_term,

@@ -51,14 +51,6 @@ const std::vector<std::string> of_isotropic{"linear", "quadratic",        "cubic
                                             "gent",   "inverse_langevin", "logarithm"};
 const std::vector<std::string> of_fibres{"quadratic", "cubic", "power", "exponential_square"};
 
-/// What a law may be a function of, beyond what `composed` refuses: where it says something of its own. Chains are of
-/// I1, and the logarithm with I1 for its argument softens as nothing does.
-bool makes_sense(const std::string& invariant, const std::string& law) {
-  if (law == "inverse_langevin") return invariant == "I1";
-  if (law == "logarithm") return invariant == "I2";
-  return true;
-}
-
 Reach reach_of(const std::string& words, const States& states) {
   if (words == "I1") return reach_of_first(states);
   if (words == "I2") return reach_of_second(states);
@@ -112,14 +104,12 @@ Options Kind::options() const {
 
 std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions) {
   std::vector<Kind> kinds;
-  std::size_t invariants = 0;
   for (const std::string& words : experiment::discovery_invariants) {
     const bool fibres = words.starts_with("fibre");
     if (!holds(request.invariants, words)) continue;
     if (request.invariants.empty() && fibres && !has_directions) continue;
     const Reach reach = reach_of(words, states);
     if (std::max(reach.high, words == "stretches" ? -reach.low : 0.0) < least_reach) continue;
-    const std::size_t first = kinds.size();
     if (words == "stretches") {
       for (const bool negative : {false, true}) {
         if (!holds(request.laws, "power")) continue;
@@ -131,13 +121,10 @@ std::vector<Kind> kinds_of(const Request& request, const States& states, bool ha
       }
     } else {
       for (const std::string& law : fibres ? of_fibres : of_isotropic)
-        if (holds(request.laws, law) && makes_sense(words, law)) kinds.push_back(kind_of(words, law, reach));
+        if (holds(request.laws, law)) kinds.push_back(kind_of(words, law, reach));
     }
-    const double of_invariant = static_cast<double>(kinds.size() - first);
-    for (std::size_t k = first; k < kinds.size(); ++k) kinds[k].log_prior = -std::log(of_invariant);
-    invariants += kinds.size() > first ? 1 : 0;
   }
-  for (Kind& kind : kinds) kind.log_prior -= std::log(static_cast<double>(invariants));
+  for (Kind& kind : kinds) kind.log_prior = -std::log(static_cast<double>(kinds.size()));
   return kinds;
 }
 

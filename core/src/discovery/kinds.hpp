@@ -46,7 +46,7 @@ struct Kind {
 using KindPointer = std::shared_ptr<const Kind>;
 
 /// Every kind that the request asks for and the data reach. Without a list, invariants of fibres take part only where
-/// the base has directions. Each invariant has the same prior weight, and in it each law.
+/// the base has directions. All have the same prior weight.
 std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions);
 
 /// A free curve in the place of a law, with so many pieces, over the range that the data reach.

@@ -8,6 +8,7 @@
 #include "assembly/memory.hpp"
 #include "diagnosis/hypotheses/amplitude_range.hpp"
 #include "diagnosis/hypotheses/places.hpp"
+#include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/naming/singles.hpp"
 #include "numerics/eigenpairs.hpp"
 
@@ -58,6 +59,7 @@ std::vector<Rival> rivals_of(const diagnosis::Inquiry& inquiry, const diagnosis:
     rival.remembers = assembly::has_memory(*candidate.mechanism);
     rival.in_the_energy = !rig && !rival.remembers;
     rival.chi2 = single.best->fit.chi2;
+    rival.clean = diagnosis::is_clean(diagnosis::p_of_remainder(analysis, *single.best));
     rival.log_evidence = log_evidence(inquiry, *single.best);
     const auto range = diagnosis::range_of(*candidate.mechanism, single.best->additions.front());
     const double amplitude = single.best->fit.free[single.best->extension->parts().front().amplitude.front()];

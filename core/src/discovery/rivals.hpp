@@ -17,6 +17,7 @@ struct Rival {
   bool remembers = false;
   double log_evidence = 0;
   double chi2 = 0;
+  bool clean = false;     ///< what it leaves is noise
   bool plausible = true;  ///< the amplitude is what one would believe
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t beam = 8;       ///< sets that larger ones grow from
 constexpr std::size_t exchanged = 4;  ///< sets in which terms make room for others
-constexpr double worth_trying = 4;    ///< of |r|², as the linearisation promises it
+constexpr double tolerance = 10;      ///< of the evidence, behind the best so far
 
 using Key = std::vector<std::string>;
 
@@ -41,24 +41,26 @@ class Ledger {
 
   /// Every set grown by every kind that suits it, if it is new; those that could be fitted.
   std::vector<SetFit> grow(const std::vector<SetFit>& from) {
+    const double best_so_far = all_.empty() ? -INFINITY : sorted().front().log_evidence;
     struct Job {
       const SetFit* from;
       const KindPointer* kind;
       Key key;
     };
     std::vector<Job> jobs;
-    std::map<Key, std::size_t> planned;
+    std::set<Key> planned;
     for (const SetFit& smaller : from)
       for (const KindPointer& kind : request_.kinds) {
         if (!suits(smaller, *kind)) continue;
         Key key = key_with(smaller.kinds, *kind);
-        // The same set from two sides is worth two starts only where the first fails.
-        if (tried_.contains(key) || planned[key]++ >= 2) continue;
+        // From the likeliest of the smaller sets, which come first.
+        if (tried_.contains(key) || !planned.insert(key).second) continue;
         jobs.push_back({&smaller, &kind, std::move(key)});
       }
     std::vector<std::optional<SetFit>> results(jobs.size());
-    tbb::parallel_for(std::size_t{0}, jobs.size(),
-                      [&](std::size_t k) { results[k] = fitter_.grown(*jobs[k].from, *jobs[k].kind, worth_trying); });
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
+      results[k] = fitter_.grown(*jobs[k].from, *jobs[k].kind, best_so_far - tolerance);
+    });
     std::map<Key, SetFit> best;
     for (std::size_t k = 0; k < jobs.size(); ++k) {
       tried_.insert(jobs[k].key);

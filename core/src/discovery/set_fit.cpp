@@ -14,8 +14,9 @@ namespace {
 using diagnosis::Fit;
 using diagnosis::Projection;
 
-constexpr double idle = 0.5;       ///< effect of a term in σ below which it does nothing
-constexpr std::size_t starts = 2;  ///< of a kind with shapes
+constexpr double idle = 0.5;         ///< effect of a term in σ below which it does nothing
+constexpr std::size_t starts = 2;    ///< of a kind with shapes
+constexpr double as_promised = 0.7;  ///< of the gain: no second start is tried
 
 /// −L⁻¹y, the whitened residuals r of predictions that are all 0: with p any predictions, r(p; y) + r(p; 2p) = −L⁻¹y.
 Eigen::VectorXd residuals_of_nothing(const diagnosis::Evidence& evidence) {
@@ -74,6 +75,14 @@ double slope(const assembly::FreeParameter& parameter, double value) {
                                        : parameter.max - parameter.min;
 }
 
+/// Whether the data drive the shape of some law to the end of its range: another law is meant.
+bool has_shape_at_bound(const SetFit& fit) {
+  for (const BoundTerm& term : fit.set->terms())
+    for (const std::size_t shape : term.shapes)
+      if (fit.fit.at_bound[shape]) return true;
+  return false;
+}
+
 double square(double x) { return x * x; }
 
 }  // namespace
@@ -129,9 +138,15 @@ double Fitter::log_evidence(const SetFit& fit) const {
 double Fitter::largest_amplitude(const Kind& kind) const {
   constexpr double several = 20;
   try {
-    const BoundSet set(subject_, {std::make_shared<const Kind>(kind)});
+    // From nothing a term stands beside the neo-Hookean one of the analysis: fibres, and laws without a slope at rest,
+    // hold nothing together alone.
+    std::vector<KindPointer> kinds{std::make_shared<const Kind>(kind)};
+    if (subject_.from_nothing)
+      kinds.push_back(std::make_shared<const Kind>(Kind{"I1", {}, "linear", "companion"}));
+    const BoundSet set(subject_, kinds);
     const auto workspace = set.assembly().evaluator().make_workspace();
     std::vector<double> start = start_of(root_, set);
+    if (kinds.size() > 1) start[set.terms().back().amplitude] = evidence_.fit.free.front();
     double weakest = INFINITY;
     for (const auto& shapes : combinations(kind)) {
       const BoundTerm& term = set.terms().front();
@@ -187,7 +202,7 @@ bool Fitter::has_support(const SetFit& fit) const {
   return true;
 }
 
-std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double least) const {
+std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
   const Kind& kind = *more;
   SetFit found;
   found.kinds = from.kinds;
@@ -227,9 +242,20 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
     promise.shapes = shapes;
     if (promise.gain > 0) promises.push_back(std::move(promise));
   }
+  if (getenv("TDEBUG"))
+    fprintf(stderr, "DBG grow %zu + %s: %zu promises, best %g, worth %g from %g chi2 %g\n", from.kinds.size(),
+            kind.name.c_str(), promises.size(),
+            promises.empty()
+                ? 0
+                : std::max_element(promises.begin(), promises.end(), [](auto& a, auto& b) { return a.gain < b.gain; })
+                      ->gain,
+            worth, from.log_evidence, from.fit.chi2);
   std::stable_sort(promises.begin(), promises.end(),
                    [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
-  if (promises.empty() || promises.front().gain < least) return std::nullopt;
+  // Beyond what the linearisation promises, a fit at finite amplitude reaches so many times as much.
+  constexpr double optimism = 3, worth_trying = 4;
+  const double missing = 2 * (worth - from.log_evidence) / optimism;
+  if (promises.empty() || promises.front().gain < std::max(worth_trying, missing)) return std::nullopt;
   if (promises.size() > starts) promises.resize(starts);
 
   const std::vector<diagnosis::Variable> variables = diagnosis::all_variables(assembly);
@@ -266,13 +292,17 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
         }
     }
     share = 0.3;
-    Fit fit =
-        diagnosis::least_squares(assembly, variables, at, *workspace, 60, {.negligible = diagnosis::says_nothing});
+    Fit fit = diagnosis::least_squares(assembly, variables, at, *workspace, 60,
+                                       {.wanted = std::max(-2 * worth, 0.0), .negligible = diagnosis::says_nothing});
     if (!fit.status.ok() || (ok && fit.chi2 >= found.fit.chi2)) continue;
     found.fit = std::move(fit);
     ok = true;
+    if (found.fit.chi2 < from.fit.chi2 - as_promised * promise.gain) break;
   }
-  if (!ok || !has_support(found)) return std::nullopt;
+  if (getenv("TDEBUG"))
+    fprintf(stderr, "DBG  -> ok %d chi2 %g support %d bound %d\n", ok, ok ? found.fit.chi2 : 0,
+            ok && has_support(found), ok && has_shape_at_bound(found));
+  if (!ok || !has_support(found) || has_shape_at_bound(found)) return std::nullopt;
   found.log_evidence = log_evidence(found);
   return found;
 }

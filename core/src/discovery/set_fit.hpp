@@ -34,10 +34,10 @@ class Fitter {
   /// The base alone, or nothing: what every set grows from.
   [[nodiscard]] const SetFit& root() const { return root_; }
 
-  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises
-  /// at the best of the kind's first shapes. None where it promises less than `least` of |r|², where no start can be
-  /// evaluated, or where the term has nothing to do.
-  [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double least) const;
+  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises at
+  /// the best of the kind's first shapes. None where the term has nothing to do, where no start can be evaluated, where
+  /// a shape ends at its bound, and where the evidence cannot come to `worth`.
+  [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double worth) const;
 
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
   ///

@@ -22,6 +22,7 @@ using diagnosis::Verdict;
 constexpr double most_of_it = 0.9;     ///< of the misfit, that terms have to take where the rest is no noise
 constexpr double clear_of_rig = 0.25;  ///< probability of the rig above which nothing is said to be discovered
 constexpr double one_invariant = 0.75;
+constexpr double worth_a_name = 3;  ///< of the evidence, by which a mechanism has to be ahead of terms
 
 std::set<std::string> invariants_of(const std::vector<KindPointer>& kinds) {
   std::set<std::string> words;
@@ -44,7 +45,9 @@ std::vector<Alternative> weighed(const Discovery& found, const std::vector<SetFi
   }
   const double sum = logs.empty() ? 0 : diagnosis::log_sum(logs);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].probability = std::exp(logs[k] - sum);
-  std::stable_sort(all.begin(), all.end(),
+  // The set that was chosen stays ahead of those that are as likely.
+  const auto rest = all.begin() + (sets.empty() ? 0 : 1);
+  std::stable_sort(rest, all.end(),
                    [](const Alternative& a, const Alternative& b) { return a.probability > b.probability; });
   return all;
 }
@@ -59,6 +62,14 @@ std::vector<Alternative> credible(const std::vector<Alternative>& all) {
     mass += one.probability;
   }
   return set;
+}
+
+/// The evidence of the best explanation by terms or by the rig.
+double best_of(const Discovery& found, const std::vector<SetFit>& sets) {
+  double best = sets.front().log_evidence;
+  for (const Rival& rival : found.rivals)
+    if (!rival.in_the_energy && rival.plausible) best = std::max(best, rival.log_evidence);
+  return best;
 }
 
 template <class Counts>
@@ -124,6 +135,8 @@ const char* code_of(ReasonKind kind) {
       return "not_an_energy";
     case ReasonKind::rig_explains:
       return "rig_explains";
+    case ReasonKind::name_explains:
+      return "name_explains";
     case ReasonKind::rig_rival:
       return "rig_rival";
     case ReasonKind::not_clean:
@@ -185,18 +198,29 @@ void judge(Discovery& found, const std::vector<SetFit>& sets) {
   found.ambiguity = credible(all);
   found.terms = terms_of(found, all);
   const bool clean = diagnosis::is_clean(found.p_after);
-  const double before = found.request.from_nothing ? sets.front().log_evidence : found.chi2_before;
-  const double share =
-      found.request.from_nothing ? 1 : std::clamp((before - found.chi2_after) / std::max(before - rows, 1.0), 0.0, 1.0);
+  // From nothing, of what a neo-Hookean term leaves.
+  const double before = evidence.fit.chi2;
+  const double share = std::clamp((before - found.chi2_after) / std::max(before - rows, 1.0), 0.0, 1.0);
   const double of_rig = mass_of(all, [](const Alternative& one) { return !one.mechanism.empty(); });
   const std::string words = words_of(found.best->kinds);
-  if (of_rig > 1 - clear_of_rig) {
+  if (found.name && found.name->clean && found.name->log_evidence > best_of(found, sets) + worth_a_name) {
     found.verdict = Verdict::named;
+    found.terms.clear();
+    because(ReasonKind::name_explains,
+            fmt::format("The catalogue has a name for it: {} leaves |r|² {:.1f}, the best terms {:.1f}. `tunica "
+                        "diagnose` says more.",
+                        found.name->id, found.name->chi2, found.chi2_after));
+    return;
+  }
+  if (of_rig > 1 - clear_of_rig) {
+    const auto rig =
+        std::find_if(all.begin(), all.end(), [](const Alternative& one) { return !one.mechanism.empty(); });
+    found.verdict = Verdict::named;
+    found.terms.clear();
     because(ReasonKind::rig_explains,
             fmt::format("{} explains the misfit better than any term of the energy (|r|² {:.1f}, the best terms leave "
                         "{:.1f}). Correct that first.",
-                        all.front().mechanism.empty() ? "An error of the rig" : all.front().mechanism, all.front().chi2,
-                        found.chi2_after));
+                        rig->mechanism, rig->chi2, found.chi2_after));
     return;
   }
   if (of_rig > clear_of_rig) {
@@ -211,7 +235,9 @@ void judge(Discovery& found, const std::vector<SetFit>& sets) {
           ? fmt::format("The energy is {}; |r|² is {:.1f} for {:.0f} rows.", words, found.chi2_after, rows)
           : fmt::format("The energy lacks {}; it takes {:.0f} % of the misfit beyond noise, |r|² {:.1f} → {:.1f}.",
                         words, 100 * share, found.chi2_before, found.chi2_after);
-  if (!clean && share < most_of_it) {
+  const bool estimated =
+      std::any_of(evidence.noise.begin(), evidence.noise.end(), [](const auto& source) { return source.open(); });
+  if (!clean && (share < most_of_it || !estimated)) {
     because(ReasonKind::not_clean,
             fmt::format("The best terms, {}, take {:.0f} % of the misfit beyond noise, and the rest is not noise.",
                         words, 100 * share));

@@ -35,6 +35,8 @@ std::string term_line(const FoundTerm& term) {
                      fmt::join(parameters, ", "), term.probability, term.invariant_probability);
 }
 
+std::string p_words(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+
 std::string block_line(const diagnosis::HeldOut& block) {
   return fmt::format("{}: error {:.2f} → {:.2f} σ ({})", block.block, block.before, block.after,
                      block.verdict == diagnosis::BlockVerdict::predicted       ? "predicted"
@@ -56,8 +58,8 @@ text::StyledText summary(const Discovery& d) {
            text::Emphasis::heading);
   page += "\n";
   if (!d.request.from_nothing)
-    line("Alarm:", fmt::format("noise alone would look like this with p = {:.2g} ({} values, |r|² = {:.1f})",
-                               d.analysis.alarm.p(), d.analysis.evidence.fit.residuals.size(), d.chi2_before));
+    line("Alarm:", fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f})",
+                               p_words(d.analysis.alarm.p()), d.analysis.evidence.fit.residuals.size(), d.chi2_before));
   for (std::size_t k = 0; k < d.terms.size(); ++k) line(k == 0 ? "Terms:" : "", term_line(d.terms[k]));
   if (d.name && !d.terms.empty())
     line("Name:",
