@@ -40,7 +40,7 @@ struct DiscoverOptions {
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
-  std::optional<std::size_t> most_terms;
+  std::optional<std::size_t> most_terms, most_parameters;
   std::vector<std::string> invariants, laws;
   std::string model;
   bool from_nothing = false, quick = false, batch = false;
@@ -67,6 +67,7 @@ discovery::Request request_of(const experiment::Experiment& experiment, const Di
   if (options.seed) request.seed = *options.seed;
   if (options.alpha) request.alpha = *options.alpha;
   if (options.most_terms) request.most_terms = *options.most_terms;
+  if (options.most_parameters) request.most_parameters = *options.most_parameters;
   if (!options.invariants.empty()) request.invariants = options.invariants;
   if (!options.laws.empty()) request.laws = options.laws;
   request.from_nothing = request.from_nothing || options.from_nothing;
@@ -175,6 +176,10 @@ void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
       ->type_name("LAWS");
   verb->add_option("--most-terms", options->most_terms, "The most terms; 3 without it, from nothing 4")
       ->check(CLI::Range(1, 6))
+      ->type_name("N");
+  verb->add_option("--most-parameters", options->most_parameters,
+                   "The most parameters of the terms together; as many as it takes without it")
+      ->check(CLI::Range(1, 20))
       ->type_name("N");
   verb->add_option("-j,--threads", options->threads, "Threads; all of the machine without it")
       ->check(CLI::Range(1, 1024))

@@ -47,10 +47,11 @@ bool shows_directions(const diagnosis::Evidence& evidence) {
   return directions.size() > 1;
 }
 
-/// Of sets of the same invariants whose evidence is within 3 of the best, the one with the fewest parameters comes
-/// first: a law is not preferred to its own limit.
-void simplest_first(std::vector<SetFit>& sets) {
-  constexpr double as_likely = 3;
+/// Of sets of the same invariants whose 2 ln E is within 3 of the best, the one with the fewest parameters comes first
+/// if what it leaves is as clean: a law is not preferred to its own limit.
+template <class IsClean>
+void simplest_first(std::vector<SetFit>& sets, const IsClean& is_clean) {
+  constexpr double as_likely = 1.5;
   const auto invariants = [](const SetFit& set) {
     std::set<std::string> words;
     for (const KindPointer& kind : set.kinds) words.insert(kind->invariant_words());
@@ -59,7 +60,9 @@ void simplest_first(std::vector<SetFit>& sets) {
   const auto parameters = [](const SetFit& set) { return set.set->assembly().layout().parameters.size(); };
   std::size_t first = 0;
   for (std::size_t k = 1; k < sets.size() && sets[k].log_evidence > sets.front().log_evidence - as_likely; ++k)
-    if (parameters(sets[k]) < parameters(sets[first]) && invariants(sets[k]) == invariants(sets.front())) first = k;
+    if (parameters(sets[k]) < parameters(sets[first]) && invariants(sets[k]) == invariants(sets.front()) &&
+        (is_clean(sets[k]) || !is_clean(sets[first])))
+      first = k;
   std::rotate(sets.begin(), sets.begin() + static_cast<std::ptrdiff_t>(first),
               sets.begin() + static_cast<std::ptrdiff_t>(first) + 1);
 }
@@ -69,9 +72,11 @@ std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Req
                                   const std::vector<KindPointer>& kinds) {
   constexpr double worth_a_curve = 3;
   const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
-  std::vector<SetFit> sets = search(fitter, {kinds, request.term_limit(), request.from_nothing}, is_clean);
+  std::vector<SetFit> sets =
+      search(fitter, {kinds, request.term_limit(), request.from_nothing, request.most_parameters}, is_clean);
   const std::vector<std::string>& laws = request.laws;
   if (sets.empty() || !(laws.empty() || std::find(laws.begin(), laws.end(), "spline") != laws.end())) return sets;
+  if (request.most_parameters > 0) return sets;  // a curve has more
   const bool room = sets.front().kinds.size() < request.term_limit();
   const double best = sets.front().log_evidence;
   for (SetFit& curve : with_curves(fitter, sets.front(), kinds, room && !is_clean(sets.front())))
@@ -103,7 +108,8 @@ Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis&
         (found.sets.empty() || with_fibres.front().log_evidence > found.sets.front().log_evidence))
       found.sets = std::move(with_fibres);
   }
-  if (!found.sets.empty()) simplest_first(found.sets);
+  if (!found.sets.empty())
+    simplest_first(found.sets, [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); });
   return found;
 }
 

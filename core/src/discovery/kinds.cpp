@@ -40,6 +40,9 @@ std::vector<Shape> shapes_of(const std::string& law, double X) {
   return {};
 }
 
+/// Of diagonal families. Closer to an axis they are that axis's.
+Shape angle() { return {"theta", 15, 75, Scale::linear, {30, 45, 60}}; }
+
 /// Exponents with which the largest stretch says something.
 Shape exponent(const Reach& logarithms, bool negative) {
   const double wide = std::clamp(15 / std::max(logarithms.high, -logarithms.low), 3.0, 30.0);
@@ -72,7 +75,7 @@ Kind kind_of(const std::string& words, const std::string& law, const Reach& reac
   kind.name = fmt::format("{}{}{}_{}", kind.invariant, kind.family.empty() ? "" : "_", kind.family, law);
   kind.reach = reach;
   kind.shapes = shapes_of(law, reach.high);
-  if (kind.family == "diagonal") kind.shapes.push_back({"theta", 5, 85, Scale::linear, {30, 45, 60}});
+  if (kind.family == "diagonal") kind.shapes.push_back(angle());
   return kind;
 }
 
@@ -139,7 +142,7 @@ Kind curve_of(const Kind& kind, std::size_t pieces) {
     curve.knots.push_back(kind.reach.high * std::pow(t, 1.5));
   }
   for (std::size_t j = curve.isotropic() ? 0 : 1; j <= pieces; ++j) curve.heights.push_back(fmt::format("c_{}", j + 1));
-  if (kind.family == "diagonal") curve.shapes.push_back({"theta", 5, 85, Scale::linear, {30, 45, 60}});
+  if (kind.family == "diagonal") curve.shapes.push_back(angle());
   return curve;
 }
 

@@ -14,6 +14,7 @@ Request request_of(const experiment::Experiment& experiment) {
   request.invariants = entry.invariants;
   request.laws = entry.laws;
   request.most_terms = entry.most_terms.value_or(0);
+  request.most_parameters = entry.most_parameters.value_or(0);
   request.alpha = entry.alpha.value_or(request.alpha);
   return request;
 }

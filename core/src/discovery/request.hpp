@@ -17,6 +17,7 @@ struct Request {
   std::vector<std::string> invariants;  ///< those to consider; empty = what suits the model
   std::vector<std::string> laws;        ///< those to consider; empty = all
   std::size_t most_terms = 0;           ///< 0 = three beside a base, four from nothing
+  std::size_t most_parameters = 0;      ///< that the terms may have together; 0 = as many as it takes
   double alpha = 0.05;                  ///< false alarms that are accepted
   bool quick = false;                   ///< linear bootstrap of the alarm only
   std::uint64_t seed = 1;

@@ -32,6 +32,13 @@ Key key_with(const std::vector<KindPointer>& kinds, const Kind& more) {
   return key;
 }
 
+/// That the terms have together.
+std::size_t parameters_of(const std::vector<KindPointer>& kinds) {
+  std::size_t count = 0;
+  for (const KindPointer& kind : kinds) count += 1 + kind->heights.size() + kind->shapes.size();
+  return count;
+}
+
 bool likelier(const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; }
 
 /// What was tried, and what came of it.
@@ -106,6 +113,8 @@ class Ledger {
   /// only.
   [[nodiscard]] bool suits(const SetFit& from, const Kind& kind) const {
     if (!from.set && !kind.isotropic()) return false;
+    if (request_.most_parameters > 0 && parameters_of(from.kinds) + 1 + kind.shapes.size() > request_.most_parameters)
+      return false;
     if (kind.invariant == "stretches") return true;
     return std::none_of(from.kinds.begin(), from.kinds.end(),
                         [&](const KindPointer& k) { return k->name == kind.name; });

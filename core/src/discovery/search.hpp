@@ -15,6 +15,7 @@ struct Search {
   const std::vector<KindPointer>& kinds;
   std::size_t most_terms;
   bool from_nothing;
+  std::size_t most_parameters = 0;  ///< 0 = no limit
 };
 
 /// Sets of terms that were fitted, likeliest first. Single terms and pairs are tried exhaustively: the best single term

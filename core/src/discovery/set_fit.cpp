@@ -141,8 +141,7 @@ double Fitter::largest_amplitude(const Kind& kind) const {
     // From nothing a term stands beside the neo-Hookean one of the analysis: fibres, and laws without a slope at rest,
     // hold nothing together alone.
     std::vector<KindPointer> kinds{std::make_shared<const Kind>(kind)};
-    if (subject_.from_nothing)
-      kinds.push_back(std::make_shared<const Kind>(Kind{"I1", {}, "linear", "companion"}));
+    if (subject_.from_nothing) kinds.push_back(std::make_shared<const Kind>(Kind{"I1", {}, "linear", "companion"}));
     const BoundSet set(subject_, kinds);
     const auto workspace = set.assembly().evaluator().make_workspace();
     std::vector<double> start = start_of(root_, set);
@@ -183,21 +182,15 @@ std::vector<double> Fitter::start_of(const SetFit& from, const BoundSet& set) co
 }
 
 bool Fitter::has_support(const SetFit& fit) const {
-  constexpr double most_of_it = 0.9, of_rows = 0.1;
+  constexpr double visible = 0.5, of_rows = 0.1;  // σ; of all rows
   const Eigen::MatrixXd& J = fit.fit.jacobian;
   for (const BoundTerm& term : fit.set->terms()) {
-    const auto own = static_cast<Eigen::Index>(term.amplitude);
-    Eigen::VectorXd effect = J.col(own) * fit.fit.free[term.amplitude];
+    Eigen::VectorXd effect = J.col(static_cast<Eigen::Index>(term.amplitude)) * fit.fit.free[term.amplitude];
     for (const std::size_t height : term.heights)
       effect += J.col(static_cast<Eigen::Index>(height)) * fit.fit.free[height];
-    if (!(effect.norm() > idle)) return false;
-    std::vector<double> squares;
-    for (const double one : effect) squares.push_back(one * one);
-    std::sort(squares.rbegin(), squares.rend());
-    double sum = 0;
-    std::size_t rows = 0;
-    while (rows < squares.size() && sum < most_of_it * effect.squaredNorm()) sum += squares[rows++];
-    if (static_cast<double>(rows) < of_rows * static_cast<double>(squares.size())) return false;
+    const auto rows = (effect.array().abs() > visible).count();
+    if (!(effect.norm() > idle) || static_cast<double>(rows) < of_rows * static_cast<double>(effect.size()))
+      return false;
   }
   return true;
 }
@@ -242,14 +235,6 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
     promise.shapes = shapes;
     if (promise.gain > 0) promises.push_back(std::move(promise));
   }
-  if (getenv("TDEBUG"))
-    fprintf(stderr, "DBG grow %zu + %s: %zu promises, best %g, worth %g from %g chi2 %g\n", from.kinds.size(),
-            kind.name.c_str(), promises.size(),
-            promises.empty()
-                ? 0
-                : std::max_element(promises.begin(), promises.end(), [](auto& a, auto& b) { return a.gain < b.gain; })
-                      ->gain,
-            worth, from.log_evidence, from.fit.chi2);
   std::stable_sort(promises.begin(), promises.end(),
                    [](const Promise& a, const Promise& b) { return a.gain > b.gain; });
   // Beyond what the linearisation promises, a fit at finite amplitude reaches so many times as much.
@@ -299,9 +284,6 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
     ok = true;
     if (found.fit.chi2 < from.fit.chi2 - as_promised * promise.gain) break;
   }
-  if (getenv("TDEBUG"))
-    fprintf(stderr, "DBG  -> ok %d chi2 %g support %d bound %d\n", ok, ok ? found.fit.chi2 : 0,
-            ok && has_support(found), ok && has_shape_at_bound(found));
   if (!ok || !has_support(found) || has_shape_at_bound(found)) return std::nullopt;
   found.log_evidence = log_evidence(found);
   return found;

@@ -34,9 +34,9 @@ class Fitter {
   /// The base alone, or nothing: what every set grows from.
   [[nodiscard]] const SetFit& root() const { return root_; }
 
-  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises at
-  /// the best of the kind's first shapes. None where the term has nothing to do, where no start can be evaluated, where
-  /// a shape ends at its bound, and where the evidence cannot come to `worth`.
+  /// The set with one more kind: from where the smaller set ended, with the amplitude that the linearisation promises
+  /// at the best of the kind's first shapes. None where the term has nothing to do, where no start can be evaluated,
+  /// where a shape ends at its bound, and where the evidence cannot come to `worth`.
   [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double worth) const;
 
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
@@ -53,6 +53,7 @@ class Fitter {
 
  private:
   [[nodiscard]] std::vector<double> start_of(const SetFit& from, const BoundSet& set) const;
+  /// Whether every term shows in a tenth of the rows at least: a steep one can fit a single last point.
   [[nodiscard]] bool has_support(const SetFit& fit) const;
 
   const Subject& subject_;

@@ -148,7 +148,7 @@ struct DiscoveryEntry {
   bool from_nothing = false;            ///< the terms make up the whole energy
   std::vector<std::string> invariants;  ///< those to consider; empty = what suits the model
   std::vector<std::string> laws;        ///< those to consider; empty = all
-  std::optional<std::size_t> most_terms;
+  std::optional<std::size_t> most_terms, most_parameters;
   std::optional<double> alpha;  ///< level of significance
 };
 

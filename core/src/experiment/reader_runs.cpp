@@ -222,8 +222,8 @@ DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, co
 }
 
 DiscoveryEntry read_discovery(const Node& node, const Experiment& experiment) {
-  constexpr std::int64_t most = 6;
-  node.allow_only({"model", "from_nothing", "invariants", "laws", "most_terms", "alpha"}, "\"discovery\"");
+  node.allow_only({"model", "from_nothing", "invariants", "laws", "most_terms", "most_parameters", "alpha"},
+                  "\"discovery\"");
   DiscoveryEntry discovery;
   if (const auto child = node.find("model")) discovery.model = child->one_of(entry_names(experiment.models), "model");
   if (const auto child = node.find("from_nothing")) discovery.from_nothing = child->flag("true or false");
@@ -238,12 +238,16 @@ DiscoveryEntry read_discovery(const Node& node, const Experiment& experiment) {
   };
   discovery.invariants = read_words("invariants", discovery_invariants, "invariant");
   discovery.laws = read_words("laws", discovery_laws, "law");
-  if (const auto child = node.find("most_terms")) {
-    const std::int64_t count = child->integer("how many terms may be added");
+  const auto read_count = [&](const char* key, std::int64_t most) -> std::optional<std::size_t> {
+    const auto child = node.find(key);
+    if (!child) return std::nullopt;
+    const std::int64_t count = child->integer("a whole number");
     if (count < 1 || count > most)
-      child->fail(fmt::format("most_terms is {}", count), fmt::format("Give a whole number from 1 to {}.", most));
-    discovery.most_terms = static_cast<std::size_t>(count);
-  }
+      child->fail(fmt::format("{} is {}", key, count), fmt::format("Give a whole number from 1 to {}.", most));
+    return static_cast<std::size_t>(count);
+  };
+  discovery.most_terms = read_count("most_terms", 6);
+  discovery.most_parameters = read_count("most_parameters", 20);
   return discovery;
 }
 

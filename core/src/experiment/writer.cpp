@@ -228,6 +228,7 @@ Json to_json(const DiscoveryEntry& discovery) {
   if (!discovery.invariants.empty()) json["invariants"] = discovery.invariants;
   if (!discovery.laws.empty()) json["laws"] = discovery.laws;
   if (discovery.most_terms) json["most_terms"] = *discovery.most_terms;
+  if (discovery.most_parameters) json["most_parameters"] = *discovery.most_parameters;
   if (discovery.alpha) json["alpha"] = *discovery.alpha;
   return json;
 }
