@@ -106,7 +106,7 @@ def diagnose(build, shard):
     """Verdicts of the cases that a folder of links names, one after the other on one core; the seconds of each."""
     begun = time.time()
     names = sorted(link.name for link in shard.iterdir())
-    subprocess.run([*tunica(build), "diagnose", "--quick", "--batch", "--quiet", "-j", "1", str(shard)], check=True,
+    subprocess.run([*tunica(build), "diagnose", "--no-discovery", "--quick", "--batch", "--quiet", "-j", "1", str(shard)], check=True,
                    stdout=subprocess.DEVNULL)
     seconds = {}
     for name in names:

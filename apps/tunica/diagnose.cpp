@@ -43,7 +43,7 @@ struct DiagnoseOptions {
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
   std::vector<std::string> mechanisms;
-  bool quick = false, batch = false;
+  bool quick = false, batch = false, no_discovery = false;
 };
 
 /// The file's request, with what the command line says instead.
@@ -86,12 +86,12 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   std::vector<std::filesystem::path> made;
   if (!was_there) made.push_back(directory.path());
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
-  diagnosis::Diagnosis found;
+  DiagnosisAndSearch found;
   try {
     UnfinishedFolder folder(made, interruption_message());
     Stages stages(global.quiet);
-    found = diagnosis::diagnose(experiment, request, session.catalogue(),
-                                [&stages](const std::string& what, double share) { stages.tell(what, share); });
+    found = diagnosed(experiment, request, session.catalogue(), !options.no_discovery,
+                      [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
   } catch (const diagnosis::BaseFitFailure& problem) {
     say_error(fmt::format("{}. Run `tunica check {}`, which evaluates the initial point and shows what fails",
@@ -100,13 +100,13 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_diagnosis(directory.path(), found, experiment, session.catalogue());
-  const std::vector<diagnosis::Warning> warnings = found.warnings();
+  const std::vector<diagnosis::Warning> warnings = found.diagnosis.warnings();
   for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found).shown_on(STDOUT_FILENO), page.string(),
-             (directory.path() / "result.json").string());
-  if (found.explanation.claim.best)
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found.diagnosis).shown_on(STDOUT_FILENO),
+             page.string(), (directory.path() / "result.json").string());
+  if (found.diagnosis.explanation.claim.best || found.discovered())
     fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
 }
@@ -135,7 +135,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
       try {
         const auto experiment = session.read(cases[k] / "experiment.json");
         const auto found =
-            diagnosis::diagnose(experiment, request_of(experiment, session, options), session.catalogue());
+            diagnosed(experiment, request_of(experiment, session, options), session.catalogue(), !options.no_discovery);
         const std::filesystem::path directory = into / cases[k].filename();
         std::filesystem::create_directories(directory);
         write_diagnosis(directory, found, experiment, session.catalogue());
@@ -176,6 +176,8 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_flag(
       "--quick", options->quick,
       "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of several");
+  verb->add_flag("--no-discovery", options->no_discovery,
+                 "Where the cause is unknown, do not look for terms that the energy lacks");
   auto* batch =
       verb->add_flag("--batch", options->batch,
                      "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");

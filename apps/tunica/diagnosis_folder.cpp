@@ -2,21 +2,39 @@
 #include "diagnosis_folder.hpp"
 
 #include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/output/outputs.hpp"
+#include "discovery/output/outputs.hpp"
 #include "execution/files.hpp"
 
 namespace tunica::app {
 
-void write_diagnosis(const std::filesystem::path& directory, const diagnosis::Diagnosis& found,
+DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
+                             const plugins::Catalogue& catalogue, bool discovers, const diagnosis::Progress& progress) {
+  DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, progress), {}};
+  if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, progress);
+  if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
+  return found;
+}
+
+void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndSearch& found,
                      const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
   execution::write_atomically(directory / "input.json", experiment.input_json);
-  if (const std::string text = diagnosis::extended_experiment(found, catalogue); !text.empty())
-    execution::write_atomically(directory / "extended.json", text);
-  diagnosis::write_tables(directory, found);
-  execution::write_atomically(directory / "result.json", diagnosis::result_document(found, experiment, catalogue));
+  nlohmann::ordered_json more = nlohmann::ordered_json::object();
+  std::string extended;
+  if (found.search) more["discovery"] = discovery::discovery_json(*found.search);
+  // The terms take the place of a mechanism that leaves more than noise.
+  if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
+  if (extended.empty()) extended = diagnosis::extended_experiment(found.diagnosis, catalogue);
+  if (!extended.empty()) execution::write_atomically(directory / "extended.json", extended);
+  diagnosis::write_tables(directory, found.diagnosis);
+  if (found.discovered())
+    execution::write_atomically(directory / "residuals.csv", discovery::residual_table(*found.search));
+  execution::write_atomically(directory / "result.json",
+                              diagnosis::result_document(found.diagnosis, experiment, catalogue, more));
 }
 
 }  // namespace tunica::app

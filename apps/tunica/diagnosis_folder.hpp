@@ -2,14 +2,29 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "diagnosis/diagnosis.hpp"
+#include "discovery/after_diagnosis.hpp"
 
 namespace tunica::app {
 
+/// A diagnosis, and the search for terms that followed it.
+struct DiagnosisAndSearch {
+  diagnosis::Diagnosis diagnosis;
+  std::optional<discovery::Discovery> search;
+
+  [[nodiscard]] bool discovered() const { return search && search->verdict == diagnosis::Verdict::discovered; }
+};
+
+/// The whole of `tunica diagnose`; `discovers` decides whether terms are searched where the cause is unknown.
+DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
+                             const plugins::Catalogue& catalogue, bool discovers,
+                             const diagnosis::Progress& progress = {});
+
 /// Everything that a diagnosis leaves behind beside its page: input.json, extended.json where there is an extension,
 /// the tables, and the verdict last, result.json.
-void write_diagnosis(const std::filesystem::path& directory, const diagnosis::Diagnosis& found,
+void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndSearch& found,
                      const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
 
 }  // namespace tunica::app

@@ -181,7 +181,7 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
     const py::gil_scoped_release free;
     const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
     const auto found =
-        diagnosis::diagnose(loaded.experiment, request, catalogue, [&](const std::string& stage, double share) {
+        app::diagnosed(loaded.experiment, request, catalogue, true, [&](const std::string& stage, double share) {
           if (listener) listener(share, stage);
           if (execution::InterruptWatch::interrupted()) throw Stopped{};
         });

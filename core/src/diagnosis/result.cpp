@@ -28,6 +28,8 @@ const char* code_of(ReasonKind kind) {
   switch (kind) {
     case ReasonKind::residuals_like_noise:
       return "residuals_like_noise";
+    case ReasonKind::terms_discovered:
+      return "terms_discovered";
     case ReasonKind::no_trace:
       return "no_trace";
     case ReasonKind::no_trace_of_requested:

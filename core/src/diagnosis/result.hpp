@@ -38,7 +38,8 @@ enum class ReasonKind {
   larger_noise,
   lost_stability,
   stability_restored,
-  restored_by_larger
+  restored_by_larger,
+  terms_discovered
 };
 const char* code_of(ReasonKind kind);
 

@@ -14,8 +14,8 @@
 namespace tunica::discovery {
 namespace {
 
-constexpr std::size_t beam = 8;       ///< sets that larger ones grow from
-constexpr std::size_t exchanged = 4;  ///< sets in which terms make room for others
+constexpr std::size_t beam = 16;      ///< sets that larger ones grow from
+constexpr std::size_t exchanged = 6;  ///< sets in which terms make room for others
 constexpr double tolerance = 10;      ///< of the evidence, behind the best so far
 
 using Key = std::vector<std::string>;
@@ -130,7 +130,6 @@ class Ledger {
 
 std::vector<SetFit> search(const Fitter& fitter, const Search& request, const IsClean& is_clean) {
   constexpr std::size_t exhaustive = 2;
-  constexpr double hopeless = 60;  ///< of the evidence, behind the best: no set grows from it
   Ledger ledger(fitter, request);
   std::vector<SetFit> level{fitter.root()};
   for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
@@ -141,8 +140,6 @@ std::vector<SetFit> search(const Fitter& fitter, const Search& request, const Is
     if (size >= exhaustive && best.kinds.size() < size && is_clean(best)) break;
     const std::size_t keep = size < exhaustive ? grown.size() : std::min(grown.size(), beam);
     grown.resize(keep);
-    const double least = size < exhaustive ? -INFINITY : grown.front().log_evidence - hopeless;
-    std::erase_if(grown, [least](const SetFit& fit) { return fit.log_evidence < least; });
     level = std::move(grown);
   }
   for (int round = 0; round < 2; ++round)

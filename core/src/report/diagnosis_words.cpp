@@ -43,6 +43,8 @@ std::string verdict_words(const Json& diagnosis) {
                        text::joined(words(list(diagnosis, said))),
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
+  if (verdict == "discovered")
+    return fmt::format("Discovered: no mechanism of the catalogue explains it; {}.", reasons);
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
   if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
   return verdict;

@@ -27,6 +27,7 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
     return;
   }
   read_result(file);
+  if (member(result_, "discovery").is_object()) kind_ = Kind::discovery;
   if (member(result_, "diagnosis").is_object()) kind_ = Kind::diagnosis;
   if (member(result_, "cohort").is_object()) kind_ = Kind::cohort;
 }

@@ -15,7 +15,7 @@ namespace tunica::report {
 /// What a result folder holds, and what of it could not be read.
 class Folder {
  public:
-  enum class Kind { run, diagnosis, simulation, cohort };
+  enum class Kind { run, diagnosis, discovery, simulation, cohort };
 
   /// Throws InputError where there is no such folder, a broken result.json, or nothing to report.
   /// `address` is how the page reaches the folder, "" where the page lies in it.

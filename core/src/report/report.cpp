@@ -17,6 +17,8 @@ void add_folder(Page& page, const Folder& folder) {
       return add_run(page, folder);
     case Folder::Kind::diagnosis:
       return add_diagnosis(page, folder);
+    case Folder::Kind::discovery:
+      return add_discovery(page, folder);
     case Folder::Kind::simulation:
       return add_simulation(page, folder);
     case Folder::Kind::cohort:
@@ -30,6 +32,8 @@ const char* word_of(Folder::Kind kind) {
       return "calibration";
     case Folder::Kind::diagnosis:
       return "diagnosis";
+    case Folder::Kind::discovery:
+      return "discovery";
     case Folder::Kind::simulation:
       return "simulation";
     case Folder::Kind::cohort:

@@ -28,6 +28,11 @@ void add_candidates(Page& page, const Folder& folder);
 void add_extension(Page& page, const Folder& folder);
 void add_reach(Page& page, const Folder& folder);
 
+/// A folder of `tunica discover`.
+void add_discovery(Page& page, const Folder& folder);
+/// What a discovery found: the terms with their curves, rival forms, gain. Nothing where there was no search.
+void add_terms(Page& page, const Folder& folder);
+
 void add_simulation(Page& page, const Folder& folder);
 
 void add_cohort(Page& page, const Folder& folder);

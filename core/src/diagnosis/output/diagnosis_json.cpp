@@ -290,7 +290,7 @@ json diagnosis_json(const Diagnosis& d) {
 }
 
 std::string result_document(const Diagnosis& d, const experiment::Experiment& experiment,
-                            const plugins::Catalogue& catalogue) {
+                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more) {
   const Evidence& evidence = d.analysis.evidence;
   std::set<std::string> plugins;
   for (const std::string& name : experiment.models_of(evidence.run))
@@ -300,7 +300,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
   for (const Candidate& candidate : d.analysis.hypotheses.candidates)
     plugins.insert(catalogue.mechanisms().at(candidate.id).plugin);
   const std::vector<Warning> warnings = d.warnings();
-  const json document = {
+  json document = {
       {"format", 1},
       {"name", experiment.name},
       {"warnings", texts(warnings)},
@@ -311,6 +311,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
       {"diagnosis", diagnosis_json(d)},
       {"provenance", comparison::provenance_json(comparison::provenance_of(experiment, {plugins.begin(), plugins.end()},
                                                                            evidence.base->layout().data_hashes))}};
+  document.update(more);
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

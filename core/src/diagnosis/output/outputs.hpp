@@ -15,9 +15,10 @@ namespace tunica::diagnosis {
 /// `diagnosis` of result.json.
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 
-/// The whole of result.json: no runs, the diagnosis, its warnings and provenance.
+/// The whole of result.json: no runs, the diagnosis, its warnings and provenance; and what followed the diagnosis, by
+/// its key.
 std::string result_document(const Diagnosis& diagnosis, const experiment::Experiment& experiment,
-                            const plugins::Catalogue& catalogue);
+                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more);
 
 /// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
 std::vector<std::string> explanations(const Claim& claim);
@@ -29,6 +30,11 @@ text::StyledText summary(const Diagnosis& diagnosis);
 /// The experiment with the causes added, its parameters at their fitted values, one run of whitened least squares: the
 /// text of extended.json. Empty without an extension.
 std::string extended_experiment(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
+
+/// The text of residuals.csv, from a fit of an extension or without one (both null); signatures by the name of their
+/// column.
+std::string residual_table(const Evidence& evidence, const assembly::Assembly* extension, const Fit* fit,
+                           const std::vector<std::pair<std::string, Eigen::VectorXd>>& signatures);
 
 /// residuals.csv: one line a fitted row; measured, predicted by the base and by the extension, σ of the measured value
 /// (of its mean over replicates), whitened residuals of both, and what each cause changes: how its refit differs from

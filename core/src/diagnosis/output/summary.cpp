@@ -57,6 +57,8 @@ std::string verdict_line(const Diagnosis& d) {
                          fmt::join(explanations(claim), ", "));
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
+    case Verdict::discovered:
+      return "DISCOVERED: no mechanism of the catalogue explains it; " + joined_reasons(explanation);
     case Verdict::unknown:
       break;
   }

@@ -32,57 +32,17 @@ Eigen::VectorXd signature_of(const Diagnosis& d, std::size_t which) {
 }
 
 std::string residual_table(const Diagnosis& d) {
-  const Evidence& evidence = d.analysis.evidence;
   const Claim& claim = d.explanation.claim;
-  const auto predicted = [](const assembly::Assembly& assembly, std::span<const double> free) {
-    std::vector<double> values(assembly.layout().prediction_count);
-    const auto workspace = assembly.evaluator().make_workspace();
-    if (!assembly.evaluator().predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
-    return values;
-  };
-  const std::vector<double> base = predicted(*evidence.base, evidence.fit.free);
-  const std::vector<double> extended =
-      claim.best ? predicted(claim.best->extension->assembly(), claim.best->fit.free) : std::vector<double>();
-  std::vector<Eigen::VectorXd> signatures;
-  for (std::size_t k = 0; k < claim.causes.size(); ++k) signatures.push_back(signature_of(d, k));
-  std::string text =
-      "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,residual,"
-      "residual_"
-      "extended";
+  std::vector<std::pair<std::string, Eigen::VectorXd>> signatures;
   std::map<std::string, int> of_a_kind;
-  for (const Cause& cause : claim.causes) {
-    const int number = ++of_a_kind[cause.id];
-    text += ",signature_" + cause.id + (number > 1 ? fmt::format("_{}", number) : "");
+  for (std::size_t k = 0; k < claim.causes.size(); ++k) {
+    const std::string& id = claim.causes[k].id;
+    const int number = ++of_a_kind[id];
+    signatures.emplace_back(id + (number > 1 ? fmt::format("_{}", number) : ""), signature_of(d, k));
   }
-  text += '\n';
-  std::size_t c = 0;
-  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
-    if (c >= evidence.curves.size() || evidence.curves[c].test != view.test ||
-        evidence.curves[c].channel != view.observable)
-      continue;
-    const Curve& curve = evidence.curves[c++];
-    const std::vector<double> sd = row_deviations(view);
-    const assembly::DrawnOver& over = view.drawn_over;
-    for (std::size_t k = 0; k < curve.rows.size(); ++k) {
-      const std::size_t row = curve.rows[k];
-      const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
-      // A gross row is all but silent in the fit, and here it is as far off as it is.
-      const auto& gross = view.noise->gross;
-      const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
-      const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
-        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
-      };
-      text += fmt::format(
-          "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
-          view.file_row(row), over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
-          view.unit, view.measured[row], base[view.offset + row],
-          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
-          residual(base, evidence.fit), claim.best ? fmt::format("{:.6g}", residual(extended, claim.best->fit)) : "");
-      for (const Eigen::VectorXd& signature : signatures) text += fmt::format(",{:.6g}", signature[i]);
-      text += '\n';
-    }
-  }
-  return text;
+  return claim.best
+             ? residual_table(d.analysis.evidence, &claim.best->extension->assembly(), &claim.best->fit, signatures)
+             : residual_table(d.analysis.evidence, nullptr, nullptr, signatures);
 }
 
 /// Of the mechanisms that leave a trace in these data.
@@ -106,6 +66,52 @@ std::string confusability_table(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string residual_table(const Evidence& evidence, const assembly::Assembly* extension, const Fit* fit,
+                           const std::vector<std::pair<std::string, Eigen::VectorXd>>& signatures) {
+  const auto predicted = [](const assembly::Assembly& assembly, std::span<const double> free) {
+    std::vector<double> values(assembly.layout().prediction_count);
+    const auto workspace = assembly.evaluator().make_workspace();
+    if (!assembly.evaluator().predict(free, values, {}, *workspace).ok()) values.assign(values.size(), NAN);
+    return values;
+  };
+  const std::vector<double> base = predicted(*evidence.base, evidence.fit.free);
+  const std::vector<double> extended = fit != nullptr ? predicted(*extension, fit->free) : std::vector<double>();
+  std::string text =
+      "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,residual,"
+      "residual_"
+      "extended";
+  for (const auto& [name, values] : signatures) text += ",signature_" + name;
+  text += '\n';
+  std::size_t c = 0;
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
+    if (c >= evidence.curves.size() || evidence.curves[c].test != view.test ||
+        evidence.curves[c].channel != view.observable)
+      continue;
+    const Curve& curve = evidence.curves[c++];
+    const std::vector<double> sd = row_deviations(view);
+    const assembly::DrawnOver& over = view.drawn_over;
+    for (std::size_t k = 0; k < curve.rows.size(); ++k) {
+      const std::size_t row = curve.rows[k];
+      const Eigen::Index i = curve.first + static_cast<Eigen::Index>(k);
+      // A gross row is all but silent in the fit, and here it is as far off as it is.
+      const auto& gross = view.noise->gross;
+      const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
+      const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
+        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
+      };
+      text += fmt::format(
+          "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
+          view.file_row(row), over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
+          view.unit, view.measured[row], base[view.offset + row],
+          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+          residual(base, evidence.fit), fit != nullptr ? fmt::format("{:.6g}", residual(extended, *fit)) : "");
+      for (const auto& [name, values] : signatures) text += fmt::format(",{:.6g}", values[i]);
+      text += '\n';
+    }
+  }
+  return text;
+}
 
 void write_tables(const std::filesystem::path& directory, const Diagnosis& d) {
   execution::write_atomically(directory / "residuals.csv", residual_table(d));

@@ -24,7 +24,7 @@ text::StyledText summary(const Discovery& discovery);
 /// terms.
 std::string extended_experiment(const Discovery& discovery, const plugins::Catalogue& catalogue);
 
-/// residuals.csv: one line a fitted row; measured, predicted with the terms and by the base, σ, and what is left in σ.
+/// residuals.csv as a diagnosis writes it: measured, predicted by the base and with the terms, σ, and what is left in σ.
 std::string residual_table(const Discovery& discovery);
 
 }  // namespace tunica::discovery

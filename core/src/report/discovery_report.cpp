@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "report/sections.hpp"
+#include "text/lists.hpp"
+
+namespace tunica::report {
+
+namespace {
+
+/// "I2", "fibre diagonal"
+std::string invariant_words(const Json& term) {
+  const std::string family = word(term, "family");
+  return word(term, "invariant") + (family.empty() ? "" : " " + family);
+}
+
+/// "I2, linear"
+std::string form_words(const Json& term) {
+  const std::string law = word(term, "law");
+  return fmt::format("{}, {}", invariant_words(term), law == "spline" ? "a curve" : law);
+}
+
+/// "I1, gent + I2, linear", or the mechanism.
+std::string explanation_words(const Json& alternative) {
+  for (const char* key : {"rig", "memory"})
+    if (const Json& ids = list(alternative, key); !ids.empty())
+      return fmt::format("{} ({})", fmt::join(words(ids), " + "), key);
+  std::vector<std::string> forms;
+  for (const Json& term : list(alternative, "terms")) forms.push_back(form_words(term));
+  return fmt::format("{}", fmt::join(forms, " + "));
+}
+
+/// x as the page writes it: I1 − 3, I4 − 1.
+std::string abscissa_of(const Json& term) {
+  const std::string invariant = word(term, "invariant");
+  if (invariant == "fibre") return "I4 − 1 of the " + word(term, "family") + " family";
+  if (invariant == "stretches") return "principal stretch";
+  return invariant + " − 3";
+}
+
+std::vector<double> numbers(const Json& values) {
+  std::vector<double> all;
+  for (const Json& one : values) all.push_back(one.is_number() ? one.get<double>() : NAN);
+  return all;
+}
+
+Chart curve_chart(const Json& term) {
+  const Json& curve = member(term, "curve");
+  const std::vector<double> x = numbers(list(curve, "x"));
+  Chart chart;
+  chart.id = "term_" + word(term, "name");
+  chart.title = form_words(term);
+  chart.about = "The derivative of the term over its invariant, with a 95 % band, over the range that the data reach";
+  chart.note = "95 % band. Beyond this range the data say nothing.";
+  chart.x.title = abscissa_of(term);
+  chart.y.title = "dψ/dx [kPa]";
+  Series band{"95 % band",
+              "band",
+              0,
+              x,
+              numbers(list(curve, "slope")),
+              numbers(list(curve, "low")),
+              numbers(list(curve, "high"))};
+  Series line{"dψ/dx", "line", 0, x, numbers(list(curve, "slope"))};
+  if (!x.empty()) chart.series = {std::move(band), std::move(line)};
+  return chart;
+}
+
+std::vector<std::string> parameter_words(const Json& term) {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : member(term, "parameters").items())
+    all.push_back(fmt::format("{} = {} ({} … {})", name, amount(number(value, "value"), word(value, "unit")),
+                              figure(number(value, "low")), figure(number(value, "high"))));
+  return all;
+}
+
+void add_alternatives(Page& page, const Json& discovery) {
+  const Json& all = list(discovery, "ambiguity_set");
+  if (all.size() < 2) return;
+  std::vector<std::vector<Cell>> rows;
+  std::vector<bool> first;
+  for (const Json& one : all) {
+    rows.push_back(
+        {{explanation_words(one)}, {share(number(one, "probability")), true}, {figure(number(one, "chi2")), true}});
+    first.push_back(first.empty());
+  }
+  page.heading("Forms that these data hardly tell apart");
+  page.html(table_html({"form", "probability", "sum of squares"}, rows, first));
+}
+
+void add_held_out(Page& page, const Json& discovery) {
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& block : list(discovery, "held_out"))
+    rows.push_back({{word(block, "block")},
+                    {figure(number(block, "before")), true},
+                    {figure(number(block, "after")), true},
+                    {word(block, "verdict") == "not_predicted" ? "not predicted" : word(block, "verdict"), false,
+                     word(block, "verdict") == "not_predicted"}});
+  if (rows.empty()) return;
+  page.heading("Rows that were left out, and how well they are predicted");
+  page.html(table_html({"left out", "error before [σ]", "error with the terms [σ]", ""}, rows));
+}
+
+}  // namespace
+
+void add_terms(Page& page, const Folder& folder) {
+  const Json& discovery = member(folder.result(), "discovery");
+  if (!discovery.is_object()) return;
+  const Json& terms = list(discovery, "terms");
+  if (terms.empty()) return;
+  page.section("Terms of the energy");
+  std::vector<std::pair<std::string, std::vector<std::string>>> lines;
+  for (const Json& term : terms) {
+    std::vector<std::string> of_term = parameter_words(term);
+    of_term.push_back(fmt::format("probability {}, of the invariant {}", share(number(term, "probability")),
+                                  share(number(term, "invariant_probability"))));
+    lines.emplace_back(form_words(term), std::move(of_term));
+  }
+  page.word_lists(lines, 6);
+  page.begin_pair();
+  for (const Json& term : terms) page.chart(curve_chart(term), folder.address());
+  page.end_pair();
+  add_alternatives(page, discovery);
+  add_held_out(page, discovery);
+}
+
+void add_discovery(Page& page, const Folder& folder) {
+  const Json& discovery = member(folder.result(), "discovery");
+  std::vector<std::string> reasons;
+  for (const Json& reason : list(discovery, "reasons")) reasons.push_back(word(reason, "text"));
+  std::string verdict = word(discovery, "verdict");
+  std::replace(verdict.begin(), verdict.end(), '_', ' ');
+  page.section("Verdict");
+  page.paragraph(fmt::format("{}: {}", text::capitalised(verdict), fmt::join(reasons, " ")), "verdict");
+  add_warnings(page, folder);
+  std::vector<std::pair<std::string, std::string>> pairs;
+  const double before = number(discovery, "chi2_before"), after = number(discovery, "chi2_after");
+  pairs.emplace_back(
+      "Base", word(discovery, "base").empty() ? "none: the terms are the whole energy" : word(discovery, "base"));
+  if (std::isfinite(before))
+    pairs.emplace_back("Sum of squares over the noise",
+                       fmt::format("{} before, {} with the terms, over {} values", figure(before), figure(after),
+                                   figure(number(discovery, "rows"))));
+  if (const double p = number(discovery, "p_before"); std::isfinite(p))
+    pairs.emplace_back("How sure that something is missing", "noise alone would look like this with " + chance(p));
+  pairs.emplace_back("What is left", "noise alone would leave this much with " + chance(number(discovery, "p_after")));
+  if (const Json& name = member(discovery, "name_of_the_catalogue"); name.is_object())
+    pairs.emplace_back("Name of the catalogue", fmt::format("{} changes the energy too and leaves {}", word(name, "id"),
+                                                            figure(number(name, "chi2"))));
+  if (const std::string next = word(member(discovery, "next_experiment"), "description"); !next.empty())
+    pairs.emplace_back("What to measure next", next);
+  page.words(pairs);
+  add_terms(page, folder);
+  add_misfit(page, folder);
+  add_provenance(page, folder);
+}
+
+}  // namespace tunica::report
