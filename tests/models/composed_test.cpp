@@ -62,7 +62,14 @@ const std::vector<Twin>& twins() {
       {"four_fibre",
        "[" + matrix + ", " + fibre("f", "diagonal") + ", " + fibre("a", "axial") + ", " +
            fibre("c", "circumferential") + "]",
-       {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}}}};
+       {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}}},
+      {"arruda_boyce", R"([{"name": "r", "invariant": "I1", "law": "inverse_langevin"}])", {{0}, {1}}},
+      // sheets across the wall, the default
+      {"holzapfel_ogden",
+       R"([{"name": "m", "invariant": "I1", "law": "exponential"}, )" + fibre("f", "single") +
+           R"(, {"name": "s", "invariant": "radial", "fibre_switch": "strain", "law": "exponential_square"},
+                {"name": "c", "invariant": "across", "family": "single", "angle_of": "f", "law": "exponential_square"}])",
+       {{0}, {1}, {2}, {3}, {5}, {6}, {7}, {8}, {4}}}};
   return all;
 }
 
@@ -112,7 +119,11 @@ std::vector<std::string> single_terms() {
                     "\"" + (law == "spline" ? knots : ""));
   for (const std::string law : {"quadratic", "exponential_square"})
     all.push_back(R"("invariant": "coupling", "law": ")" + law + "\"");
+  for (const std::string family : {"axial", "circumferential", "diagonal", "single"})
+    for (const std::string law : {"quadratic", "exponential_square"})
+      all.push_back(R"("invariant": "across", "family": ")" + family + R"(", "law": ")" + law + "\"");
   all.push_back(R"("invariant": "radial", "law": "quadratic")");
+  all.push_back(R"("invariant": "radial", "fibre_switch": "strain", "law": "exponential_square")");
   all.push_back(R"("invariant": "fibre", "family": "single", "dispersion": "two_planes", "law": "quadratic")");
   return all;
 }
@@ -124,8 +135,9 @@ TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
     // One family alone is no wall with paired fibres.
     const bool paired = term.find("single") == std::string::npos;
     for (const ModelProperty& property : model_properties())
-      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall")
+      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall") {
         EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
+      }
   }
 }
 
@@ -139,6 +151,23 @@ TEST(Composed, CouplesTheTwoFamilies) {
     const Eigen::Vector3d one(std::sin(a), std::cos(a), 0), other(-std::sin(a), std::cos(a), 0);
     const double x = one.dot(to_matrix(C) * other) - std::cos(2 * a);
     EXPECT_NEAR(evaluate(*model, C, std::vector{k, theta}).energy, k / 2 * x * x, 1e-12);
+  }
+}
+
+// M·C e_r of one family, and of both families of a pair.
+TEST(Composed, CouplesAFamilyAndTheNormal) {
+  for (const std::string family : {"single", "diagonal"}) {
+    const auto model =
+        composed(R"([{"name": "c", "invariant": "across", "law": "quadratic", "family": ")" + family + "\"}]");
+    Sampler sampler(4);
+    for (int draw = 0; draw < 20; ++draw) {
+      const Tensor C = sampler.right_cauchy_green();
+      const double theta = 10 + 3 * draw, a = theta * M_PI / 180, k = 7;
+      const Eigen::Vector3d one(std::sin(a), std::cos(a), 0), other(-std::sin(a), std::cos(a), 0), normal(0, 0, 1);
+      const auto term = [&](const Eigen::Vector3d& m) { return k / 2 * std::pow(m.dot(to_matrix(C) * normal), 2); };
+      const double expected = term(one) + (family == "diagonal" ? term(other) : 0);
+      EXPECT_NEAR(evaluate(*model, C, std::vector{k, theta}).energy, expected, 1e-12) << family;
+    }
   }
 }
 
@@ -195,12 +224,25 @@ TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "coupling", "law": "quadratic", "angle_of": "b"}])"),
               HasSubstr("which is no term with an angle of its own"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linear", "family": "axial"}])"),
-              HasSubstr("goes with the invariant 'fibre' only"));
+              HasSubstr("goes with the invariant 'fibre' or 'across' only"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "across", "law": "quadratic"}])"),
+              HasSubstr("\"family\" is missing"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "across", "family": "axial", "law": "cubic"}])"),
+              HasSubstr("both sides of 0"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "radial", "fibre_switch": "stretch", "law": "quadratic"}])"),
+              HasSubstr("the invariant 'radial' has no fibres"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "dispersion": "rotational", "law": "linear"}])"),
+              HasSubstr("\"dispersion\" goes with the invariant 'fibre' only"));
 }
 
 TEST(Composed, WritesItsEnergyAsAFormula) {
   EXPECT_EQ(composed("[" + matrix + ", " + fibre("f", "diagonal") + "]")->describe().formula,
             "W = m_mu/2 (I1 - 3) + sum over +-f_theta of f_k1/(2 f_k2) (exp(f_k2 (I4 - 1)^2) - 1)");
+  EXPECT_EQ(composed(R"([{"name": "a", "invariant": "across", "family": "axial", "law": "quadratic"},
+                         {"name": "d", "invariant": "across", "family": "diagonal", "law": "quadratic"}])")
+                ->describe()
+                .formula,
+            "W = a_k/2 C_zr^2 + sum over +-d_theta of d_k/2 C_fr^2");
 }
 
 }  // namespace
