@@ -122,6 +122,19 @@ TEST(TurnedStrip, AddsItsAngleToTheMisalignment) {
       predict(*make_strip(around, {.direction = "circumferential"}), *model, four_fibres, 12).values, 1e-10);
 }
 
+// One family at an angle makes no mirror images of misalignments to both sides: the derivative is there at 0.
+TEST(TurnedStrip, KnowsTheDerivativeByAMisalignmentOfOneFamily) {
+  for (const char* direction : {"circumferential", "axial"}) {
+    const auto strip = make_strip(around, {.direction = direction, .channels = {"stress", "transverse_stretch"}});
+    const auto model = one_family();
+    const Simulation simulation{*strip, *model, {12, 30, 65}, {0}};
+    EXPECT_EQ(jacobian_matches_differences(simulation).counter_example, "");
+    EXPECT_EQ(values_do_not_depend_on_the_other_outputs(simulation).counter_example, "");
+  }
+  const Prediction found = predict(*make_strip(around), *one_family(), {12, 30, 65}, 0, true);
+  EXPECT_GT(std::abs(found.jacobian[3 * around.size()]), 0.1);
+}
+
 TEST(TurnedStrip, LeavesTransverseStabilityToStripsAlongAnAxis) {
   EXPECT_TRUE(make_strip(around)->describe().free_strip_axis.has_value());
   EXPECT_FALSE(make_strip(around, {.angle = 20})->describe().free_strip_axis.has_value());
