@@ -9,6 +9,7 @@
 #include "conformance/model_properties.hpp"
 #include "data/written_file.hpp"
 #include "support/loaded.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
 
 namespace tunica::testing::composed_test {
 using namespace conformance;
@@ -138,6 +139,45 @@ TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
       if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall") {
         EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
       }
+  }
+}
+
+// Terms of I1, and of I2, are evaluated together as far as the limits of a part allow. Two splines are too long for
+// that.
+TEST(Composed, AddsUpTermsOfTheSameInvariant) {
+  const std::string spline = R"("law": "spline", "knots": [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])";
+  for (const std::string& more :
+       {std::string(R"({"name": "e", "invariant": "I1", "law": "exponential"})"),
+        R"({"name": "r", "invariant": "I1", )" + spline + R"(}, {"name": "s", "invariant": "I1", )" + spline + "}"}) {
+    const auto model =
+        composed("[" + matrix + R"(, {"name": "a", "invariant": "I2", "law": "linear"}, )" + fibre("f", "diagonal") +
+                 ", " + more + R"(, {"name": "b", "invariant": "I2", "law": "quadratic"}])");
+    EXPECT_EQ(model->parts().size(), more.find("spline") == std::string::npos ? 5u : 6u);
+    Sampler sampler(6);
+    for (int draw = 0; draw < 20; ++draw) {
+      const auto [C, p] = sampler.point(*model);
+      const Evaluated together = evaluate(*model, C, p);
+      Evaluated apart;
+      apart.stress_dp.resize(6 * p.size());
+      for (const auto& part : model->parts())
+        for (const double side : {1., -1.})
+          if (side > 0 || part->describe().mirrored)
+            hyperelastic::add_part_tensor(*part, side, {1, C, p, {}, {}},
+                                          {{&apart.energy, 1}, apart.stress, apart.tangent, apart.stress_dp, {}}, 0, 1);
+      const auto expect_near = [](std::span<const double> found, std::span<const double> expected) {
+        double largest = 1;
+        for (const double one : expected) largest = std::max(largest, std::abs(one));
+        for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-13 * largest) << k;
+      };
+      expect_near({&together.energy, 1}, {&apart.energy, 1});
+      expect_near(together.stress, apart.stress);
+      expect_near(together.tangent, apart.tangent);
+      expect_near(together.stress_dp, apart.stress_dp);
+      for (const ModelProperty& property : model_properties())
+        if (draw == 0 && std::string(property.name).starts_with("axes_")) {
+          EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << more << ", " << property.name;
+        }
+    }
   }
 }
 
