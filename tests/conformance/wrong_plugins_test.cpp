@@ -104,9 +104,10 @@ TEST(WrongTest, WithAJacobianThatForgetsATermIsNamed) {
 
 TEST(WrongTest, WhoseDerivativeIsRightWithTheDefaultAloneIsNamedWithTheChoice) {
   EXPECT_EQ(failed("wrong_plane"), Names{"abscissa_derivative_matches_differences"});
-  const auto shown = check(wrong("wrong_plane"), {"--only", "abscissa_derivative_matches_differences", "--json"});
-  std::set<std::string> refused;
-  for (const auto& one : nlohmann::json::parse(shown.out)["findings"])
+  const auto shown = nlohmann::json::parse(
+      check(wrong("wrong_plane"), {"--only", "abscissa_derivative_matches_differences", "--json"}).out);
+  Names refused;
+  for (const auto& one : shown["findings"])
     if (one["outcome"] == "FAILED") refused.insert(one["with"]);
   EXPECT_THAT(refused, ::testing::UnorderedElementsAre(HasSubstr("plane = axial_radial"),
                                                        HasSubstr("plane = circumferential_radial")));

@@ -43,7 +43,7 @@ struct Comparison {
     const Values typical = typical_uncertainty(s, expected);
     for (std::size_t i = 0; i < given.size(); ++i) {
       const double scale = channel_scale(s, sizes, i);
-      const double unsure = 4 * std::max(expected[i].uncertainty, typical[i / s.test.rows().count]);
+      const double unsure = std::max(4 * expected[i].uncertainty, 10 * typical[i / s.test.rows().count]);
       ++entries;
       if (!(unsure <= useless * scale + 1e-9 * channel_scale(s, values, i))) {
         ++vague;
