@@ -101,6 +101,21 @@ TEST(Fung, ResistsShearInEveryPlane) {
   for (std::size_t k = 7; k < 10; ++k) EXPECT_GT(coefficients("wall", carotid)[k], 0.2);
 }
 
+// a1 = a2 = 2 a4: one shear modulus G in all planes, and Young's modulus 3 G in both directions.
+TEST(Fung, IsIsotropicForSmallStrainsWhereItsCoefficientsAreEven) {
+  const double modulus = 10, strain = 1e-5;
+  const std::vector<double> p{modulus, 2, 2, 1};
+  for (std::size_t k = 3; k < 6; ++k) {
+    Tensor C{1, 1, 1, 0, 0, 0};
+    C[k] = strain;
+    EXPECT_NEAR(evaluate(*fung("plane"), C, p).stress[k] / strain, modulus / 2, 1e-6);
+  }
+  for (const char* direction : {"circumferential", "axial"}) {
+    const Prediction found = predict(*make_strip({1 + strain}, {.direction = direction}), *fung("plane"), p);
+    EXPECT_NEAR(found.values[0] / strain, 3 * modulus / 2, 1e-3);
+  }
+}
+
 TEST(Fung, SaysWhatIsAdmissible) {
   const auto values = [](const std::string& form, const std::vector<double>& p) {
     std::vector<double> all;
