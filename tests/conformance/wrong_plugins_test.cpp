@@ -102,6 +102,17 @@ TEST(WrongTest, WithAJacobianThatForgetsATermIsNamed) {
   EXPECT_EQ(failed("wrong_jacobian"), Names{"jacobian_matches_differences"});
 }
 
+TEST(WrongTest, WhoseDerivativeIsRightWithTheDefaultAloneIsNamedWithTheChoice) {
+  EXPECT_EQ(failed("wrong_plane"), Names{"abscissa_derivative_matches_differences"});
+  const auto shown = nlohmann::json::parse(
+      check(wrong("wrong_plane"), {"--only", "abscissa_derivative_matches_differences", "--json"}).out);
+  Names refused;
+  for (const auto& one : shown["findings"])
+    if (one["outcome"] == "FAILED") refused.insert(one["with"]);
+  EXPECT_THAT(refused, ::testing::UnorderedElementsAre(HasSubstr("plane = axial_radial"),
+                                                       HasSubstr("plane = circumferential_radial")));
+}
+
 TEST(WrongMechanism, ThatIsNotTheBareTestAtItsNullIsNamed) {
   EXPECT_THAT(failed("wrong_null"), Contains("null_is_the_bare_test"));
 }

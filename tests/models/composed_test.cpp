@@ -9,6 +9,7 @@
 #include "conformance/model_properties.hpp"
 #include "data/written_file.hpp"
 #include "support/loaded.hpp"
+#include "tunica/detail/hyperelastic_tensor.hpp"
 
 namespace tunica::testing::composed_test {
 using namespace conformance;
@@ -62,7 +63,14 @@ const std::vector<Twin>& twins() {
       {"four_fibre",
        "[" + matrix + ", " + fibre("f", "diagonal") + ", " + fibre("a", "axial") + ", " +
            fibre("c", "circumferential") + "]",
-       {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}}}};
+       {{0}, {1}, {2}, {3}, {4}, {5}, {6}, {7}}},
+      {"arruda_boyce", R"([{"name": "r", "invariant": "I1", "law": "inverse_langevin"}])", {{0}, {1}}},
+      // sheets across the wall, the default
+      {"holzapfel_ogden",
+       R"([{"name": "m", "invariant": "I1", "law": "exponential"}, )" + fibre("f", "single") +
+           R"(, {"name": "s", "invariant": "radial", "fibre_switch": "strain", "law": "exponential_square"},
+                {"name": "c", "invariant": "across", "family": "single", "angle_of": "f", "law": "exponential_square"}])",
+       {{0}, {1}, {2}, {3}, {5}, {6}, {7}, {8}, {4}}}};
   return all;
 }
 
@@ -112,7 +120,11 @@ std::vector<std::string> single_terms() {
                     "\"" + (law == "spline" ? knots : ""));
   for (const std::string law : {"quadratic", "exponential_square"})
     all.push_back(R"("invariant": "coupling", "law": ")" + law + "\"");
+  for (const std::string family : {"axial", "circumferential", "diagonal", "single"})
+    for (const std::string law : {"quadratic", "exponential_square"})
+      all.push_back(R"("invariant": "across", "family": ")" + family + R"(", "law": ")" + law + "\"");
   all.push_back(R"("invariant": "radial", "law": "quadratic")");
+  all.push_back(R"("invariant": "radial", "fibre_switch": "strain", "law": "exponential_square")");
   all.push_back(R"("invariant": "fibre", "family": "single", "dispersion": "two_planes", "law": "quadratic")");
   return all;
 }
@@ -124,8 +136,48 @@ TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
     // One family alone is no wall with paired fibres.
     const bool paired = term.find("single") == std::string::npos;
     for (const ModelProperty& property : model_properties())
-      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall")
+      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall") {
         EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
+      }
+  }
+}
+
+// Terms of I1, and of I2, are evaluated together as far as the limits of a part allow. Two splines are too long for
+// that.
+TEST(Composed, AddsUpTermsOfTheSameInvariant) {
+  const std::string spline = R"("law": "spline", "knots": [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])";
+  for (const std::string& more :
+       {std::string(R"({"name": "e", "invariant": "I1", "law": "exponential"})"),
+        R"({"name": "r", "invariant": "I1", )" + spline + R"(}, {"name": "s", "invariant": "I1", )" + spline + "}"}) {
+    const auto model =
+        composed("[" + matrix + R"(, {"name": "a", "invariant": "I2", "law": "linear"}, )" + fibre("f", "diagonal") +
+                 ", " + more + R"(, {"name": "b", "invariant": "I2", "law": "quadratic"}])");
+    EXPECT_EQ(model->parts().size(), more.find("spline") == std::string::npos ? 5u : 6u);
+    Sampler sampler(6);
+    for (int draw = 0; draw < 20; ++draw) {
+      const auto [C, p] = sampler.point(*model);
+      const Evaluated together = evaluate(*model, C, p);
+      Evaluated apart;
+      apart.stress_dp.resize(6 * p.size());
+      for (const auto& part : model->parts())
+        for (const double side : {1., -1.})
+          if (side > 0 || part->describe().mirrored)
+            hyperelastic::add_part_tensor(*part, side, {1, C, p, {}, {}},
+                                          {{&apart.energy, 1}, apart.stress, apart.tangent, apart.stress_dp, {}}, 0, 1);
+      const auto expect_near = [](std::span<const double> found, std::span<const double> expected) {
+        double largest = 1;
+        for (const double one : expected) largest = std::max(largest, std::abs(one));
+        for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-13 * largest) << k;
+      };
+      expect_near({&together.energy, 1}, {&apart.energy, 1});
+      expect_near(together.stress, apart.stress);
+      expect_near(together.tangent, apart.tangent);
+      expect_near(together.stress_dp, apart.stress_dp);
+      for (const ModelProperty& property : model_properties())
+        if (draw == 0 && std::string(property.name).starts_with("axes_")) {
+          EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << more << ", " << property.name;
+        }
+    }
   }
 }
 
@@ -139,6 +191,23 @@ TEST(Composed, CouplesTheTwoFamilies) {
     const Eigen::Vector3d one(std::sin(a), std::cos(a), 0), other(-std::sin(a), std::cos(a), 0);
     const double x = one.dot(to_matrix(C) * other) - std::cos(2 * a);
     EXPECT_NEAR(evaluate(*model, C, std::vector{k, theta}).energy, k / 2 * x * x, 1e-12);
+  }
+}
+
+// M·C e_r of one family, and of both families of a pair.
+TEST(Composed, CouplesAFamilyAndTheNormal) {
+  for (const std::string family : {"single", "diagonal"}) {
+    const auto model =
+        composed(R"([{"name": "c", "invariant": "across", "law": "quadratic", "family": ")" + family + "\"}]");
+    Sampler sampler(4);
+    for (int draw = 0; draw < 20; ++draw) {
+      const Tensor C = sampler.right_cauchy_green();
+      const double theta = 10 + 3 * draw, a = theta * M_PI / 180, k = 7;
+      const Eigen::Vector3d one(std::sin(a), std::cos(a), 0), other(-std::sin(a), std::cos(a), 0), normal(0, 0, 1);
+      const auto term = [&](const Eigen::Vector3d& m) { return k / 2 * std::pow(m.dot(to_matrix(C) * normal), 2); };
+      const double expected = term(one) + (family == "diagonal" ? term(other) : 0);
+      EXPECT_NEAR(evaluate(*model, C, std::vector{k, theta}).energy, expected, 1e-12) << family;
+    }
   }
 }
 
@@ -195,12 +264,25 @@ TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "coupling", "law": "quadratic", "angle_of": "b"}])"),
               HasSubstr("which is no term with an angle of its own"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "law": "linear", "family": "axial"}])"),
-              HasSubstr("goes with the invariant 'fibre' only"));
+              HasSubstr("goes with the invariant 'fibre' or 'across' only"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "across", "law": "quadratic"}])"),
+              HasSubstr("\"family\" is missing"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "across", "family": "axial", "law": "cubic"}])"),
+              HasSubstr("both sides of 0"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "radial", "fibre_switch": "stretch", "law": "quadratic"}])"),
+              HasSubstr("the invariant 'radial' has no fibres"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "I1", "dispersion": "rotational", "law": "linear"}])"),
+              HasSubstr("\"dispersion\" goes with the invariant 'fibre' only"));
 }
 
 TEST(Composed, WritesItsEnergyAsAFormula) {
   EXPECT_EQ(composed("[" + matrix + ", " + fibre("f", "diagonal") + "]")->describe().formula,
             "W = m_mu/2 (I1 - 3) + sum over +-f_theta of f_k1/(2 f_k2) (exp(f_k2 (I4 - 1)^2) - 1)");
+  EXPECT_EQ(composed(R"([{"name": "a", "invariant": "across", "family": "axial", "law": "quadratic"},
+                         {"name": "d", "invariant": "across", "family": "diagonal", "law": "quadratic"}])")
+                ->describe()
+                .formula,
+            "W = a_k/2 C_zr^2 + sum over +-d_theta of d_k/2 C_fr^2");
 }
 
 }  // namespace

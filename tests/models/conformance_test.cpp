@@ -31,7 +31,8 @@ TEST_P(ModelConformance, Holds) {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const ModelProperty& property : model_properties()) {
-    for (const char* model : {"neo_hooke", "mooney_rivlin", "yeoh", "gent"}) all.push_back({model, "", property});
+    for (const char* model : {"neo_hooke", "mooney_rivlin", "yeoh", "gent", "arruda_boyce"})
+      all.push_back({model, "", property});
     for (const std::int64_t terms : {1, 3, 6}) all.push_back({"ogden", "", property, terms});
     for (const char* model : {"gho", "hgo", "holzapfel_2015", "four_fibre"}) {
       all.push_back({model, "strain", property});

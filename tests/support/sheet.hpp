@@ -15,6 +15,7 @@ struct SheetSetup {
   std::string measure = "cauchy";
   std::vector<double> time = {};
   std::string direction = "circumferential";
+  double angle = 0;
 };
 using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
 
@@ -23,6 +24,7 @@ inline std::unique_ptr<Test> make_sheet(const std::string& protocol, const Colum
   TestSetup setup;
   setup.options.set("protocol", protocol);
   setup.options.set("direction", sheet.direction);
+  setup.options.set("angle", sheet.angle);
   setup.rows.count = columns.empty() ? 0 : columns.front().second.size();
   for (const auto& [name, values] : columns) setup.rows.abscissae.push_back({name, values});
   setup.rows.channels = sheet.channels;

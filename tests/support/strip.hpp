@@ -14,11 +14,13 @@ struct StripSetup {
   std::vector<std::string> channels = {"stress"};
   std::string measure = "cauchy";
   std::vector<double> time = {};
+  double angle = 0;
 };
 
 inline std::unique_ptr<Test> make_strip(const std::vector<double>& stretch, const StripSetup& strip = {}) {
   TestSetup setup;
   setup.options.set("direction", strip.direction);
+  setup.options.set("angle", strip.angle);
   setup.rows.count = stretch.size();
   setup.rows.abscissae = {{"stretch", stretch}};
   setup.rows.channels = strip.channels;

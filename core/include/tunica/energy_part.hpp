@@ -10,16 +10,18 @@ namespace tunica {
 
 /// The coefficients of a scalar invariant that a part of an energy depends on:
 ///
-///     x = i1 I1 + i2 I2 + fibre (M·CM) + normal C_rr + offset,   M = sin(angle) e_t + cos(angle) e_z,
+///     x = i1 I1 + i2 I2 + fibre M·CM + normal C_rr + across M·C e_r + offset,   M = sin(angle) e_t + cos(angle) e_z,
 ///
 /// with I1 = tr C and I2 = (I1² − tr C²)/2. The angle is in radians, from the axial direction z towards the
-/// circumferential direction t. The same struct holds derivatives of the coefficients by one parameter.
+/// circumferential direction t. The term `across` is shear between the fibres and the wall's normal, and zero in
+/// principal axes. The same struct holds derivatives of the coefficients by one parameter.
 template <class T>
 struct InvariantOf {
   T i1 = T(0),        ///< weight of I1
       i2 = T(0),      ///< weight of I2
       fibre = T(0),   ///< weight of M·CM, the squared stretch along the fibres
       normal = T(0),  ///< weight of C_rr
+      across = T(0),  ///< weight of M·C e_r = M_t C_tr + M_z C_zr, which couples fibres and normal
       offset = T(0);  ///< added; −3 makes I1 vanish at rest, −1 the squared stretch of fibres
   T angle = T(0);     ///< of the fibres from e_z, radians
 };

@@ -4,22 +4,36 @@
 #include <algorithm>
 
 #include "tunica/models/arterial_fibres.hpp"
+#include "tunica/models/convex_laws.hpp"
 
 namespace tunica::conformance {
 namespace {
 
-enum { mu, k1, k2, theta, parameter_count };
+enum { mu, k1, k2, theta, k_across, parameter_count };
+
+/// M·C e_r, which shear across the wall alone makes.
+struct Across {
+  template <class T>
+  static InvariantOf<T> invariant(std::span<const T> p) {
+    return {.across = T(1), .angle = p[theta] * degree};
+  }
+};
 
 std::unique_ptr<Model> with_fibres(const std::string& fibre_switch) {
   ModelDescription description;
   description.type = "fibrous";
   description.parameters = {arterial::mu(), arterial::k1(), arterial::k2(), arterial::theta()};
+  description.parameters.push_back({"k_across", "kPa", 15, 1, 100, Scale::log, "Coupling of fibres and normal.", ""});
   Options options;
   options.set("fibre_switch", fibre_switch);
   using Diagonal = arterial::AlignedFibres<theta>;
   return std::make_unique<Hyperelastic>(
-      std::move(description), energy_parts(isotropic::neo_hookean<parameter_count>(mu),
-                                           arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options)));
+      std::move(description),
+      energy_parts(
+          isotropic::neo_hookean<parameter_count>(mu),
+          arterial::fibres<Diagonal, parameter_count>({theta}, {k1, k2}, options),
+          std::make_unique<LawPart<laws::Quadratic, Across, parameter_count>>(EnergyPart::Description{
+              "coupling", EnergyPart::Role::matrix, EnergyPart::Active::always, true, {theta}, {k_across}, false})));
 }
 
 }  // namespace
@@ -34,7 +48,7 @@ std::unique_ptr<Model> fibrous() { return with_fibres("none"); }
 std::unique_ptr<Model> slack_fibrous() { return with_fibres("strain"); }
 
 std::vector<Material> materials() {
-  const std::vector<double> wall{30, 20, 0.6, 42};
+  const std::vector<double> wall{30, 20, 0.6, 42, 15};
   return {{"a neo-Hookean matrix with fibres", fibrous(), wall},
           {"a neo-Hookean matrix with fibres that only pull", slack_fibrous(), wall},
           {"a neo-Hookean rubber", rubber(), {60}}};

@@ -21,7 +21,8 @@ struct Material {
 
 /// Neo-Hookean rubber.
 std::unique_ptr<Model> rubber();
-/// A neo-Hookean matrix and fibres at ±45° that carry load always, so that everything is smooth.
+/// A neo-Hookean matrix and fibres at ±45° that carry load always, so that everything is smooth. Shear between fibres
+/// and the normal of the wall stiffens it, so that no two planes of shear are alike.
 std::unique_ptr<Model> fibrous();
 /// The same with fibres that carry load while stretched.
 std::unique_ptr<Model> slack_fibrous();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@ namespace {
 
 using Role = Observable::Role;
 using Kind = Option::Kind;
+using Choices = std::vector<std::pair<std::string, std::string>>;
 
 /// Moderate values of something prescribed: growing, so that rows are in loading order.
 std::vector<double> rising(const Observable& observable, std::size_t rows, double size) {
@@ -34,7 +36,9 @@ std::vector<double> rising(const Observable& observable, std::size_t rows, doubl
 /// The setups of a search, the most likely first.
 class SetupSampler {
  public:
-  SetupSampler(const TestFactory& factory, std::uint64_t seed) : factory_(factory), engine_(seed) {}
+  /// The choices in `pinned` are made in every setup.
+  SetupSampler(const TestFactory& factory, Choices pinned, std::uint64_t seed)
+      : factory_(factory), pinned_(std::move(pinned)), engine_(seed) {}
 
   OwnedSetup next() {
     const std::size_t attempt = attempt_++;
@@ -50,6 +54,9 @@ class SetupSampler {
       if (option.kind == Kind::choice && !option.choices.empty() && coin())
         guess.options.set(option.name, option.choices[engine_() % option.choices.size()]);
     }
+    for (const auto& [name, word] : pinned_) guess.options.set(name, word);
+    for (const Option& option : factory_.options)
+      if (option.kind == Kind::choice) guess.choices.emplace_back(option.name, guess.options.text(option.name));
     std::vector<const Observable*> channels;
     std::size_t optional = 0;
     // Smaller and smaller where larger ones do not suit: limits of materials are not known here.
@@ -78,6 +85,7 @@ class SetupSampler {
  private:
   bool coin() { return (engine_() & 1) != 0; }
   const TestFactory& factory_;
+  Choices pinned_;
   std::mt19937_64 engine_;
   std::size_t attempt_ = 0;
 };
@@ -99,37 +107,11 @@ std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const O
   return {};
 }
 
-}  // namespace
-
-TestSetup OwnedSetup::setup() const {
-  TestSetup made;
-  made.options = options;
-  made.stress_measure = stress_measure;
-  made.rows.count = count();
-  for (const auto& [name, values] : abscissae) made.rows.abscissae.push_back({name, values});
-  made.rows.channels = channels;
-  made.rows.time = time;
-  return made;
-}
-
-std::string OwnedSetup::words() const {
-  std::vector<std::string> prescribed;
-  for (const auto& [name, values] : abscissae)
-    prescribed.push_back(fmt::format("{} from {:.3g} to {:.3g}", name, values.front(), values.back()));
-  return fmt::format("{}, channels {}", fmt::join(prescribed, ", "), fmt::join(channels, ", "));
-}
-
-std::vector<double> own_values(const TestDescription& description) {
-  std::vector<double> own = initial_values(description.parameters);
-  for (std::size_t k = 0; k < std::min(own.size(), description.nulls.size()); ++k)
-    if (!std::isnan(description.nulls[k])) own[k] = description.nulls[k];
-  return own;
-}
-
-TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
-  constexpr int patience = 4000;
+/// As synthetic_case(), with these choices made.
+TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const Choices& pinned, int patience,
+                    std::uint64_t seed) {
   const Material material = materials().front();
-  SetupSampler guesses(entry.factory, seed);
+  SetupSampler guesses(entry.factory, pinned, seed);
   std::string last = "it declares no channel";
   for (int attempt = 0; attempt < patience; ++attempt) {
     OwnedSetup guess = guesses.next();
@@ -155,8 +137,100 @@ TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std
     std::vector<double> own = own_values(test->describe());
     return {"", std::move(test), std::move(guess), std::move(own), material};
   }
-  throw std::runtime_error(
-      fmt::format("no rows could be made up that suit it ({}); give --experiment with a test of it", last));
+  throw std::runtime_error(last);
+}
+
+std::string words_of(const Choices& choices) {
+  std::vector<std::string> words;
+  for (const auto& [name, word] : choices) words.push_back(fmt::format("{} = {}", name, word));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// All words of each option with all of the others.
+std::vector<Choices> combinations(const std::vector<Option>& options) {
+  std::vector<Choices> all{{}};
+  for (const Option& option : options) {
+    if (option.kind != Kind::choice) continue;
+    std::vector<Choices> longer;
+    for (const Choices& begun : all)
+      for (const std::string& word : option.choices) {
+        longer.push_back(begun);
+        longer.back().emplace_back(option.name, word);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+}  // namespace
+
+TestSetup OwnedSetup::setup() const {
+  TestSetup made;
+  made.options = options;
+  made.stress_measure = stress_measure;
+  made.rows.count = count();
+  for (const auto& [name, values] : abscissae) made.rows.abscissae.push_back({name, values});
+  made.rows.channels = channels;
+  made.rows.time = time;
+  return made;
+}
+
+std::string OwnedSetup::words() const {
+  std::vector<std::string> prescribed;
+  for (const auto& [name, values] : abscissae)
+    prescribed.push_back(fmt::format("{} from {:.3g} to {:.3g}", name, values.front(), values.back()));
+  return fmt::format("{}, channels {}{}{}", fmt::join(prescribed, ", "), fmt::join(channels, ", "),
+                     choices.empty() ? "" : "; ", words_of(choices));
+}
+
+std::vector<double> own_values(const TestDescription& description) {
+  std::vector<double> own = initial_values(description.parameters);
+  for (std::size_t k = 0; k < std::min(own.size(), description.nulls.size()); ++k)
+    if (!std::isnan(description.nulls[k])) own[k] = description.nulls[k];
+  return own;
+}
+
+TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed) {
+  constexpr int patience = 4000;
+  try {
+    return found_case(entry, {}, patience, seed);
+  } catch (const std::runtime_error& problem) {
+    throw std::runtime_error(
+        fmt::format("no rows could be made up that suit it ({}); give --experiment with a test of it", problem.what()));
+  }
+}
+
+ChoiceCases choice_cases(const plugins::Catalogue::Entry<TestFactory>& entry, const TestCase& base,
+                         std::uint64_t seed) {
+  constexpr int patience = 400;
+  constexpr std::size_t many = 24;
+  const Choices& made = base.from->choices;
+  const std::vector<Option>& options = entry.factory.options;
+  ChoiceCases found;
+  std::set<std::pair<std::string, std::string>> seen(made.begin(), made.end());
+  const auto look_for = [&](const Choices& choices) -> std::string {
+    try {
+      TestCase one = found_case(entry, choices, patience, seed);
+      seen.insert(one.from->choices.begin(), one.from->choices.end());
+      found.cases.push_back(std::move(one));
+      return {};
+    } catch (const std::runtime_error& problem) {
+      return problem.what();
+    }
+  };
+  std::size_t count = 1;
+  for (const Option& option : options) count *= std::max<std::size_t>(1, option.choices.size());
+  if (count <= many && !base.test->describe().costly)
+    for (const Choices& choices : combinations(options))
+      if (choices != made) look_for(choices);
+  // What no combination has: one word at a time, whatever goes with it.
+  for (const Option& option : options)
+    for (const std::string& word : option.choices) {
+      if (seen.contains({option.name, word})) continue;
+      if (const std::string why = look_for({{option.name, word}}); !why.empty())
+        found.missed.push_back(fmt::format("{} = {} ({})", option.name, word, why));
+    }
+  return found;
 }
 
 }  // namespace tunica::conformance

@@ -23,11 +23,12 @@ struct OwnedSetup {
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;
   std::vector<double> time;
   std::vector<std::string> channels;
+  std::vector<std::pair<std::string, std::string>> choices = {};  ///< the options that are one of several words
 
   [[nodiscard]] std::size_t count() const { return abscissae.empty() ? 1 : abscissae.front().second.size(); }
   /// A view; valid while this object lives and is not changed.
   [[nodiscard]] TestSetup setup() const;
-  /// "stretch from 1.01 to 1.2, channels stress": what was made up, in words.
+  /// "stretch from 1.01 to 1.2, channels stress; direction = axial": what was made up, in words.
   [[nodiscard]] std::string words() const;
 };
 
@@ -48,6 +49,14 @@ std::vector<double> own_values(const TestDescription& description);
 /// among what a person might map and give: which observables, options at their defaults and near 1. Throws
 /// std::runtime_error with what the type answered last where none of that suits it.
 TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed);
+
+/// The other choices of a test's options, as far as they go together.
+struct ChoiceCases {
+  std::vector<TestCase> cases;
+  std::vector<std::string> missed;  ///< "direction = radial (why)": choices that no case has
+};
+/// Every combination of choices but that of `base`; if there are many, or the test is costly, each word once.
+ChoiceCases choice_cases(const plugins::Catalogue::Entry<TestFactory>& entry, const TestCase& base, std::uint64_t seed);
 
 /// The tests of these types as they stand in an experiment, each with the model of the first run that has it.
 std::vector<TestCase> experiment_cases(const experiment::Experiment& experiment, const std::vector<std::string>& types,

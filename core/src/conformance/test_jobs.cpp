@@ -76,10 +76,52 @@ Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const
   return {.compared = compared};
 }
 
+/// Properties of formulas, which another choice may lead to. State between calls and threads is looked for once.
+bool is_of_formulas(const TestProperty& property) {
+  return property.function != predictions_repeat_themselves && property.function != concurrent_predictions_agree;
+}
+
+/// Every word of every choice is in a case that is checked.
+Verdict choices_are_exercised(const ChoiceCases& choices) {
+  const std::string compared = "each word that an option may have with a test that is simulated with it";
+  if (!choices.missed.empty())
+    return not_checked(compared,
+                       fmt::format("no rows could be made up that suit {}; give --experiment with a test of it",
+                                   fmt::join(choices.missed, ", ")));
+  return {.compared = compared, .note = fmt::format("{} other combinations", choices.cases.size())};
+}
+
 std::string words(const TestCase& test_case) {
   if (!test_case.from)
     return fmt::format("as '{}' in the experiment, with model '{}'", test_case.name, test_case.material.name);
   return fmt::format("with made-up rows: {}", test_case.from->words());
+}
+
+/// The same properties with the other choices of the options.
+void add_choices(Jobs& jobs, Finding head, const plugins::Catalogue::Entry<TestFactory>& entry, const TestCase& base,
+                 const CheckContext& context) {
+  if (base.from->choices.empty()) return;
+  const std::uint64_t seed = context.settings.seed;
+  // In a process of its own first, as above.
+  const Verdict able = isolated(
+      [&] {
+        static_cast<void>(choice_cases(entry, base, seed));
+        return Verdict{};
+      },
+      context.settings.time_limit);
+  constexpr const char* property_name = "every_choice_is_exercised";
+  if (!able.held()) return add(jobs, head, property_name, [able] { return able; });
+  const auto choices = std::make_shared<const ChoiceCases>(choice_cases(entry, base, seed));
+  add(jobs, head, property_name, [choices] { return choices_are_exercised(*choices); });
+  for (const TestCase& test_case : choices->cases) {
+    head.with = words(test_case);
+    for (const TestProperty& property : test_properties()) {
+      if (!is_of_formulas(property)) continue;
+      head.property = property.name;
+      head.advisory = property.advisory;
+      jobs.push_back({head, [choices, &test_case, property, seed] { return check_all(property, test_case, seed); }});
+    }
+  }
 }
 
 }  // namespace
@@ -129,6 +171,7 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
       jobs.push_back({head, [test_case, property, seed] { return check_all(property, *test_case, seed); }});
     }
   }
+  if (!cases.empty() && cases.front()->from) add_choices(jobs, head, entry, *cases.front(), context);
   return jobs;
 }
 

@@ -103,7 +103,7 @@ bool is_neo_hookean(const Model& model, const EnergyPart& part) {
   for (const Parameter& parameter : model.describe().parameters) start.push_back(parameter.initial);
   Invariant x;
   part.invariant(start, x, {});
-  return x.i1 == 1 && x.offset == -3 && x.i2 == 0 && x.fibre == 0 && x.normal == 0;
+  return x.i1 == 1 && x.offset == -3 && x.i2 == 0 && x.fibre == 0 && x.normal == 0 && x.across == 0;
 }
 
 using Change = std::function<std::unique_ptr<EnergyPart>(const std::shared_ptr<const Model>&, const EnergyPart&)>;

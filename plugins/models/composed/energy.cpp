@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "formula.hpp"
+#include "fused.hpp"
 #include "term_part.hpp"
 #include "tunica/error.hpp"
 #include "tunica/models/principal_stretches.hpp"
@@ -100,6 +101,42 @@ std::unique_ptr<Model> stretch_model(const std::vector<Parameter>& all, const st
   return makers.at(indices.size() / 2 - 1)(std::move(description));
 }
 
+/// All terms but those of the principal stretches.
+EnergyParts parts_of(const std::vector<Term>& terms, const Layout& layout) {
+  EnergyParts parts;
+  for (const Term& term : terms)
+    if (term.quantity != Quantity::stretches)
+      parts.push_back(std::make_unique<TermPart>(term, layout.of(term).law, layout.of(term).invariant));
+  return parts;
+}
+
+/// The same sum with the terms of I1 as one part, and those of I2 as another.
+EnergyParts fused_parts_of(const std::vector<Term>& terms, const Layout& layout) {
+  EnergyParts fused;
+  std::vector<Term> others;
+  for (const Quantity quantity : {Quantity::first_invariant, Quantity::second_invariant}) {
+    std::vector<Term> alike;
+    std::size_t parameters = 0;
+    for (const Term& term : terms) {
+      if (term.quantity != quantity) continue;
+      parameters += layout.of(term).law.size();
+      (parameters <= hyperelastic::max_part_parameters ? alike : others).push_back(term);
+    }
+    if (!alike.empty()) fused.push_back(std::make_unique<FusedPart>(parts_of(alike, layout)));
+  }
+  for (const Term& term : terms)
+    if (!term.isotropic()) others.push_back(term);
+  for (auto& part : parts_of(others, layout)) fused.push_back(std::move(part));
+  return fused;
+}
+
+std::unique_ptr<Model> hyperelastic_model(const ModelDescription& description, const std::vector<Term>& terms,
+                                          const Layout& layout) {
+  EnergyParts parts = parts_of(terms, layout), fused = fused_parts_of(terms, layout);
+  if (fused.size() == parts.size()) return std::make_unique<Hyperelastic>(description, std::move(parts));
+  return std::make_unique<FusedModel>(description, std::move(parts), std::move(fused));
+}
+
 }  // namespace
 
 std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
@@ -110,23 +147,21 @@ std::unique_ptr<Model> energy_of(const std::vector<Term>& terms) {
         fmt::format("\"terms\" have {} parameters together, and a model may have {}. Take terms or knots out.",
                     description.parameters.size(), hyperelastic::max_model_parameters));
   description.formula = formula_of(terms);
-  EnergyParts parts;
   std::vector<std::size_t> of_stretches;
   for (const Term& term : terms) {
     const Places& places = layout.of(term);
     add_admissible(term, places, description.admissible);
     if (term.quantity == Quantity::stretches)
       of_stretches.insert(of_stretches.end(), places.law.begin(), places.law.end());
-    else
-      parts.push_back(std::make_unique<TermPart>(term, places.law, places.invariant));
   }
-  if (of_stretches.empty()) return std::make_unique<Hyperelastic>(std::move(description), std::move(parts));
+  if (of_stretches.empty()) return hyperelastic_model(description, terms, layout);
   if (of_stretches.size() > 2 * most_stretch_terms)
     throw InputError(
         fmt::format("\"terms\" have {} terms of the principal stretches, and a model may have {}. Take "
                     "some out.",
                     of_stretches.size() / 2, most_stretch_terms));
-  auto invariants = parts.empty() ? nullptr : std::make_unique<Hyperelastic>(description, std::move(parts));
+  const bool alone = 2 * terms.size() == of_stretches.size();
+  auto invariants = alone ? nullptr : hyperelastic_model(description, terms, layout);
   auto of_principal = stretch_model(description.parameters, of_stretches);
   return std::make_unique<WithStretches>(std::move(description), std::move(invariants), std::move(of_principal),
                                          std::move(of_stretches));

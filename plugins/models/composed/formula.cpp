@@ -35,6 +35,8 @@ std::string invariant_words(const Term& term) {
       return "(I2 - 3)";
     case Quantity::radial:
       return "(C_rr - 1)";
+    case Quantity::across:
+      return term.family == Family::axial ? "C_zr" : term.family == Family::circumferential ? "C_tr" : "C_fr";
     case Quantity::coupling:
       return fmt::format("(I8 - cos 2 {}_theta)", angle);
     case Quantity::fibre:
@@ -69,7 +71,7 @@ std::string term_words(const Term& term) {
   std::string text = filled(term);
   if (term.law.name == "spline" || term.law.name == "inverse_langevin")
     text = fmt::format("[{}{}]", text, term.law.name == "spline" ? "" : ", x = " + invariant_words(term));
-  if (term.quantity == Quantity::fibre && term.family == Family::diagonal)
+  if (term.is_pair())
     text = fmt::format("sum over +-{}_theta of {}", term.angle_of.empty() ? term.name : term.angle_of, text);
   return text;
 }

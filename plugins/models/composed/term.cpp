@@ -22,7 +22,8 @@ using Words = std::vector<std::pair<std::string, Value>>;
 
 const Words<Quantity> quantities{{"I1", Quantity::first_invariant}, {"I2", Quantity::second_invariant},
                                  {"fibre", Quantity::fibre},        {"coupling", Quantity::coupling},
-                                 {"radial", Quantity::radial},      {"stretches", Quantity::stretches}};
+                                 {"radial", Quantity::radial},      {"across", Quantity::across},
+                                 {"stretches", Quantity::stretches}};
 const Words<Family> families{{"axial", Family::axial},
                              {"circumferential", Family::circumferential},
                              {"diagonal", Family::diagonal},
@@ -94,9 +95,14 @@ class Entry {
 
 /// What the invariant asks of the law, and what keys go with which invariant.
 void check(const Entry& entry, const Term& term) {
-  if (term.quantity != Quantity::fibre)
-    for (const char* key : {"family", "dispersion", "fibre_switch"})
-      if (entry.has(key)) entry.fail(fmt::format("\"{}\" goes with the invariant 'fibre' only", key), "Take it out");
+  const auto goes_with = [&entry](const char* key, bool fits, const char* words) {
+    if (entry.has(key) && !fits)
+      entry.fail(fmt::format("\"{}\" goes with the invariant {} only", key, words), "Take it out");
+  };
+  goes_with("family", term.has_family(), "'fibre' or 'across'");
+  goes_with("dispersion", term.quantity == Quantity::fibre, "'fibre'");
+  goes_with("fibre_switch", term.quantity == Quantity::fibre || term.quantity == Quantity::radial,
+            "'fibre' or 'radial'");
   if (entry.has("angle_of") && !term.is_angled())
     entry.fail("\"angle_of\" is given, and the term has no angle", "Take it out");
   if (entry.has("knots") && term.law.name != "spline")
@@ -104,9 +110,11 @@ void check(const Entry& entry, const Term& term) {
   if (!term.isotropic() && !term.law.rests)
     entry.fail(fmt::format("the law '{}' pulls at rest, which only I1 and I2 may", term.law.name),
                "Take quadratic, cubic, power, exponential_square or spline");
-  if (term.quantity == Quantity::coupling && !term.law.even)
+  if ((term.quantity == Quantity::coupling || term.quantity == Quantity::across) && !term.law.even)
     entry.fail(fmt::format("the law '{}' does not grow on both sides of 0, as a coupling needs it", term.law.name),
                "Take quadratic or exponential_square");
+  if (term.quantity == Quantity::radial && term.active == EnergyPart::Active::fibre_stretched)
+    entry.fail("\"fibre_switch\" is 'stretch', and the invariant 'radial' has no fibres", "Write strain or none");
 }
 
 Term read_term(const Json& json, std::size_t position) {
@@ -131,8 +139,10 @@ Term read_term(const Json& json, std::size_t position) {
     entry.fail(fmt::format("\"law\" is '{}'", law_name), fmt::format("Write one of {}", fmt::join(law_names(), ", ")));
   const auto knots = law_name == "spline" ? entry.knots() : std::vector<double>{};
   term.law = law(law_name, knots, term.isotropic());
+  if (term.has_family()) term.family = entry.word("family", families);
+  if (term.quantity == Quantity::radial)
+    term.active = entry.word("fibre_switch", switches, std::optional(EnergyPart::Active::always));
   if (term.quantity == Quantity::fibre) {
-    term.family = entry.word("family", families);
     term.dispersion = entry.word("dispersion", dispersions, std::optional(Dispersion::none));
     term.active = entry.word("fibre_switch", switches, std::optional(EnergyPart::Active::argument_positive));
   }

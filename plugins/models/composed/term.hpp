@@ -15,6 +15,7 @@ enum class Quantity {
   fibre,             ///< E of a family, its squared stretch less 1 without dispersion
   coupling,          ///< M1·C M2 − cos 2θ of the two families at ±θ
   radial,            ///< C_rr − 1, across the wall
+  across,            ///< M·C e_r, shear between a family and the normal of the wall
   stretches          ///< Σ over the principal stretches (Ogden)
 };
 enum class Family { axial, circumferential, diagonal, single };
@@ -36,9 +37,11 @@ struct Term {
   }
   /// Whether it depends on an angle that is a parameter.
   [[nodiscard]] bool is_angled() const {
-    return quantity == Quantity::coupling ||
-           (quantity == Quantity::fibre && (family == Family::diagonal || family == Family::single));
+    return quantity == Quantity::coupling || (has_family() && (family == Family::diagonal || family == Family::single));
   }
+  [[nodiscard]] bool has_family() const { return quantity == Quantity::fibre || quantity == Quantity::across; }
+  /// Whether it stands for two families, at ±θ.
+  [[nodiscard]] bool is_pair() const { return has_family() && family == Family::diagonal; }
 };
 
 /// From the JSON text of the option "terms". Throws InputError that says which term, what was found and what to do.

@@ -22,7 +22,7 @@ class TermPart final : public EnergyPart {
     // A coupling is no family that could be dispersed or taken up late.
     description_.role = quantity_ == Quantity::fibre ? Role::fibre : Role::matrix;
     description_.active = term.active;
-    description_.mirrored = quantity_ == Quantity::fibre && family_ == Family::diagonal;
+    description_.mirrored = term.is_pair();
     description_.invariant_parameters = std::move(invariant_parameters);
     description_.response_parameters = std::move(law_parameters);
     description_.linear = term.law.linear;
@@ -44,6 +44,9 @@ class TermPart final : public EnergyPart {
         return;
       case Quantity::coupling:
         return couple(own(parameters, 0) * degree, value, derivatives);
+      case Quantity::across:
+        value = {.across = 1};
+        return turn(parameters, value, derivatives);
       case Quantity::fibre:
       case Quantity::stretches:
         break;
@@ -70,13 +73,20 @@ class TermPart final : public EnergyPart {
     if (!derivatives.empty()) derivatives[0] = {.i1 = -slope, .normal = slope, .offset = 2 * slope};
   }
 
+  [[nodiscard]] bool is_angled() const { return family_ == Family::diagonal || family_ == Family::single; }
+  /// The family's angle, a parameter or fixed.
+  void turn(std::span<const double> parameters, Invariant& value, std::span<Invariant> derivatives) const {
+    if (family_ == Family::circumferential) value.angle = 90 * degree;
+    if (!is_angled()) return;
+    value.angle = own(parameters, 0) * degree;
+    if (!derivatives.empty()) derivatives[0] = {.angle = degree};
+  }
+
   /// M·CM − 1;  κ I1 + (1 − 3κ) M·CM − 1;  A I1 + B M·CM + (1 − 3A − B) C_rr − 1.
   void fibre(std::span<const double> parameters, Invariant& value, std::span<Invariant> derivatives) const {
-    const bool is_angled = family_ == Family::diagonal || family_ == Family::single;
-    const std::size_t first = is_angled ? 1 : 0;
+    const std::size_t first = is_angled() ? 1 : 0;
     value = {.fibre = 1, .offset = -1};
-    if (is_angled) value.angle = own(parameters, 0) * degree;
-    if (family_ == Family::circumferential) value.angle = 90 * degree;
+    turn(parameters, value, derivatives);
     if (dispersion_ == Dispersion::rotational) {
       const double kappa = own(parameters, first);
       value.i1 = kappa;
@@ -88,7 +98,6 @@ class TermPart final : public EnergyPart {
       value.normal = 1 - 3 * a - b;
     }
     if (derivatives.empty()) return;
-    if (is_angled) derivatives[0] = {.angle = degree};
     if (dispersion_ == Dispersion::rotational) derivatives[first] = {.i1 = 1, .fibre = -3};
     if (dispersion_ == Dispersion::two_planes) {
       derivatives[first] = {.i1 = 1, .normal = -3};

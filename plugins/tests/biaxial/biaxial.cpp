@@ -21,12 +21,19 @@ bool all_finite(std::span<const double> values) {
 /// be solved. With the squared stretches c and S = 2 ∂W/∂C
 ///
 ///   σ_a = c_a S_aa − c_r S_rr,   a = t, z                                (physics: docs/theory.md, biaxial sheet)
+///
+/// A sheet may be cut at an angle to the axes of the material. t and z are then its own axes, clamps keep it from
+/// shearing, and the shear stress that they bear is a diagnostic.
 class Biaxial final : public Test {
  public:
   explicit Biaxial(const TestSetup& setup) : sheet_(bind(setup)) {
     description_.diagnostics = {"normal_stretch"};
     description_.diagnostic_units = {"1"};
-    description_.path_derivatives = true;
+    if (sheet_.angle != 0) {
+      description_.diagnostics.emplace_back("shear_stress");
+      description_.diagnostic_units.emplace_back("kPa");
+    }
+    description_.path_derivatives = sheet_.angle == 0;
     rows_.count = sheet_.count();
     for (std::size_t k = 0; k < sheet_.columns.size(); ++k) {
       rows_.abscissae.push_back({sheet_.names[k], sheet_.columns[k]});
@@ -42,7 +49,7 @@ class Biaxial final : public Test {
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
     const Response::Wants wants{!output.abscissa_derivative.empty(), !output.jacobian.empty()};
-    const bool followed = model.axis_history_size > 0;
+    const bool followed = model.axis_history_size > 0 && sheet_.angle == 0;
     if (model.history_size > 0 && (wants.tangent || (wants.parameters && !followed)))
       return Status::failed("biaxial: no exact Jacobian along the path of a model with history");
     if (!model.parameter_derivatives && !followed && wants.parameters)
@@ -55,8 +62,11 @@ class Biaxial final : public Test {
     set_stretches(columns, r.c);
     if (!output.diagnostics.empty())
       for (std::size_t i = 0; i < n; ++i) output.diagnostics[i] = std::sqrt(r.c[2 * n + i]);
-    if (Status status = r.evaluate(input.model, input.model_parameters, sheet_.time, n, wants); !status.ok())
+    if (Status status = r.evaluate(input.model, input.model_parameters, sheet_.time, n, sheet_.angle, wants);
+        !status.ok())
       return status;
+    if (sheet_.angle != 0 && !output.diagnostics.empty())  // σ_tz = λt λz S_tz
+      for (std::size_t i = 0; i < n; ++i) output.diagnostics[n + i] = std::sqrt(r.c[i] * r.c[n + i]) * r.shear[i];
 
     for (std::size_t i = 0; i < n; ++i) {
       const InPlane stress = cauchy(r, r.stress, i), factor = measure(r, i);
@@ -157,7 +167,11 @@ TestFactory factory() {
                       "Which stretches the data have: both (general), one for both directions (equibiaxial), or one "
                       "while the other is held at 1 (pure_shear)."),
        Option::choice("direction", {"circumferential", "axial"}, "circumferential",
-                      "The direction that is pulled in pure shear; the other protocols do not ask for it.")},
+                      "The direction that is pulled in pure shear; the other protocols do not ask for it."),
+       Option::quantity("angle", "deg", -360,
+                        "Turn of the sheet's circumferential and axial axes from those of the material, from axial "
+                        "towards circumferential. Clamps keep the sheet from shearing.",
+                        0.0)},
       {{"stretch_circumferential", "1", Role::abscissa, false, "Circumferential stretch (protocol general).",
         Kind::stretch},
        {"stretch_axial", "1", Role::abscissa, false, "Axial stretch (protocol general).", Kind::stretch},

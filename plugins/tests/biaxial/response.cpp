@@ -2,6 +2,8 @@
 #include "response.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "tunica/detail/axis_path.hpp"
 
@@ -11,11 +13,32 @@ namespace {
 /// (a, b) of the six pairs tt, zz, rr, tz, zr, tr.
 constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
+using Tensor = std::array<double, 6>;  // tt, zz, rr, tz, zr, tr
+
+/// The sheet's axes e_t', e_z', e_r as tensors over the material's: e⊗e of each, and e_t'⊗e_z' made symmetric.
+struct Turned {
+  std::array<Tensor, 3> along;
+  Tensor across;
+
+  /// z turns towards t, and t away from z.
+  explicit Turned(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    along = {{{c * c, s * s, 0, -s * c, 0, 0}, {s * s, c * c, 0, s * c, 0, 0}, {0, 0, 1, 0, 0, 0}}};
+    across = {s * c, -s * c, 0, 0.5 * (c * c - s * s), 0, 0};
+  }
+};
+
+/// A : B, off-diagonal entries of both count twice.
+double contract(const Tensor& a, const double* b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
 }  // namespace
 
 void Response::reserve(std::size_t n, std::size_t parameters) {
   if (c.size() < 3 * n) {
     c.resize(3 * n);
+    shear.resize(n);
     stress.resize(3 * n);
     tangent.resize(6 * n);
   }
@@ -23,15 +46,16 @@ void Response::reserve(std::size_t n, std::size_t parameters) {
 }
 
 Status Response::evaluate(const Model& model, std::span<const double> parameters, std::span<const double> time,
-                          std::size_t n, Wants wants) {
+                          std::size_t n, double angle, Wants wants) {
   const ModelDescription& description = model.describe();
+  if (angle != 0) return on_tensors(model, parameters, time, n, angle, wants);
   if (description.principal_axes && description.history_size == 0) return on_axes(model, parameters, n, wants);
   if (description.axis_history_size > 0 && !wants.tangent) {
     if (wants.parameters || model.remembers(parameters)) return on_path(model, parameters, time, n, wants);
     const Model& elastic = model.elastic();
     return on_axes(elastic, parameters.first(elastic.describe().parameters.size()), n, wants);
   }
-  return on_tensors(model, parameters, time, n, wants);
+  return on_tensors(model, parameters, time, n, 0, wants);
 }
 
 Status Response::on_axes(const Model& model, std::span<const double> parameters, std::size_t n, Wants wants) {
@@ -72,16 +96,21 @@ Status Response::on_path(const Model& model, std::span<const double> parameters,
 }
 
 Status Response::on_tensors(const Model& model, std::span<const double> parameters, std::span<const double> time,
-                            std::size_t n, Wants wants) {
+                            std::size_t n, double angle, Wants wants) {
   const std::size_t history = model.describe().history_size, count = parameters.size();
-  tensor_.assign(6, 0);
+  const Turned axes(angle);
+  tensor_.resize(6);
   tensor_stress_.resize(6);
   tensor_tangent_.resize(36);
   tensor_stress_dp_.resize(6 * count);
   old_state_.resize(history);
   new_state_.resize(history);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t a = 0; a < 3; ++a) tensor_[a] = c[a * n + i];
+    // C = Σ c_a e_a⊗e_a
+    for (std::size_t k = 0; k < 6; ++k) {
+      tensor_[k] = 0;
+      for (std::size_t a = 0; a < 3; ++a) tensor_[k] += c[a * n + i] * axes.along[a][k];
+    }
     double step = 0;
     if (!time.empty()) step = i == 0 ? std::max(0.0, time[0]) : time[i] - time[i - 1];
     Status status = model.evaluate({1,
@@ -96,13 +125,18 @@ Status Response::on_tensors(const Model& model, std::span<const double> paramete
                                     new_state_});
     if (!status.ok()) return status;
     std::swap(old_state_, new_state_);
+    // e_a·S e_a, and e_a⊗e_a : 2 ∂S/∂C : e_b⊗e_b
+    shear[i] = contract(axes.across, tensor_stress_.data());
     for (std::size_t a = 0; a < 3; ++a) {
-      stress[a * n + i] = tensor_stress_[a];
+      stress[a * n + i] = contract(axes.along[a], tensor_stress_.data());
       for (std::size_t j = 0; wants.parameters && j < count; ++j)
-        stress_dp[(3 * j + a) * n + i] = tensor_stress_dp_[6 * j + a];
+        stress_dp[(3 * j + a) * n + i] = contract(axes.along[a], &tensor_stress_dp_[6 * j]);
     }
-    for (std::size_t k = 0; wants.tangent && k < 6; ++k)
-      tangent[k * n + i] = tensor_tangent_[6 * pair[k][0] + pair[k][1]];
+    for (std::size_t k = 0; wants.tangent && k < 6; ++k) {
+      Tensor row;
+      for (std::size_t p = 0; p < 6; ++p) row[p] = contract(axes.along[pair[k][1]], &tensor_tangent_[6 * p]);
+      tangent[k * n + i] = contract(axes.along[pair[k][0]], row.data());
+    }
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tunica::biaxial {
 namespace {
@@ -86,6 +87,7 @@ Sheet bind(const TestSetup& setup) {
                    : word == "pure_shear" ? Protocol::pure_shear
                                           : Protocol::general;
   sheet.pulled = setup.options.text("direction") == "axial" ? 1 : 0;
+  sheet.angle = setup.options.number("angle") * std::numbers::pi / 180;
   sheet.power = setup.stress_measure == "first_piola_kirchhoff"    ? 1
                 : setup.stress_measure == "second_piola_kirchhoff" ? 2
                                                                    : 0;

@@ -21,6 +21,7 @@ using InPlane = std::array<double, 2>;
 struct Sheet {
   Protocol protocol = Protocol::general;
   std::size_t pulled = 0;                    ///< of pure shear
+  double angle = 0;                          ///< from the material's axes to the sheet's, z towards t, radians
   int power = 0;                             ///< stress in the data's measure = Cauchy stress / λ^power
   std::vector<InPlane> channels;             ///< weight of the stress in each direction
   std::vector<std::vector<double>> columns;  ///< the mapped abscissae, in the order of the mapping

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "uniaxial.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -18,7 +20,27 @@ std::vector<Parameter> own_parameters() {
            "Angle between the pulled direction and the nominal material axis.", ""}};
 }
 
-/// A strip pulled along the circumferential or axial direction, its lateral faces free.
+/// Whether a strip along an axis may bear shear stress, as one family at an angle makes it. The Jacobian by the
+/// misalignment is then not 0. Parts tell; of a model without parts a stretched and a compressed strip do.
+bool may_shear(const TestInput& input) {
+  const auto parts = input.model.parts();
+  if (!parts.empty())
+    return std::any_of(parts.begin(), parts.end(), [&input](const auto& part) {
+      Invariant x;
+      part->invariant(input.model_parameters, x, {});
+      return !part->describe().mirrored && x.fibre != 0 && std::abs(std::sin(2 * x.angle)) > 1e-12;
+    });
+  constexpr std::array stretches{1.1, 0.9};
+  return std::any_of(stretches.begin(), stretches.end(), [&input](double stretch) {
+    const std::array<double, 6> C{stretch * stretch, 1 / stretch, 1 / stretch, 0, 0, 0};
+    std::array<double, 6> S{};
+    const Status status = input.model.evaluate({1, C, input.model_parameters, {}, {}}, {{}, S, {}, {}, {}});
+    return status.ok() && std::abs(S[3]) > 1e-12 * std::abs(S[0]);
+  });
+}
+
+/// A strip pulled along the circumferential or axial direction, or cut at an angle to it. Its lateral faces are free,
+/// and the grips keep it from shearing.
 class Uniaxial final : public Test {
  public:
   explicit Uniaxial(const TestSetup& setup) : axes_(bind(setup)), memory_(strip_) {
@@ -26,8 +48,9 @@ class Uniaxial final : public Test {
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
-    description_.free_strip_axis = strip_.loaded;
-    description_.path_derivatives = true;
+    const bool along_an_axis = strip_.turn == 0;
+    if (along_an_axis) description_.free_strip_axis = strip_.loaded;
+    description_.path_derivatives = along_an_axis;
     description_.path_exceptions = {"misalignment"};
   }
 
@@ -37,6 +60,7 @@ class Uniaxial final : public Test {
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const ModelDescription& model = input.model.describe();
     const double misalignment = input.test_parameters[0];
+    if (strip_.turn != 0) return predict_on_tensors(strip_, input, strip_.turn + misalignment, output);
     if (misalignment == 0 && model.axis_history_size > 0) return predict_with_memory(input, output);
     if (misalignment != 0 || model.history_size > 0 || !model.principal_axes)
       return predict_on_tensors(strip_, input, misalignment, output);
@@ -47,6 +71,7 @@ class Uniaxial final : public Test {
 
  private:
   Status predict_on_axes(const TestInput& input, const TestOutput& output) const {
+    if (!output.jacobian.empty() && may_shear(input)) return predict_on_tensors(strip_, input, 0, output);
     Status status = axes_.predict(strip_, input, output);
     // At α = 0 the mirrored families make every channel even in α.
     if (status.ok() && !output.jacobian.empty()) {
@@ -76,6 +101,8 @@ class Uniaxial final : public Test {
     const bool circumferential = setup.options.text("direction") == "circumferential";
     strip_.loaded = circumferential ? 0 : 1;
     strip_.transverse = 1 - strip_.loaded;
+    // The angle turns z towards t, and t away from z; a misalignment turns the pulled axis towards the other one.
+    strip_.turn = circumferential ? -setup.options.number("angle") : setup.options.number("angle");
     strip_.measure = setup.stress_measure == "first_piola_kirchhoff"    ? Measure::first_piola_kirchhoff
                      : setup.stress_measure == "second_piola_kirchhoff" ? Measure::second_piola_kirchhoff
                                                                         : Measure::cauchy;
@@ -114,7 +141,11 @@ TestFactory factory() {
   return {"uniaxial",
           "A strip pulled along the circumferential or axial direction, lateral faces free.",
           "Holzapfel & Ogden, J. R. Soc. Interface 7:787 (2010)",
-          {Option::choice("direction", {"circumferential", "axial"}, {}, "Material axis the strip is pulled along.")},
+          {Option::choice("direction", {"circumferential", "axial"}, {}, "Material axis the strip is pulled along."),
+           Option::quantity("angle", "deg", -360,
+                            "Turn of the strip from that axis, from axial towards circumferential. The grips keep the "
+                            "strip from shearing.",
+                            0.0)},
           {{"stretch", "1", Observable::Role::abscissa, true, "Stretch along the strip.", Observable::Kind::stretch},
            {"time", "s", Observable::Role::time, false, "Time since the unloaded state.", Observable::Kind::plain},
            {"stress", "kPa", Observable::Role::channel, false, "Stress along the strip.", Observable::Kind::stress},

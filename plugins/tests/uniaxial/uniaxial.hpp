@@ -15,6 +15,7 @@ enum class Channel { stress, transverse_stretch, normal_stretch };
 /// (0 = circumferential, 1 = axial), `transverse` the other in-plane axis, 2 the normal (radial) one.
 struct Strip {
   std::size_t loaded = 0, transverse = 1;
+  double turn = 0;  ///< from `loaded` to the strip, in the sense of the misalignment, degrees
   Measure measure = Measure::cauchy;
   std::vector<Channel> channels;
   std::vector<double> stretch;

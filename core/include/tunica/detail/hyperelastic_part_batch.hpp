@@ -20,9 +20,10 @@ constexpr std::size_t chunk = 64;  ///< points at a time
 constexpr std::size_t max_model_parameters = 64;
 constexpr std::size_t max_part_parameters = 16;  ///< invariant or response parameters of one part
 
-/// The structural tensor A of an invariant x = A : C + i2 I2 + offset for one fibre family, components tt, zz, rr, tz.
+/// The structural tensor A of an invariant x = A : C + i2 I2 + offset for one fibre family, components tt, zz, rr, tz,
+/// zr, tr.
 struct Structure {
-  double tt = 0, zz = 0, rr = 0, tz = 0, i2 = 0, offset = 0;
+  double tt = 0, zz = 0, rr = 0, tz = 0, i2 = 0, offset = 0, zr = 0, tr = 0;
 };
 
 /// Sine and cosine of a fibre angle; `side` is +1 or −1: the family at +angle or at −angle.
@@ -39,19 +40,22 @@ struct Direction {
 };
 
 inline Structure structure(const Invariant& v, const Direction& m) {
-  return {v.i1 + v.fibre * m.s * m.s, v.i1 + v.fibre * m.c * m.c, v.i1 + v.normal, v.fibre * m.s * m.c, v.i2, v.offset};
+  return {v.i1 + v.fibre * m.s * m.s, v.i1 + v.fibre * m.c * m.c, v.i1 + v.normal, v.fibre * m.s * m.c, v.i2, v.offset,
+          0.5 * v.across * m.c,       0.5 * v.across * m.s};
 }
 
 /// Derivative of the structure by a parameter; d holds the derivative of the coefficients, for the family at +angle.
 inline Structure structure_derivative(const Invariant& v, const Invariant& d, const Direction& m, double side) {
-  const double by_angle = v.fibre * side * d.angle;
+  const double turn = side * d.angle, by_angle = v.fibre * turn;  // ∂s = c turn, ∂c = −s turn
   const double sc = m.s * m.c;
   return {d.i1 + d.fibre * m.s * m.s + 2 * sc * by_angle,
           d.i1 + d.fibre * m.c * m.c - 2 * sc * by_angle,
           d.i1 + d.normal,
           d.fibre * sc + (m.c * m.c - m.s * m.s) * by_angle,
           d.i2,
-          d.offset};
+          d.offset,
+          0.5 * (d.across * m.c - v.across * m.s * turn),
+          0.5 * (d.across * m.s + v.across * m.c * turn)};
 }
 
 /// Response of one part at up to `chunk` points; what is not wanted stays untouched.

@@ -9,18 +9,14 @@ namespace tunica::hyperelastic {
 /// ∂x/∂C in tensor components tt, zz, rr, tz, zr, tr at one point: A + i2 (I1 1 − C).
 inline std::array<double, 6> invariant_slope(const Structure& a, const std::array<double, 6>& C) {
   const double i1 = C[0] + C[1] + C[2];
-  return {a.tt + a.i2 * (i1 - C[0]),
-          a.zz + a.i2 * (i1 - C[1]),
-          a.rr + a.i2 * (i1 - C[2]),
-          a.tz - a.i2 * C[3],
-          -a.i2 * C[4],
-          -a.i2 * C[5]};
+  return {a.tt + a.i2 * (i1 - C[0]), a.zz + a.i2 * (i1 - C[1]), a.rr + a.i2 * (i1 - C[2]),
+          a.tz - a.i2 * C[3],        a.zr - a.i2 * C[4],        a.tr - a.i2 * C[5]};
 }
 
 /// A : C + i2 I2 + offset, I2 = ½ (I1² − tr C²)
 inline double invariant_value(const Structure& a, const std::array<double, 6>& C) {
   const double i2 = C[0] * C[1] + C[1] * C[2] + C[2] * C[0] - C[3] * C[3] - C[4] * C[4] - C[5] * C[5];
-  return a.tt * C[0] + a.zz * C[1] + a.rr * C[2] + 2 * a.tz * C[3] + a.i2 * i2 + a.offset;
+  return a.tt * C[0] + a.zz * C[1] + a.rr * C[2] + 2 * (a.tz * C[3] + a.zr * C[4] + a.tr * C[5]) + a.i2 * i2 + a.offset;
 }
 
 /// Adds one family of one part at the points [begin, begin + m); side as in structure().

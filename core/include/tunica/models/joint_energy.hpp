@@ -111,9 +111,10 @@ class JointEnergy final : public Model {
       for (std::size_t j = 0; j < parameters; ++j)
         for (std::size_t k = 0; k < m; ++k) {
           const auto& v = by_p[k];
-          const Invariant d{v.i1.v[j], v.i2.v[j], v.fibre.v[j], v.normal.v[j], v.offset.v[j], v.angle.v[j]};
-          moves[j] =
-              moves[j] || d.i1 != 0 || d.i2 != 0 || d.fibre != 0 || d.normal != 0 || d.offset != 0 || d.angle != 0;
+          const Invariant d{v.i1.v[j],     v.i2.v[j],     v.fibre.v[j], v.normal.v[j],
+                            v.across.v[j], v.offset.v[j], v.angle.v[j]};
+          moves[j] = moves[j] || d.i1 != 0 || d.i2 != 0 || d.fibre != 0 || d.normal != 0 || d.across != 0 ||
+                     d.offset != 0 || d.angle != 0;
           x_dp[j][k] = hyperelastic::structure_derivative(values[k], d, direction[k], 1);
         }
     }

@@ -35,7 +35,7 @@ class LawPart final : public EnergyPart {
       for (std::size_t j = 0; j < model_parameters; ++j) jets[j] = Jet(parameters[j]);
       jets[description_.invariant_parameters[k]].v[0] = 1;
       const InvariantOf<Jet> x = Geometry::template invariant<Jet>(std::span<const Jet>(jets));
-      derivatives[k] = {x.i1.v[0], x.i2.v[0], x.fibre.v[0], x.normal.v[0], x.offset.v[0], x.angle.v[0]};
+      derivatives[k] = {x.i1.v[0], x.i2.v[0], x.fibre.v[0], x.normal.v[0], x.across.v[0], x.offset.v[0], x.angle.v[0]};
     }
   }
 

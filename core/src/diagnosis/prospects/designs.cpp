@@ -75,9 +75,13 @@ double shortest_time(const Evidence& evidence, const plugins::Catalogue& catalog
 std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& catalogue) {
   std::vector<Plan> found;
   const double reach = std::clamp(evidence.base->models().largest_stretch(), 1.15, 8.0);
+  const auto uniaxial = catalogue.tests().find("uniaxial");
+  const Options of_strip =
+      uniaxial != catalogue.tests().end() ? default_options(uniaxial->second.factory.options) : Options{};
   const auto strip = [&](std::string description, const char* direction, std::vector<double> stretch,
                          std::vector<double> time) -> Plan& {
-    Plan plan{std::move(description), "uniaxial", {}, {{"stretch", std::move(stretch)}}, std::move(time), {"stress"}};
+    Plan plan{std::move(description), "uniaxial", of_strip, {{"stretch", std::move(stretch)}},
+              std::move(time),        {"stress"}};
     plan.options.set("direction", std::string(direction));
     found.push_back(std::move(plan));
     return found.back();
