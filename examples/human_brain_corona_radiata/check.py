@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """check.py RESULTS: one power of the stretches near -20 carries tension, compression and shear of brain tissue; nothing in
-I1 and I2 alone could. The curves are smooth means, so what it leaves is not noise, and that is said too."""
+I1 and I2 alone could. Held out, shear is predicted. The curves are smooth means, so what is left is not noise, and that
+is said too."""
 import json
 import os
 import pathlib
