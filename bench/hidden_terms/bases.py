@@ -4,8 +4,9 @@ import typing
 
 import numpy as np
 
-from .deformation import Array, Material, Part
 from . import laws, protocol
+from .deformation import Material, Part
+from .laws import Array
 
 
 class Free(typing.NamedTuple):

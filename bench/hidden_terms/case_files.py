@@ -10,7 +10,7 @@ import typing
 import numpy as np
 
 from .bases import BOUNDS
-from .deformation import Array
+from .laws import Array
 from .protocol import Curve, channel_slices
 
 SEAL = "truth.sha256"

@@ -8,7 +8,8 @@ from scipy.optimize import least_squares
 
 from . import laws
 from .bases import Form, with_term
-from .deformation import Array, Material, Part
+from .deformation import Material, Part
+from .laws import Array
 from .protocol import Curve, observe, reach
 
 
@@ -38,7 +39,7 @@ def refit(form: Form, protocol: typing.Sequence[Curve], y: Array, sd: Array, sta
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # overflow far from the minimum
-        found = least_squares(left, begin, bounds=(low, high), x_scale="jac", xtol=1e-9, ftol=1e-9, max_nfev=60)
+        found = least_squares(left, begin, bounds=(low, high), x_scale="jac", xtol=1e-8, ftol=1e-7, max_nfev=60)
     return Fit(found.x, form.at(found.x), 2 * found.cost, found.jac)
 
 
@@ -83,9 +84,8 @@ def dial(readings: typing.Callable[[float], Array], noise: typing.Callable[[Arra
     raise Unreachable
 
 
-FLEXIBLE = {"I1": ("exponential", "power", "gent"), "I2": ("linear", "exponential", "power"),
-            "axial": ("exponential_square", "power"), "circumferential": ("exponential_square", "power"),
-            "diagonal": ("exponential_square", "power")}
+FLEXIBLE = {"I1": ("exponential", "power"), "I2": ("exponential", "power"), "axial": ("exponential_square",),
+            "circumferential": ("exponential_square",), "diagonal": ("exponential_square",)}
 
 
 def rivals(form: Form, protocol: typing.Sequence[Curve], y: Array, sd: Array, truth: Part,
@@ -102,7 +102,11 @@ def rivals(form: Form, protocol: typing.Sequence[Curve], y: Array, sd: Array, tr
             shape = laws.draw(law, span, np.random.default_rng(0))
             amplitude = laws.PARAMETERS[law][0]
             shape[amplitude] = 0.1 * float(np.max(np.abs(y))) / max(float(laws.slope(law, np.array([span]), shape)[0]), 1e-9)
-            found.append(refit(with_term(form, part._replace(values={**part.values, **shape}), span), protocol, y, sd).chi2)
+            rival = with_term(form, part._replace(values={**part.values, **shape}), span)
+            # A diagonal family within 15° of an axis would be the family along that axis.
+            free = [f._replace(low=15.0, high=75.0) if f.part == len(form.material) and f.name == "theta" else f
+                    for f in rival.free]
+            found.append(refit(rival._replace(free=tuple(free)), protocol, y, sd).chi2)
         left[invariant] = round(min(found), 2)
     return left
 

@@ -9,7 +9,8 @@ import numpy as np
 from . import laws
 from .bases import Form, RUBBERS, curves, draw, with_term
 from .case_files import Noise, SEAL, draw_noise, write_case
-from .deformation import Array, Part
+from .deformation import Part
+from .laws import Array
 from .fitting import Unreachable, dial, misfit, refit, rivals, slope_error
 from .protocol import Curve, RigError, channel_slices, observe, reach
 
@@ -25,7 +26,7 @@ class Spec(typing.NamedTuple):
     what: str
     base: str
     target: float
-    index: int
+    number: int
     noise: str
     stated: bool
 
@@ -135,7 +136,7 @@ def hide(spec: Spec, random: np.random.Generator) -> typing.Tuple[
 
 def make(spec: Spec, seed: int, out: pathlib.Path) -> str:
     """Writes the case of a specification below out/cases and out/truths; its name. A case that is there stays."""
-    stream = [seed, zlib.crc32(f"{spec.what} {spec.base}".encode()), int(spec.target), spec.index]
+    stream = [seed, zlib.crc32(f"{spec.what} {spec.base}".encode()), int(spec.target), spec.number]
     random = np.random.default_rng(stream)
     name = f"{int(random.integers(1 << 40)):010x}"
     if (out / "cases" / name / SEAL).exists():
@@ -155,7 +156,7 @@ def make(spec: Spec, seed: int, out: pathlib.Path) -> str:
     free = [level_is_free(spec.base, part.invariant) for part in parts]
     errors, chi2 = oracle(form, protocol, clean, sd, noisy, parts, grids, free, random) if parts else ([], 0.0)
     truth = {"what": spec.what, "base": spec.base, "lambda": spec.target, "noise": spec.noise, "stated": spec.stated,
-             "seed": seed, "index": spec.index, "attempts": attempt + 1,
+             "seed": seed, "index": spec.number, "attempts": attempt + 1,
              "base_parameters": [[part.invariant, part.law, part.values] for part in form.material],
              "rig": None if error is None else {**error._asdict(), "curve": protocol[error.curve].name},
              "terms": [{"invariant": part.invariant, "law": part.law, "parameters": part.values, "free_level": level,

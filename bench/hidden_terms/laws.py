@@ -5,8 +5,9 @@ x has any shape and no unit; ψ' has the shape of x, in kPa. Parameters come as 
 import typing
 
 import numpy as np
+import numpy.typing as npt
 
-Array = np.ndarray
+Array = npt.NDArray[typing.Any]
 Values = typing.Dict[str, float]
 
 # Parameters of every law; the first is the amplitude, in which ψ' is linear.
@@ -30,7 +31,7 @@ def langevin(beta: Array) -> Array:
 def inverse_langevin(y: Array) -> Array:
     """β with L(β) = y, 0 ≤ y < 1: Newton's method from Cohen's quotient (1991)."""
     y = np.minimum(np.asarray(y, float), 1 - 1e-9)
-    beta = y * (3 - y * y) / (1 - y * y)
+    beta: Array = y * (3 - y * y) / (1 - y * y)
     for _ in range(12):
         big = np.maximum(beta, 1e-2)
         slope = np.where(beta < 1e-2, 1 / 3 - beta**2 / 15, 1 / big**2 - 1 / np.sinh(np.minimum(big, 300.0))**2)
@@ -40,7 +41,10 @@ def inverse_langevin(y: Array) -> Array:
 
 def slope(law: str, x: Array, p: Values) -> Array:
     """ψ'(x). Below 0 it is that at 0, so that slack fibres carry nothing; beyond a limit of stretch, that just before."""
-    x = np.maximum(x, 0.0)
+    return np.asarray(_slope(law, np.maximum(x, 0.0), p), float)
+
+
+def _slope(law: str, x: Array, p: Values) -> typing.Any:
     if law == "linear":
         return np.full_like(x, p["mu"] / 2)
     if law == "quadratic":

@@ -7,9 +7,8 @@ import typing
 
 import numpy as np
 
-from .deformation import Array, Material, Part, free_strip, invariant_of, shear_stress, stress
-
-
+from .deformation import Material, Part, free_strip, invariant_of, shear_stress, stress
+from .laws import Array
 
 
 class Curve(typing.NamedTuple):
@@ -54,17 +53,17 @@ def stretches(curve: Curve, scale: float = 1, offset: float = 0) -> typing.Tuple
 def measured(curve: Curve, material: Material, scale: float = 1, offset: float = 0) -> Array:
     """Channels (1 or 2 rows) by n rows, before the load cell errs."""
     if curve.kind == "simple_shear":
-        return shear_stress(material, curve.load * scale + offset)[None, :]
+        return np.array([shear_stress(material, curve.load * scale + offset)])
     if curve.kind.startswith("uniaxial"):
         pulled = curve.load * scale + offset
         l1, l2 = free_strip(material, pulled, curve.axis)
         found = stress(material, l1, l2)[curve.axis - 1]
-        return (found / pulled if curve.nominal else found)[None, :]
+        return np.array([found / pulled if curve.nominal else found])
     l1, l2 = stretches(curve, scale, offset)
     both = stress(material, l1, l2)
     if curve.kind == "sheet":
         return np.array(both)
-    return (both[0] / l1)[None, :]
+    return np.array([both[0] / l1])
 
 
 def observe(protocol: typing.Sequence[Curve], material: Material, error: typing.Optional[RigError] = None) -> Array:
@@ -76,7 +75,7 @@ def observe(protocol: typing.Sequence[Curve], material: Material, error: typing.
         offset = wrong.amount if wrong is not None and wrong.kind == "stretch_offset" else 0.0
         y = measured(curve, material, scale, offset)
         if wrong is not None:
-            rows = slice(None) if wrong.channel < 0 else wrong.channel
+            rows = slice(None) if wrong.channel < 0 else slice(wrong.channel, wrong.channel + 1)
             gone = np.linspace(0, 1, y.shape[1])
             if wrong.kind == "force_offset":
                 y[rows] += wrong.amount
@@ -154,5 +153,3 @@ def tissue(material: Material, random: np.random.Generator) -> typing.List[Curve
         protocol.append(Curve(f"sheet_{index + 1}", "sheet", share, most=(round(around * most, 4), round(along * most, 4))))
     return protocol
 
-
-__all__ = ["Curve", "RigError", "observe", "measured", "stretches", "channel_slices", "reach", "rubber", "tissue"]
