@@ -77,17 +77,21 @@ def is_isotropic(material: Material) -> bool:
     return all(part.invariant in ("I1", "I2", "product", "stretches") for part in material)
 
 
-def free_strip(material: Material, stretch: Array, along: int) -> typing.Tuple[Array, Array]:
-    """λ1 and λ2 of a strip that is pulled along axis 1 or 2, its side free: root of the other stress in ln λ, by
-    Chandrupatla's method (1997) at all rows at once."""
+def free_strip(material: Material, stretch: Array, along: typing.Union[int, Array]) -> typing.Tuple[Array, Array]:
+    """λ1 and λ2 of strips that are pulled along axis 1 or 2 (each row's), their sides free: root of the other stress in
+    ln λ, by Chandrupatla's method (1997) at all rows at once."""
+    around = np.broadcast_to(np.asarray(along) == 1, stretch.shape)
+
+    def placed(side: Array) -> typing.Tuple[Array, Array]:
+        return np.where(around, stretch, side), np.where(around, side, stretch)
+
     if is_isotropic(material):
-        side = stretch**-0.5
-        return (stretch, side) if along == 1 else (side, stretch)
+        return placed(stretch**-0.5)
     pulled = np.log(stretch)
 
     def other(log_side: Array) -> Array:
-        side = np.exp(log_side)
-        return stress(material, stretch, side)[1] if along == 1 else stress(material, side, stretch)[0]
+        s1, s2 = stress(material, *placed(np.exp(log_side)))
+        return np.where(around, s2, s1)
 
     a, b = -2.5 * np.abs(pulled) - 0.02, 0.6 * np.abs(pulled) + 0.02
     fa, fb = other(a), other(b)
@@ -112,8 +116,7 @@ def free_strip(material: Material, stretch: Array, along: int) -> typing.Tuple[A
             smooth = (phi**2 < xi) & ((1 - phi)**2 < 1 - xi) & np.isfinite(inverse)
             margin = np.minimum(2e-12 / np.maximum(np.abs(b - a), 1e-300), 0.5)
         t = np.clip(np.where(smooth, inverse, 0.5), margin, 1 - margin)
-    side = np.exp(root)
-    return (stretch, side) if along == 1 else (side, stretch)
+    return placed(np.exp(root))
 
 
 def shear_stress(material: Material, gamma: Array) -> Array:

@@ -64,19 +64,28 @@ def dial(readings: typing.Callable[[float], Array], noise: typing.Callable[[Arra
          protocol: typing.Sequence[Curve], target: float, most: float, random: np.random.Generator) -> float:
     """The amplitude at which Λ is `target` within 3 %: bisection in its logarithm, steps by Λ ∝ amplitude² first.
 
-    `most` bounds it, as a factor on the amplitude that the caller starts from; readings(a) are without noise."""
+    `most` bounds it, as a factor on the amplitude that the caller starts from; readings(a) are without noise. Refits
+    start from the last one; what ends the search is checked from other starts."""
+    last = form.start()
+
     def at(amplitude: float) -> float:
+        nonlocal last
         y = readings(amplitude)
-        return misfit(form, protocol, y, noise(y), random)
+        found = refit(form, protocol, y, noise(y), last)
+        last = found.unknowns
+        return found.chi2
 
     if at(most) < target:
         raise Unreachable
     low, high = 0.0, most
-    amplitude = most / 4
+    amplitude, last = most / 4, form.start()
     for _ in range(40):
         found = at(amplitude)
         if abs(found / target - 1) < 0.03:
-            return amplitude
+            y = readings(amplitude)
+            found = min(found, misfit(form, protocol, y, noise(y), random))
+            if abs(found / target - 1) < 0.03:
+                return amplitude
         low, high = (amplitude, high) if found < target else (low, amplitude)
         guess = amplitude * np.sqrt(target / max(found, 1e-6))
         inside = low < guess < high
@@ -100,15 +109,28 @@ def rivals(form: Form, protocol: typing.Sequence[Curve], y: Array, sd: Array, tr
             part = Part(invariant, law, {"theta": 45.0} if invariant == "diagonal" else {})
             span = reach(protocol, form.material, part)
             shape = laws.draw(law, span, np.random.default_rng(0))
-            amplitude = laws.PARAMETERS[law][0]
-            shape[amplitude] = 0.1 * float(np.max(np.abs(y))) / max(float(laws.slope(law, np.array([span]), shape)[0]), 1e-9)
+            end = float(laws.slope(law, np.array([span]), shape)[0])
+            shape[laws.PARAMETERS[law][0]] = 0.1 * float(np.max(np.abs(y))) / max(end, 1e-9)
             rival = with_term(form, part._replace(values={**part.values, **shape}), span)
             # A diagonal family within 15° of an axis would be the family along that axis.
             free = [f._replace(low=15.0, high=75.0) if f.part == len(form.material) and f.name == "theta" else f
                     for f in rival.free]
-            found.append(refit(rival._replace(free=tuple(free)), protocol, y, sd).chi2)
+            rival = rival._replace(free=tuple(free))
+            starts = [rival.start()]
+            if invariant == "diagonal" and "kappa" in form.material[1].values:
+                starts.append(_changed_places(rival))
+            found.append(best_of(rival, protocol, y, sd, starts).chi2)
         left[invariant] = round(min(found), 2)
     return left
+
+
+def _changed_places(rival: Form) -> Array:
+    """A start at which the added family is that of the base, and the base's own is scattered into a matrix."""
+    base, added = rival.material[1], rival.material[-1]
+    swapped = [*rival.material]
+    swapped[1] = base._replace(values={**base.values, "k1": 0.3 * base.values["k1"], "kappa": 0.32})
+    swapped[-1] = added._replace(values={name: base.values[name] for name in added.values})
+    return rival._replace(material=tuple(swapped)).start()
 
 
 def slope_error(found: Array, true: Array, free_level: bool) -> float:

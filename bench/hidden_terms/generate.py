@@ -17,7 +17,7 @@ from .protocol import Curve, RigError, channel_slices, observe, reach
 OF_RUBBER, OF_TISSUE = ("I1", "I2"), ("I1", "I2", "axial", "circumferential", "diagonal")
 RIG_ERRORS = ("force_offset", "force_scale", "thickness", "reference_length", "stretch_offset", "drift", "gain_drift")
 GRID = 41        # x at which slopes are compared
-ORACLE_DRAWS = 8  # of noise, beside that of the case
+ORACLE_DRAWS = 5  # of noise, beside that of the case
 PLAUSIBLE = 2.0  # largest share of the base's readings that a hidden term may add
 
 

@@ -50,43 +50,60 @@ def stretches(curve: Curve, scale: float = 1, offset: float = 0) -> typing.Tuple
     return pulled, pulled if curve.kind == "equibiaxial" else np.ones_like(pulled)
 
 
-def measured(curve: Curve, material: Material, scale: float = 1, offset: float = 0) -> Array:
-    """Channels (1 or 2 rows) by n rows, before the load cell errs."""
-    if curve.kind == "simple_shear":
-        return np.array([shear_stress(material, curve.load * scale + offset)])
-    if curve.kind.startswith("uniaxial"):
-        pulled = curve.load * scale + offset
-        l1, l2 = free_strip(material, pulled, curve.axis)
-        found = stress(material, l1, l2)[curve.axis - 1]
-        return np.array([found / pulled if curve.nominal else found])
-    l1, l2 = stretches(curve, scale, offset)
-    both = stress(material, l1, l2)
-    if curve.kind == "sheet":
-        return np.array(both)
-    return np.array([both[0] / l1])
+def measured(curve: Curve, material: Material) -> Array:
+    """Channels (1 or 2 rows) by n rows."""
+    return _measured([(curve, 1.0, 0.0)], material)[0]
+
+
+def _measured(curves: typing.Sequence[typing.Tuple[Curve, float, float]], material: Material) -> typing.List[Array]:
+    """Of curves with scale and offset of their stretches; all but shear in one go, because calls cost more than rows."""
+    sheared = {k: shear_stress(material, curve.load * scale + offset) for k, (curve, scale, offset) in enumerate(curves)
+               if curve.kind == "simple_shear"}
+    plane = [k for k in range(len(curves)) if k not in sheared]
+    strips = [k for k in plane if curves[k][0].kind.startswith("uniaxial")]
+    loads = {k: stretches(*curves[k]) for k in plane}
+    if strips:
+        pulled = np.concatenate([loads[k][0] for k in strips])
+        axes = np.concatenate([np.full(len(loads[k][0]), curves[k][0].axis) for k in strips])
+        ends = np.cumsum([len(loads[k][0]) for k in strips])[:-1]
+        for k, l1, l2 in zip(strips, *(np.split(one, ends) for one in free_strip(material, pulled, axes))):
+            loads[k] = l1, l2
+    if plane:
+        ends = np.cumsum([len(loads[k][0]) for k in plane])[:-1]
+        both = stress(material, *(np.concatenate([loads[k][i] for k in plane]) for i in (0, 1)))
+        cauchy = dict(zip(plane, zip(*(np.split(one, ends) for one in both))))
+    found = []
+    for k, (curve, _, _) in enumerate(curves):
+        if k in sheared:
+            found.append(np.array([sheared[k]]))
+        elif curve.kind == "sheet":
+            found.append(np.array(cauchy[k]))
+        else:
+            along = curve.axis - 1
+            found.append(np.array([cauchy[k][along] / loads[k][along] if curve.nominal else cauchy[k][along]]))
+    return found
 
 
 def observe(protocol: typing.Sequence[Curve], material: Material, error: typing.Optional[RigError] = None) -> Array:
     """All readings of a protocol, as one vector."""
-    parts = []
-    for index, curve in enumerate(protocol):
-        wrong = error if error is not None and error.curve == index else None
-        scale = 1 + wrong.amount if wrong is not None and wrong.kind == "reference_length" else 1.0
-        offset = wrong.amount if wrong is not None and wrong.kind == "stretch_offset" else 0.0
-        y = measured(curve, material, scale, offset)
-        if wrong is not None:
-            rows = slice(None) if wrong.channel < 0 else slice(wrong.channel, wrong.channel + 1)
-            gone = np.linspace(0, 1, y.shape[1])
-            if wrong.kind == "force_offset":
-                y[rows] += wrong.amount
-            elif wrong.kind in ("force_scale", "thickness"):
-                y[rows] *= 1 + wrong.amount
-            elif wrong.kind == "drift":
-                y[rows] += wrong.amount * gone
-            elif wrong.kind == "gain_drift":
-                y[rows] *= 1 + wrong.amount * gone
-        parts.append(y.ravel())
-    return np.concatenate(parts)
+    plain = [(curve, 1.0, 0.0) for curve in protocol]
+    if error is not None and error.kind in ("reference_length", "stretch_offset"):
+        scale, offset = (1 + error.amount, 0.0) if error.kind == "reference_length" else (1.0, error.amount)
+        plain[error.curve] = protocol[error.curve], scale, offset
+    found = _measured(plain, material)
+    if error is not None:
+        y = found[error.curve]
+        rows = slice(None) if error.channel < 0 else slice(error.channel, error.channel + 1)
+        gone = np.linspace(0, 1, y.shape[1])
+        if error.kind == "force_offset":
+            y[rows] += error.amount
+        elif error.kind in ("force_scale", "thickness"):
+            y[rows] *= 1 + error.amount
+        elif error.kind == "drift":
+            y[rows] += error.amount * gone
+        elif error.kind == "gain_drift":
+            y[rows] *= 1 + error.amount * gone
+    return np.concatenate([y.ravel() for y in found])
 
 
 def channel_slices(protocol: typing.Sequence[Curve]) -> typing.List[slice]:
