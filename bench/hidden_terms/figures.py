@@ -15,7 +15,7 @@ def wilson(hits: int, count: int) -> typing.Tuple[float, float]:
     z, share = 1.959964, hits / count
     middle = (share + z * z / (2 * count)) / (1 + z * z / count)
     half = z / (1 + z * z / count) * math.sqrt(share * (1 - share) / count + z * z / (4 * count * count))
-    return max(0.0, middle - half), min(1.0, middle + half)
+    return middle - half if hits > 0 else 0.0, middle + half if hits < count else 1.0
 
 
 class Figure(typing.NamedTuple):
