@@ -112,11 +112,11 @@ def model_entry(base: str) -> typing.Dict[str, typing.Any]:
     return {"type": base}
 
 
-def write_case(cases: pathlib.Path, truths: pathlib.Path, name: str, base: typing.Optional[str],
+def write_case(cases: pathlib.Path, truths: pathlib.Path, name: str, base: str,
                protocol: typing.Sequence[Curve], readings: Array, noise: typing.Optional[Noise],
-               truth: typing.Dict[str, typing.Any]) -> pathlib.Path:
-    """Writes a case and seals its truth; the seal comes last, so that a folder with a seal is whole. `base` None: from
-    nothing. `noise` None: not stated."""
+               truth: typing.Dict[str, typing.Any], from_nothing: bool = False) -> pathlib.Path:
+    """Writes a case and seals its truth; the seal comes last, so that a folder with a seal is whole. From nothing, `base`
+    only says whether the material has directions. `noise` None: not stated."""
     folder = cases / name
     folder.mkdir(parents=True, exist_ok=True)
     truths.mkdir(parents=True, exist_ok=True)
@@ -128,12 +128,11 @@ def write_case(cases: pathlib.Path, truths: pathlib.Path, name: str, base: typin
         (folder / f"{curve.name}.csv").write_text(table(curve, np.array([readings[slices[k]] for k in own])))
         stated = None if noise is None else [(noise.absolute[k], noise.relative[k]) for k in own]
         tests[curve.name] = test_entry(curve, stated)
-    model = base or "neo_hooke"
     experiment: typing.Dict[str, typing.Any] = {
-        "format": 1, "name": name, "seed": 1, "models": {model: model_entry(model)}, "tests": tests,
+        "format": 1, "name": name, "seed": 1, "models": {base: model_entry(base)}, "tests": tests,
         "objective": "least_squares", "optimizers": {"lm": {"type": "ceres_lm", "starts": 10}},
-        "runs": [{"model": model, "optimizer": "lm"}]}
-    if base is None:
+        "runs": [{"model": base, "optimizer": "lm"}]}
+    if from_nothing:
         experiment["discovery"] = {"from_nothing": True}
     (folder / "experiment.json").write_text(json.dumps(experiment, indent=1) + "\n")
     text = json.dumps(truth, indent=1) + "\n"

@@ -148,7 +148,8 @@ def make(name: str, noise: float, index: int, seed: int, out: pathlib.Path) -> s
              "terms": [{"invariant": part.invariant, "law": part.law, "parameters": part.values} for part in parts],
              "path": {"circumferential": [float(v) for v in l1], "axial": [float(v) for v in l2],
                       "energy": [float(v) for v in energy(parts, l1, l2)]}}
-    case_files.write_case(out / "cases", out / "truths", folder, None, protocol, noisy, stated, truth)
+    model = "neo_hooke" if is_isotropic(parts) else "hgo"
+    case_files.write_case(out / "cases", out / "truths", folder, model, protocol, noisy, stated, truth, from_nothing=True)
     return folder
 
 

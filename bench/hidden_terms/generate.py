@@ -22,7 +22,7 @@ PLAUSIBLE = 2.0  # largest share of the base's readings that a hidden term may a
 
 
 class Spec(typing.NamedTuple):
-    """What a case is to be: `what` is null, single, pair, kinked or rig; Λ is 0 where nothing is hidden."""
+    """What a case is to be: `what` is null, single, pair, kinked, unlisted or rig; Λ is 0 where nothing is hidden."""
     what: str
     base: str
     target: float
@@ -40,17 +40,22 @@ def level_is_free(base: str, invariant: str) -> bool:
     return invariant == "I1" or (base == "mooney_rivlin" and invariant == "I2")
 
 
-def draw_term(base: str, form: Form, protocol: typing.Sequence[Curve], random: np.random.Generator, kinked: bool,
+def draw_term(base: str, form: Form, protocol: typing.Sequence[Curve], random: np.random.Generator, what: str,
               taken: typing.Sequence[str] = ()) -> Part:
-    """A term that the base lacks, of an amplitude of 1 kPa."""
-    invariant = str(random.choice([one for one in invariants(base) if one not in taken]))
-    possible: typing.Sequence[str] = laws.OF_I1_AND_I2 if invariant in ("I1", "I2") else laws.OF_FIBRES
-    if kinked:
+    """A term that the base lacks, of an amplitude of 1 kPa. Chains are a function of I1, and the logarithm one of I2; the
+    other way round they are unlisted."""
+    possible_invariants = OF_RUBBER if what == "unlisted" else invariants(base)
+    invariant = str(random.choice([one for one in possible_invariants if one not in taken]))
+    strange = {"I1": "logarithm", "I2": "inverse_langevin"}.get(invariant, "")
+    possible: typing.Sequence[str] = [law for law in laws.OF_I1_AND_I2 if law != strange]
+    if what == "unlisted":
+        possible = [strange]
+    elif what == "kinked":
         possible = laws.KINKED
+    elif invariant not in ("I1", "I2"):
+        possible = [law for law in laws.OF_FIBRES if (base, invariant, law) != ("hgo", "diagonal", "exponential_square")]
     elif level_is_free(base, invariant):
         possible = [law for law in possible if law != "linear"]
-    elif base == "hgo" and invariant == "diagonal":
-        possible = [law for law in possible if law != "exponential_square"]
     law = str(random.choice(list(possible)))
     values = {"theta": round(random.uniform(25, 65), 1)} if invariant == "diagonal" else {}
     part = Part(invariant, law, values)
@@ -118,7 +123,7 @@ def hide(spec: Spec, random: np.random.Generator) -> typing.Tuple[
         return form, protocol, observe(protocol, form.material, error), noise, [], error
     parts: typing.List[Part] = []
     for _ in range(2 if spec.what == "pair" else 1):
-        part = draw_term(spec.base, form, protocol, random, spec.what == "kinked", [one.invariant for one in parts])
+        part = draw_term(spec.base, form, protocol, random, spec.what, [one.invariant for one in parts])
         effect = observe(protocol, [grown(part, 1.0)]) if spec.base in RUBBERS else observe(
             protocol, [*form.material, grown(part, 1.0)]) - bare
         most = PLAUSIBLE * float(np.max(np.abs(bare)) / max(float(np.max(np.abs(effect))), 1e-9))

@@ -13,7 +13,7 @@ from .laws import Array
 
 Json = typing.Dict[str, typing.Any]
 
-# Mechanisms of the catalogue that are terms of an energy: a verdict `named` may use their names.
+# Mechanisms of the catalogue that are terms of an energy: a verdict `named` may use their names, which come first then.
 CATALOGUE = {"axial_fibres": ("axial", "exponential_square"), "second_invariant": ("I2", "linear"),
              "circumferential_fibres": ("circumferential", "exponential_square"),
              "matrix_stiffening": ("I1", "exponential"), "chain_extensibility": ("I1", "gent")}
@@ -42,7 +42,8 @@ class Found(typing.NamedTuple):
 
 
 class Explanation(typing.NamedTuple):
-    """One member of the ambiguity set: its terms as (invariant, law), errors of the rig, and its probability."""
+    """One member of the ambiguity set: its terms as (invariant, law), errors of the rig or what remembers the past, and
+    its probability."""
     terms: typing.Tuple[typing.Tuple[str, str], ...]
     rig: typing.Tuple[str, ...]
     probability: float
@@ -62,6 +63,13 @@ class Verdict(typing.NamedTuple):
     @property
     def detected(self) -> bool:
         return self.name not in ("nothing_detected", "failed")
+
+    @property
+    def says_terms(self) -> bool:
+        """Whether the energy is said to lack terms: nothing else is in the set, and at most the terms are open."""
+        only_terms = bool(self.explanations) and all(one.terms and not one.rig for one in self.explanations)
+        return self.name == "discovered" or (self.name == "indistinguishable" and only_terms) or (
+            self.name == "named" and bool(self.first.terms))
 
     @property
     def first(self) -> Explanation:
@@ -94,12 +102,7 @@ def _term(entry: Json) -> Found:
 
 def _explanation(entry: Json) -> Explanation:
     terms = [(invariant_of(term), str(term.get("law", ""))) for term in entry.get("terms") or []]
-    rig = list(entry.get("rig") or [])
-    for name in entry.get("mechanisms") or []:
-        if name in CATALOGUE:
-            terms.append(CATALOGUE[name])
-        else:
-            rig.append(name)
+    rig = [*(entry.get("rig") or []), *(entry.get("memory") or [])]
     return Explanation(tuple(terms), tuple(rig), float(entry.get("probability") or 0.0))
 
 
@@ -116,6 +119,10 @@ def read(text: str) -> Verdict:
     elif terms and sorted(law for _, law in explanations[0].terms) == sorted(term.law for term in terms):
         # Members of the set have no angles; the terms have.
         explanations[0] = explanations[0]._replace(terms=tuple((term.invariant, term.law) for term in terms))
+    name = (said.get("name_of_the_catalogue") or {}).get("id")
+    if said["verdict"] == "named" and name in CATALOGUE and any(
+            reason["code"] == "name_explains" for reason in said.get("reasons") or []):
+        explanations.insert(0, Explanation((CATALOGUE[name],), (), 0.0))
     after = [float("nan") if said.get(key) is None else float(said[key]) for key in ("chi2_after", "p_after")]
     return Verdict(str(said["verdict"]), terms, explanations, after[0], after[1])
 

@@ -155,10 +155,14 @@ class Draws(unittest.TestCase):
             form = bases.draw(base, random)
             protocol = bases.curves(base, form, random)
             for k in range(150):
-                part = generate.draw_term(base, form, protocol, random, k % 10 == 0)
+                part = generate.draw_term(base, form, protocol, random, "kinked" if k % 10 == 0 else "single")
                 seen.add((base, part.invariant, part.law))
+                strange = generate.draw_term(base, form, protocol, random, "unlisted")
+                self.assertIn((strange.invariant, strange.law), [("I1", "logarithm"), ("I2", "inverse_langevin")])
         self.assertFalse({(base, "I1", "linear") for base in bases.BASES} & seen)
         self.assertFalse({("mooney_rivlin", "I2", "linear"), ("hgo", "diagonal", "exponential_square")} & seen)
+        self.assertFalse({(base, *strange) for base in bases.BASES
+                          for strange in (("I1", "logarithm"), ("I2", "inverse_langevin"))} & seen)
         self.assertIn(("neo_hooke", "I2", "linear"), seen)
         self.assertIn(("gho", "diagonal", "exponential_square"), seen)
         self.assertTrue({law for _, _, law in seen} >= set(laws.PARAMETERS) - {"linear"})
@@ -185,6 +189,8 @@ class CompleteLaws(unittest.TestCase):
                 name = complete_laws.make(law, 0.03, 0, SEED, out)
                 experiment = json.loads((out / "cases" / name / "experiment.json").read_text())
                 self.assertEqual(experiment["discovery"], {"from_nothing": True})
+                model = "hgo" if law in ("Holzapfel", "axial and circumferential") else "neo_hooke"
+                self.assertEqual(list(experiment["models"]), [model])
                 truth = case_files.open_truth(out / "cases" / name, out / "truths")
                 self.assertTrue(np.all(np.diff(truth["path"]["energy"][:15]) > 0), law)
                 for test, entry in experiment["tests"].items():

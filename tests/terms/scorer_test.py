@@ -188,13 +188,23 @@ class Verdicts(unittest.TestCase):
             read = verdict.read(json.dumps(said("discovered", [[("diagonal", "cubic")]], [term])))
             self.assertEqual(read.first.invariants(), (family,))
 
-    def test_names_of_the_catalogue_that_are_terms(self):
-        answer = said("named")
-        answer["discovery"]["ambiguity_set"] = [{"mechanisms": ["axial_fibres"], "probability": 0.7},
-                                                {"mechanisms": ["force_offset"], "probability": 0.3}]
-        read = verdict.read(json.dumps(answer))
-        self.assertEqual(read.first.terms, (("axial", "exponential_square"),))
-        self.assertEqual(read.explanations[1].rig, ("force_offset",))
+    def test_a_name_of_the_catalogue_that_is_a_term_comes_first(self):
+        answer = said("named", [[("I2", "linear")]])
+        answer["discovery"].update(reasons=[{"code": "name_explains", "text": ""}],
+                                   name_of_the_catalogue={"id": "axial_fibres", "chi2": 80})
+        self.assertEqual(verdict.read(json.dumps(answer)).first.terms, (("axial", "exponential_square"),))
+        answer["discovery"]["verdict"] = "discovered"
+        self.assertEqual(verdict.read(json.dumps(answer)).first.terms, (("I2", "linear"),))
+
+    def test_whether_the_energy_is_said_to_lack_terms(self):
+        term, rig = [("I2", "linear")], ["force_offset"]
+        for answer, says in ((said("discovered", [term]), True), (said("indistinguishable", [term, [("I1", "cubic")]]), True),
+                             (said("indistinguishable", [term, rig]), False), (said("named", [rig]), False),
+                             (said("unknown", [term]), False), (NOTHING, False)):
+            self.assertEqual(verdict.read(json.dumps(answer)).says_terms, says)
+        drift = said("indistinguishable", [term])
+        drift["discovery"]["ambiguity_set"].append({"memory": ["signal_drift"], "probability": 0.1})
+        self.assertFalse(verdict.read(json.dumps(drift)).says_terms)
 
     def test_no_discovery_is_no_answer(self):
         self.assertEqual(verdict.read("{}").name, "failed")
