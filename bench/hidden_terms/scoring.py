@@ -19,13 +19,15 @@ class NotYet(Exception):
 
 
 class Judged(typing.NamedTuple):
-    """A case: its truth, what was said of it, and of each hidden term that was found first the ratio of its error of ψ' to
-    the oracle's, and whether its law is right or within noise of the right one."""
+    """A case: its truth, what was said of it, and of each hidden term that was found first: the ratio of its error of ψ' to
+    the oracle's, whether its law is right or within noise of the right one, and the share of x at which the true ψ' lies
+    in the stated band (of terms that the base cannot shift)."""
     name: str
     truth: Json
     said: verdict.Verdict
     ratios: typing.List[float]
     laws_right: typing.List[bool]
+    covered: typing.List[float]
 
     @property
     def hidden(self) -> typing.Tuple[str, ...]:
@@ -49,36 +51,44 @@ class Judged(typing.NamedTuple):
         return bool(self.truth["rivals"]) and min(self.truth["rivals"].values()) >= SEPARABLE
 
 
-def compare(term: Json, found: typing.Sequence[verdict.Found]) -> typing.Tuple[float, bool]:
-    """Of a hidden term and what was found in its invariant: error of ψ' over that of the oracle, and law right or within
-    noise of it. Terms of one invariant add up."""
+class Compared(typing.NamedTuple):
+    """ratio: error of ψ' over that of the oracle; right: law right or within noise; covered: share of x in the band."""
+    ratio: float
+    right: bool
+    covered: float
+
+
+def compare(term: Json, found: typing.Sequence[verdict.Found]) -> Compared:
+    """A hidden term and what was found in its invariant, over the x that both reach; terms of one invariant add up. What
+    reaches less than half as far says nothing of ψ'."""
     grid, true = np.array(term["x"]), np.array(term["slope"])
     ends = [one.x[-1] for one in found if len(one.x)]
     inside = grid <= 1.001 * min(ends) if ends else np.ones(len(grid), bool)
+    same = len(found) == 1 and found[0].law == term["law"]
+    if np.count_nonzero(inside) < len(grid) / 2:
+        return Compared(float("inf"), same, 0.0)
     grid, true = grid[inside], true[inside]
     total = np.asarray(sum(one.at(grid) for one in found))
     ratio = slope_error(total, true, term["free_level"]) / max(term["oracle_error"], 1e-12)
-    if len(found) == 1 and found[0].law == term["law"]:
-        return ratio, True
-    banded = all(len(one.x) for one in found)
+    if not all(len(one.x) for one in found):
+        return Compared(ratio, same or ratio <= 2, float("nan"))
+    low, high = (sum(np.interp(grid, one.x, side) for one, side in zip(found, sides)) for sides in (
+        [one.low for one in found], [one.high for one in found]))
     level = float(np.mean(total - true)) if term["free_level"] else 0.0
-    low = sum(np.interp(grid, one.x, one.low) for one in found) if banded else total
-    high = sum(np.interp(grid, one.x, one.high) for one in found) if banded else total
-    within = banded and bool(np.all((true + level >= low) & (true + level <= high)))
-    return ratio, within or ratio <= 2
+    within = (true + level >= low) & (true + level <= high)
+    return Compared(ratio, same or ratio <= 2 or bool(np.all(within)), float(np.mean(within)))
 
 
 def judge(case: pathlib.Path, truths: pathlib.Path, results: pathlib.Path) -> Judged:
     truth = case_files.open_truth(case, truths)
     said = verdict.read_file(results / case.name / "result.json")
-    ratios, right = [], []
+    compared = []
     for term in truth["terms"]:
         found = [one for one in said.terms if one.invariant == term["invariant"]]
         if found and term["invariant"] in said.first.invariants():
-            ratio, law = compare(term, found)
-            ratios.append(ratio)
-            right.append(law)
-    return Judged(case.name, truth, said, ratios, right)
+            compared.append((term, compare(term, found)))
+    return Judged(case.name, truth, said, [one.ratio for _, one in compared], [one.right for _, one in compared],
+                  [one.covered for term, one in compared if not term["free_level"] and np.isfinite(one.covered)])
 
 
 def judge_all(cases: pathlib.Path, truths: pathlib.Path, results: pathlib.Path) -> typing.List[Judged]:
@@ -138,8 +148,15 @@ def figures(all_cases: typing.Sequence[Judged]) -> typing.List[Figure]:
     rows += split("invariant right first, Λ 150", main, lambda one: one.right_first)
     detected = [one for target in LAMBDAS for one in of("single", target) if one.said.first.terms]
     if detected:
-        error = calibration_error([one.said.first.probability for one in detected], [one.right_first for one in detected])
-        rows.append(Figure("calibration error of the stated probability", error, error, error, len(detected)))
+        stated = [sum(each.probability for each in one.said.explanations
+                      if each.invariants() == one.said.first.invariants()) for one in detected]
+        error = calibration_error(stated, [one.said.first.invariants() == one.hidden for one in detected])
+        rows.append(Figure("calibration error of the probability of the invariants", error, error, error, len(detected),
+                           note=f"mean stated {np.mean(stated):.2f}"))
+    covered = [value for target in LAMBDAS for one in of("single", target) for value in one.covered]
+    if covered:
+        rows.append(Figure("true ψ' in the stated band, mean share of x", float(np.mean(covered)), float(np.min(covered)),
+                           float(np.max(covered)), len(covered), note="least and most in brackets"))
     rows.append(share("no answer", (one.said.name == "failed" for one in all_cases), 0.0, False))
     return rows
 

@@ -163,7 +163,7 @@ class Comparison(unittest.TestCase):
 
     def test_a_level_that_the_base_can_take_does_not_count(self):
         entry = truth_of("single", 150, [("I1", "cubic", {"k": 3.0})])["terms"][0]
-        ratio, right = scoring.compare(entry, self.found("I1", "power", CUBIC_SLOPE + 40))
+        ratio, right, _ = scoring.compare(entry, self.found("I1", "power", CUBIC_SLOPE + 40))
         self.assertAlmostEqual(ratio, 0)
         self.assertTrue(right)
         entry["free_level"] = False
@@ -177,8 +177,16 @@ class Comparison(unittest.TestCase):
     def test_beyond_the_found_curve_nothing_is_compared(self):
         entry = truth_of("single", 150, [CUBIC])["terms"][0]
         found = self.found("I2", "power", CUBIC_SLOPE)
-        short = [found[0]._replace(x=GRID[:11], slope=CUBIC_SLOPE[:11], low=CUBIC_SLOPE[:11], high=CUBIC_SLOPE[:11])]
-        self.assertAlmostEqual(scoring.compare(entry, short)[0], 0)
+        for points, ratio in ((31, 0), (11, np.inf)):
+            slope = CUBIC_SLOPE[:points]
+            short = [found[0]._replace(x=GRID[:points], slope=slope, low=slope, high=slope)]
+            self.assertAlmostEqual(scoring.compare(entry, short).ratio, ratio)
+        self.assertFalse(scoring.compare(entry, short).right)
+
+    def test_the_share_of_x_in_the_band(self):
+        entry = truth_of("single", 150, [CUBIC])["terms"][0]
+        off = np.where(GRID < 1, 0.05, 0.5)  # 20 of 41 points lie within the band of 0.1
+        self.assertAlmostEqual(scoring.compare(entry, self.found("I2", "power", CUBIC_SLOPE + off)).covered, 20 / 41)
 
 
 class Verdicts(unittest.TestCase):
