@@ -42,10 +42,10 @@ GENERATOR = ("laws", "deformation", "protocol", "bases", "fitting", "case_files"
 # What is hidden → Λ, cases of every base and Λ, and those of a reduced run.
 FULL: typing.Dict[str, typing.Tuple[typing.Tuple[int, ...], int]] = {
     "null": ((0,), 60), "single": ((25, 60, 150, 400), 18), "pair": ((150, 400), 6), "kinked": ((60, 150, 400), 4),
-    "unlisted": ((150, 400), 2), "rig": ((25, 60, 150, 400), 8)}
+    "unusual": ((150, 400), 2), "rig": ((25, 60, 150, 400), 8)}
 REDUCED: typing.Dict[str, typing.Tuple[typing.Tuple[int, ...], int]] = {
     "null": ((0,), 6), "single": ((150,), 5), "pair": ((400,), 1), "kinked": ((150,), 1),
-    "unlisted": ((400,), 1), "rig": ((150,), 4)}
+    "unusual": ((400,), 1), "rig": ((150,), 4)}
 
 
 def plan(reduced: bool, share: float, what: typing.Sequence[str], bases: typing.Sequence[str]) -> typing.List[Spec]:

@@ -22,7 +22,7 @@ PLAUSIBLE = 2.0  # largest share of the base's readings that a hidden term may a
 
 
 class Spec(typing.NamedTuple):
-    """What a case is to be: `what` is null, single, pair, kinked, unlisted or rig; Λ is 0 where nothing is hidden."""
+    """What a case is to be: `what` is null, single, pair, kinked, unusual or rig; Λ is 0 where nothing is hidden."""
     what: str
     base: str
     target: float
@@ -43,12 +43,12 @@ def level_is_free(base: str, invariant: str) -> bool:
 def draw_term(base: str, form: Form, protocol: typing.Sequence[Curve], random: np.random.Generator, what: str,
               taken: typing.Sequence[str] = ()) -> Part:
     """A term that the base lacks, of an amplitude of 1 kPa. Chains are a function of I1, and the logarithm one of I2; the
-    other way round they are unlisted."""
-    possible_invariants = OF_RUBBER if what == "unlisted" else invariants(base)
+    other way round they are unusual."""
+    possible_invariants = OF_RUBBER if what == "unusual" else invariants(base)
     invariant = str(random.choice([one for one in possible_invariants if one not in taken]))
     strange = {"I1": "logarithm", "I2": "inverse_langevin"}.get(invariant, "")
     possible: typing.Sequence[str] = [law for law in laws.OF_I1_AND_I2 if law != strange]
-    if what == "unlisted":
+    if what == "unusual":
         possible = [strange]
     elif what == "kinked":
         possible = laws.KINKED

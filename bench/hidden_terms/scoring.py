@@ -134,7 +134,7 @@ def figures(all_cases: typing.Sequence[Judged]) -> typing.List[Figure]:
             share("an error of the rig called a term", (terms_said(one) for one in rig), 0.03, False,
                   alarms(rig)),
             share("invariant right first where ψ' has a kink", (one.right_first for one in of("kinked"))),
-            share("invariant right first where no listed law is right", (one.right_first for one in of("unlisted"))),
+            share("invariant right first where the law is of the other invariant", (one.right_first for one in of("unusual"))),
             share("two terms: both invariants right, no other", (one.said.first.invariants() == one.hidden for one in of("pair"))),
             share("two terms: one of them right first", (one.right_first for one in of("pair")))]
     for target in LAMBDAS:

@@ -157,7 +157,7 @@ class Draws(unittest.TestCase):
             for k in range(150):
                 part = generate.draw_term(base, form, protocol, random, "kinked" if k % 10 == 0 else "single")
                 seen.add((base, part.invariant, part.law))
-                strange = generate.draw_term(base, form, protocol, random, "unlisted")
+                strange = generate.draw_term(base, form, protocol, random, "unusual")
                 self.assertIn((strange.invariant, strange.law), [("I1", "logarithm"), ("I2", "inverse_langevin")])
         self.assertFalse({(base, "I1", "linear") for base in bases.BASES} & seen)
         self.assertFalse({("mooney_rivlin", "I2", "linear"), ("hgo", "diagonal", "exponential_square")} & seen)
