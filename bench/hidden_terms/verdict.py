@@ -53,12 +53,14 @@ class Explanation(typing.NamedTuple):
 
 
 class Verdict(typing.NamedTuple):
-    """`explanations` stand likeliest first. `name` is `failed` where the program gave no answer."""
+    """`explanations`: first what the program offers, where it offers terms, then the likeliest. `by_its_name`: the catalogue
+    has a name for the term. `name` is `failed` where the program gave no answer."""
     name: str
     terms: typing.List[Found]
     explanations: typing.List[Explanation]
     chi2_after: float
     p_after: float
+    by_its_name: bool = False
 
     @property
     def detected(self) -> bool:
@@ -69,7 +71,7 @@ class Verdict(typing.NamedTuple):
         """Whether the energy is said to lack terms: nothing else is in the set, and at most the terms are open."""
         only_terms = bool(self.explanations) and all(one.terms and not one.rig for one in self.explanations)
         return self.name == "discovered" or (self.name == "indistinguishable" and only_terms) or (
-            self.name == "named" and bool(self.first.terms))
+            self.name == "named" and self.by_its_name)
 
     @property
     def first(self) -> Explanation:
@@ -106,25 +108,42 @@ def _explanation(entry: Json) -> Explanation:
     return Explanation(tuple(terms), tuple(rig), float(entry.get("probability") or 0.0))
 
 
+def ordered(explanations: typing.List[Explanation]) -> typing.List[Explanation]:
+    """Likeliest first: what the terms are functions of counts, whatever their laws, or which errors of the rig."""
+    def kind(one: Explanation) -> typing.Tuple[typing.Tuple[str, ...], ...]:
+        return one.invariants(), one.rig
+
+    weight: typing.Dict[typing.Tuple[typing.Tuple[str, ...], ...], float] = {}
+    for one in explanations:
+        weight[kind(one)] = weight.get(kind(one), 0.0) + one.probability
+    return sorted(explanations, key=lambda one: -weight[kind(one)])
+
+
 def read(text: str) -> Verdict:
     """The answer in a result.json."""
     said: Json = json.loads(text)
     if "discovery" not in said:
         return Verdict("failed", [], [], float("nan"), float("nan"))
     said = said["discovery"]
+    name = str(said["verdict"])
     terms = [_term(entry) for entry in said.get("terms") or []]
     explanations = [_explanation(entry) for entry in said.get("ambiguity_set") or []]
-    if not explanations and terms:
-        explanations = [Explanation(tuple((term.invariant, term.law) for term in terms), (), 1.0)]
-    elif terms and sorted(law for _, law in explanations[0].terms) == sorted(term.law for term in terms):
-        # Members of the set have no angles; the terms have.
-        explanations[0] = explanations[0]._replace(terms=tuple((term.invariant, term.law) for term in terms))
-    name = (said.get("name_of_the_catalogue") or {}).get("id")
-    if said["verdict"] == "named" and name in CATALOGUE and any(
-            reason["code"] == "name_explains" for reason in said.get("reasons") or []):
-        explanations.insert(0, Explanation((CATALOGUE[name],), (), 0.0))
+    offered = tuple((term.invariant, term.law) for term in terms)
+    for k, one in enumerate(explanations):
+        if terms and sorted(law for _, law in one.terms) == sorted(law for _, law in offered):
+            explanations[k] = one._replace(terms=offered)  # members of the set have no angles; the terms have
+            break
+    explanations = ordered(explanations)
+    if name == "discovered" and terms:
+        own = next((one for one in explanations if one.terms == offered), Explanation(offered, (), 0.0))
+        explanations = [own, *(one for one in explanations if one is not own)]
+    mechanism = str((said.get("name_of_the_catalogue") or {}).get("id", ""))
+    by_its_name = name == "named" and mechanism in CATALOGUE and any(
+        reason["code"] == "name_explains" for reason in said.get("reasons") or [])
+    if by_its_name:
+        explanations.insert(0, Explanation((CATALOGUE[mechanism],), (), 0.0))
     after = [float("nan") if said.get(key) is None else float(said[key]) for key in ("chi2_after", "p_after")]
-    return Verdict(str(said["verdict"]), terms, explanations, after[0], after[1])
+    return Verdict(name, terms, explanations, after[0], after[1], by_its_name)
 
 
 def read_file(file: pathlib.Path) -> Verdict:

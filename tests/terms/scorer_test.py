@@ -214,6 +214,22 @@ class Verdicts(unittest.TestCase):
         drift["discovery"]["ambiguity_set"].append({"memory": ["signal_drift"], "probability": 0.1})
         self.assertFalse(verdict.read(json.dumps(drift)).says_terms)
 
+    def test_the_likeliest_comes_first_whatever_the_order_in_the_file(self):
+        answer = said("named", [[("I2", "linear")], ["force_offset"]])
+        answer["discovery"]["ambiguity_set"][0]["probability"] = 0.1
+        self.assertEqual(verdict.read(json.dumps(answer)).first.rig, ("force_offset",))
+        self.assertFalse(verdict.read(json.dumps(answer)).says_terms)
+        several = said("indistinguishable", [[("axial", "cubic")], [("I2", "linear")], [("I2", "gent")]])
+        for entry, probability in zip(several["discovery"]["ambiguity_set"], (0.4, 0.3, 0.3)):
+            entry["probability"] = probability
+        self.assertEqual(verdict.read(json.dumps(several)).first.terms, (("I2", "linear"),))
+
+    def test_terms_that_are_offered_come_before_likelier_ones(self):
+        answer = said("discovered", [[("I2", "gent")], [("I2", "linear")]], [term_of("I2", "linear", CUBIC_SLOPE)])
+        read = verdict.read(json.dumps(answer))
+        self.assertEqual(read.first.terms, (("I2", "linear"),))
+        self.assertEqual(len(read.explanations), 2)
+
     def test_no_discovery_is_no_answer(self):
         self.assertEqual(verdict.read("{}").name, "failed")
         self.assertFalse(verdict.read("{}").detected)
