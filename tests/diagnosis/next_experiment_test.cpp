@@ -153,7 +153,8 @@ TEST(NextExperiment, IsNotAskedForWhereNothingIsOpen) {
 
 TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   const Rivals rivals(second_invariant);
-  const auto library = designs(rivals.asked.inquiry(), rivals.analysis.evidence, rivals.first());
+  const auto library = designs(rivals.asked.inquiry(), rivals.analysis.evidence, rivals.first().extension->assembly(),
+                               rivals.first().fit.free);
   ASSERT_GE(library.size(), 6u);
   EXPECT_THAT(library.front().description, HasSubstr("to a stretch of 1.6"));
   EXPECT_DOUBLE_EQ(library.front().sd.front(), 0.3);
@@ -161,9 +162,10 @@ TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   Evidence nominal = rivals.analysis.evidence;
   for (auto& test : nominal.experiment.tests) test.data.stress_measure = "first_piola_kirchhoff";
   for (Curve& curve : nominal.curves) curve.noise.noise.relative = 0.02;
-  const auto wider = designs(rivals.asked.inquiry(), nominal, rivals.first());
+  const auto wider =
+      designs(rivals.asked.inquiry(), nominal, rivals.first().extension->assembly(), rivals.first().fit.free);
   std::vector<double> values;
-  ASSERT_TRUE(predict(wider.front(), rivals.first(), rivals.first().fit.free, values));
+  ASSERT_TRUE(predict(wider.front(), rivals.first().extension->assembly(), rivals.first().fit.free, values));
   EXPECT_DOUBLE_EQ(wider.front().sd[19], 1.6 * std::hypot(0.3, 0.02 * values[19] / 1.6));
   for (const Design& design : library) {
     EXPECT_EQ(design.sd.size(), design.test->rows().count * design.test->rows().channels.size());

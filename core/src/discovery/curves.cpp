@@ -117,6 +117,43 @@ TermCurve curve_of_term(const Subject& subject, const SetFit& fit, std::size_t w
   return curve;
 }
 
+TermCurve mixed_curve(const Subject& subject, const std::vector<SetFit>& sets, std::size_t which) {
+  constexpr double least_weight = 0.01;
+  const SetFit& best = sets.front();
+  const auto invariants = [](const SetFit& set) {
+    std::vector<std::string> words;
+    for (const KindPointer& kind : set.kinds) words.push_back(kind->invariant_words());
+    std::sort(words.begin(), words.end());
+    return words;
+  };
+  TermCurve curve = curve_of_term(subject, best, which);
+  std::vector<double> variance(curve.x.size());
+  const auto own = [&](const TermCurve& of, std::size_t i) { return (of.high[i] - of.slope[i]) / two_sided; };
+  for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = own(curve, i) * own(curve, i);
+  double weights = 1;
+  const std::string words = best.kinds[which]->invariant_words();
+  const auto wanted = invariants(best);
+  if (std::count(wanted.begin(), wanted.end(), words) != 1 || words == "stretches") return curve;
+  for (std::size_t s = 1; s < sets.size(); ++s) {
+    const double weight = std::exp(sets[s].log_evidence - best.log_evidence);
+    if (weight < least_weight || invariants(sets[s]) != wanted) continue;
+    std::size_t at = 0;
+    while (sets[s].kinds[at]->invariant_words() != words) ++at;
+    const TermCurve other = curve_of_term(subject, sets[s], at);
+    weights += weight;
+    for (std::size_t i = 0; i < variance.size(); ++i) {
+      const double off = other.slope[i] - curve.slope[i];
+      variance[i] += weight * (own(other, i) * own(other, i) + off * off);
+    }
+  }
+  for (std::size_t i = 0; i < variance.size(); ++i) {
+    const double half = two_sided * std::sqrt(variance[i] / weights);
+    curve.low[i] = curve.slope[i] - half;
+    curve.high[i] = curve.slope[i] + half;
+  }
+  return curve;
+}
+
 std::vector<SetFit> with_curves(const Fitter& fitter, const SetFit& best, const std::vector<KindPointer>& kinds,
                                 bool beside) {
   struct Job {

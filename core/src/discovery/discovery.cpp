@@ -14,6 +14,7 @@
 #include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/prospects/gain.hpp"
+#include "discovery/next.hpp"
 #include "discovery/remainder.hpp"
 #include "discovery/verdict.hpp"
 #include "plugins/guarded.hpp"
@@ -162,8 +163,9 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
   judge(found, searched.sets);
   if (!found.terms.empty()) {
     for (std::size_t k = 0; k < found.terms.size(); ++k)
-      found.terms[k].curve = curve_of_term(*found.subject, *found.best, k);
+      found.terms[k].curve = mixed_curve(*found.subject, searched.sets, k);
     found.held_out = gain_of(inquiry, found.analysis.evidence, *found.best);
+    found.next = next_experiment(inquiry, found, searched.sets);
   }
   return found;
 }
@@ -176,8 +178,8 @@ Discovery discover(const experiment::Experiment& experiment, const Request& requ
         "one in \"discovery\": {\"model\": …}");
   if (!catalogue.models().contains("composed"))
     throw InputError(
-        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Add its "
-        "folder to the plugin path");
+        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Give "
+        "--plugin-path a folder that holds it");
   const bool directions = has_directions(experiment, request.model, catalogue);
   experiment::Experiment measured = experiment::measured_only(experiment);
   if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);

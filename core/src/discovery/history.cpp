@@ -53,6 +53,24 @@ std::vector<Branch> branches_of(const Curve& curve) {
   return all;
 }
 
+/// The abscissae of a curve beside its own, but for time.
+std::vector<std::pair<std::string, std::vector<double>>> other_abscissae(const diagnosis::Evidence& evidence,
+                                                                         const Curve& curve) {
+  std::vector<std::pair<std::string, std::vector<double>>> others;
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
+    if (view.test == curve.test && view.observable == curve.channel)
+      for (const auto& [name, values] : view.other_abscissae)
+        if (!name.starts_with("time")) others.emplace_back(name, values);
+  return others;
+}
+
+/// A second abscissa that varies within the curve makes rows at one value of the first different strains.
+bool has_one_abscissa(const diagnosis::Evidence& evidence, const Curve& curve) {
+  for (const auto& [name, values] : other_abscissae(evidence, curve))
+    if (std::any_of(values.begin(), values.end(), [&v = values](double x) { return x != v.front(); })) return false;
+  return true;
+}
+
 /// Everything about a test that an energy sees, beside the abscissa: what two tests have to share.
 std::string sight_of(const diagnosis::Evidence& evidence, const Curve& curve) {
   const experiment::TestEntry& test = evidence.experiment.test(curve.test);
@@ -61,19 +79,11 @@ std::string sight_of(const diagnosis::Evidence& evidence, const Curve& curve) {
     sight += "|" + name + "=" + std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
   for (const auto& [name, setting] : test.parameters)
     sight += fmt::format("|{}={}", name, setting.fixed.value_or(setting.initial.value_or(0)));
+  // A second stretch that is held is part of the strain.
+  for (const auto& [name, values] : other_abscissae(evidence, curve))
+    if (!values.empty()) sight += fmt::format("|{}={:.6g}", name, values.front());
   for (const experiment::LayerEntry& layer : test.layers) sight += "|" + layer.model;
   return sight;
-}
-
-/// A second abscissa that varies within the curve makes rows at one value of the first different strains.
-bool has_one_abscissa(const diagnosis::Evidence& evidence, const Curve& curve) {
-  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
-    if (view.test == curve.test && view.observable == curve.channel)
-      for (const auto& [name, values] : view.other_abscissae)
-        if (!name.starts_with("time") &&
-            std::any_of(values.begin(), values.end(), [&](double v) { return v != values.front(); }))
-          return false;
-  return true;
 }
 
 double legendre(int degree, double t) { return std::legendre(static_cast<unsigned>(degree), std::clamp(t, -1.0, 1.0)); }

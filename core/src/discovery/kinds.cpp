@@ -127,7 +127,15 @@ std::vector<Kind> kinds_of(const Request& request, const States& states, bool ha
         if (holds(request.laws, law)) kinds.push_back(kind_of(words, law, reach));
     }
   }
-  for (Kind& kind : kinds) kind.log_prior = -std::log(static_cast<double>(kinds.size()));
+  constexpr double unusual = 0.2;  ///< the prior weight of a law of an invariant that nobody uses it with
+  double all = 0;
+  const auto weight = [](const Kind& kind) {
+    const bool odd = (kind.invariant == "I1" && kind.law == "logarithm") ||
+                     (kind.invariant == "I2" && kind.law == "inverse_langevin");
+    return odd ? unusual : 1.0;
+  };
+  for (const Kind& kind : kinds) all += weight(kind);
+  for (Kind& kind : kinds) kind.log_prior = std::log(weight(kind) / all);
   return kinds;
 }
 

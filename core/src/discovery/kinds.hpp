@@ -46,7 +46,8 @@ struct Kind {
 using KindPointer = std::shared_ptr<const Kind>;
 
 /// Every kind that the request asks for and the data reach. Without a list, invariants of fibres take part only where
-/// the base has directions. All have the same prior weight.
+/// the base has directions. All have the same prior weight, but for a logarithm of
+/// I1 and chains in I2, which nobody uses.
 std::vector<Kind> kinds_of(const Request& request, const States& states, bool has_directions);
 
 /// A free curve in the place of a law, with so many pieces, over the range that the data reach.

@@ -101,6 +101,26 @@ class Ledger {
     return smaller;
   }
 
+  /// The best sets with a power of the stretches as the linear law of I1 or I2 that it may stand for. Without it fibres
+  /// may hold nothing together, so that no smaller set leads there.
+  void try_linear_laws() {
+    std::vector<SetFit> best = sorted();
+    if (best.size() > exchanged) best.resize(exchanged);
+    for (const SetFit& fit : best)
+      for (std::size_t k = 0; k < fit.kinds.size(); ++k) {
+        if (fit.kinds[k]->invariant != "stretches") continue;
+        const std::string name = fit.kinds[k]->negative ? "I2_linear" : "I1_linear";
+        const auto linear = std::find_if(request_.kinds.begin(), request_.kinds.end(),
+                                         [&](const KindPointer& kind) { return kind->name == name; });
+        if (linear == request_.kinds.end() || !suits(fit, **linear)) continue;
+        std::vector<KindPointer> kinds = fit.kinds;
+        kinds.erase(kinds.begin() + static_cast<std::ptrdiff_t>(k));
+        Key key = key_with(kinds, **linear);
+        if (!tried_.insert(key).second) continue;
+        if (auto simpler = fitter_.with_linear(fit, k, *linear)) all_.emplace(std::move(key), std::move(*simpler));
+      }
+  }
+
   [[nodiscard]] std::vector<SetFit> sorted() const {
     std::vector<SetFit> sets;
     for (const auto& [key, fit] : all_) sets.push_back(fit);
@@ -142,6 +162,7 @@ std::vector<SetFit> search(const Fitter& fitter, const Search& request, const Is
     grown.resize(keep);
     level = std::move(grown);
   }
+  ledger.try_linear_laws();
   for (int round = 0; round < 2; ++round)
     if (ledger.grow(ledger.with_room()).empty()) break;
   return ledger.sorted();

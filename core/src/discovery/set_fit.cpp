@@ -130,9 +130,14 @@ double Fitter::log_evidence(const SetFit& fit) const {
     else
       column *= slope(parameters[j], fit.fit.free[j]) * of_box;
   }
+  // The logarithm of a height that the data hardly hold is no Gaussian: such a height would cost nothing.
+  constexpr double of_height = 1;
+  double heights = 0;
+  for (const BoundTerm& term : fit.set->terms())
+    for (const std::size_t height : term.heights) heights += fit.fit.at_bound[height] ? 0 : of_height;
   Eigen::MatrixXd H = J.transpose() * J;
   H.diagonal().array() += 1;
-  return -fit.chi2() / 2 - 0.5 * numerics::eigenpairs(H).values.array().max(1.0).log().sum() + prior;
+  return -heights - fit.chi2() / 2 - 0.5 * numerics::eigenpairs(H).values.array().max(1.0).log().sum() + prior;
 }
 
 double Fitter::largest_amplitude(const Kind& kind) const {
@@ -182,7 +187,7 @@ std::vector<double> Fitter::start_of(const SetFit& from, const BoundSet& set) co
 }
 
 bool Fitter::has_support(const SetFit& fit) const {
-  constexpr double visible = 0.5, of_rows = 0.1;  // σ; of all rows
+  constexpr double visible = 0.25, of_rows = 0.1;  // σ; of all rows
   const Eigen::MatrixXd& J = fit.fit.jacobian;
   for (const BoundTerm& term : fit.set->terms()) {
     Eigen::VectorXd effect = J.col(static_cast<Eigen::Index>(term.amplitude)) * fit.fit.free[term.amplitude];
@@ -195,22 +200,52 @@ bool Fitter::has_support(const SetFit& fit) const {
   return true;
 }
 
-std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
-  const Kind& kind = *more;
-  SetFit found;
-  found.kinds = from.kinds;
+std::optional<SetFit> Fitter::bound(std::vector<KindPointer> kinds) const {
   // Sets are sorted by name, so that one set is one however it came about.
-  found.kinds.insert(std::upper_bound(found.kinds.begin(), found.kinds.end(), more,
-                                      [](const auto& a, const auto& b) { return a->name < b->name; }),
-                     more);
-  std::size_t own = 0;
-  for (std::size_t k = 0; k < found.kinds.size(); ++k)
-    if (found.kinds[k]->name == kind.name) own = k;
+  std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a->name < b->name; });
+  SetFit found;
+  found.kinds = std::move(kinds);
   try {
     found.set = std::make_shared<const BoundSet>(subject_, found.kinds);
   } catch (const InputError&) {
     return std::nullopt;
   }
+  return found;
+}
+
+std::optional<SetFit> Fitter::with_linear(const SetFit& from, std::size_t out, const KindPointer& linear) const {
+  const BoundTerm& term = from.set->terms()[out];
+  const double modulus = from.fit.free[term.amplitude] * from.fit.free[term.shapes.front()] / 2;
+  std::vector<KindPointer> kinds = from.kinds;
+  kinds[out] = linear;
+  auto found = bound(std::move(kinds));
+  if (!found) return std::nullopt;
+  const assembly::Assembly& assembly = found->set->assembly();
+  std::vector<double> start = start_of(from, *found->set);
+  for (std::size_t k = 0; k < found->kinds.size(); ++k)
+    if (found->kinds[k] == linear) {
+      const std::size_t at = found->set->terms()[k].amplitude;
+      const auto& parameter = assembly.layout().parameters[at];
+      start[at] = std::clamp(modulus, parameter.min, parameter.max);
+    }
+  found->fit =
+      diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
+                               *assembly.evaluator().make_workspace(), 60, {.negligible = diagnosis::says_nothing});
+  if (!found->fit.status.ok() || !has_support(*found) || has_shape_at_bound(*found)) return std::nullopt;
+  found->log_evidence = log_evidence(*found);
+  return found;
+}
+
+std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {
+  const Kind& kind = *more;
+  std::vector<KindPointer> kinds = from.kinds;
+  kinds.push_back(more);
+  auto larger = bound(std::move(kinds));
+  if (!larger) return std::nullopt;
+  SetFit& found = *larger;
+  std::size_t own = 0;
+  for (std::size_t k = 0; k < found.kinds.size(); ++k)
+    if (found.kinds[k]->name == kind.name) own = k;
   const assembly::Assembly& assembly = found.set->assembly();
   const auto& parameters = assembly.layout().parameters;
   const BoundTerm& term = found.set->terms()[own];
@@ -286,7 +321,7 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
   }
   if (!ok || !has_support(found) || has_shape_at_bound(found)) return std::nullopt;
   found.log_evidence = log_evidence(found);
-  return found;
+  return larger;
 }
 
 }  // namespace tunica::discovery

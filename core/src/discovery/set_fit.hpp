@@ -39,6 +39,10 @@ class Fitter {
   /// where a shape ends at its bound, and where the evidence cannot come to `worth`.
   [[nodiscard]] std::optional<SetFit> grown(const SetFit& from, const KindPointer& kind, double worth) const;
 
+  /// The set with the term `out`, of powers of the stretches, as the linear law that its exponent is close to: μ α/2 is
+  /// the modulus at rest, λ² that of I1 and λ⁻² that of I2. None where it cannot be fitted.
+  [[nodiscard]] std::optional<SetFit> with_linear(const SetFit& from, std::size_t out, const KindPointer& linear) const;
+
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
   ///
   ///   ln E = −|r|²/2 − ½ ln det(I + W JᵀJ W) + ln prior of the set,
@@ -52,6 +56,8 @@ class Fitter {
   [[nodiscard]] double largest_amplitude(const Kind& kind) const;
 
  private:
+  /// Bound to the data, sorted by name; none where a term cannot act there.
+  [[nodiscard]] std::optional<SetFit> bound(std::vector<KindPointer> kinds) const;
   [[nodiscard]] std::vector<double> start_of(const SetFit& from, const BoundSet& set) const;
   /// Whether every term shows in a tenth of the rows at least: a steep one can fit a single last point.
   [[nodiscard]] bool has_support(const SetFit& fit) const;

@@ -245,11 +245,15 @@ void judge(Discovery& found, const std::vector<SetFit>& sets) {
   }
   const auto best_invariants = invariants_of(found.best->kinds);
   const double sure = mass_of(all, [&](const Alternative& one) { return invariants_of(one.kinds) == best_invariants; });
-  found.verdict = sure >= one_invariant ? Verdict::discovered : Verdict::indistinguishable;
+  // Where one invariant is sure and another beside it is open, the first is discovered all the same.
+  const bool one_is_sure = std::any_of(found.terms.begin(), found.terms.end(), [](const FoundTerm& term) {
+    return term.invariant_probability >= one_invariant;
+  });
+  found.verdict = one_is_sure ? Verdict::discovered : Verdict::indistinguishable;
   because(ReasonKind::terms_found, taken);
   if (sure < one_invariant)
-    because(ReasonKind::invariant_open,
-            fmt::format("These data do not tell what it is a function of: {}.", laws_left(found.ambiguity)));
+    because(ReasonKind::invariant_open, fmt::format("These data do not tell {} it is a function of: {}.",
+                                                    one_is_sure ? "all that" : "what", laws_left(found.ambiguity)));
   else if (found.ambiguity.size() > 1)
     because(ReasonKind::form_open,
             fmt::format("{} forms are about as likely on these data: {}{}.", found.ambiguity.size(),

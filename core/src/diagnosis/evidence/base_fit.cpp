@@ -71,8 +71,13 @@ std::vector<double> smoothed_level(const assembly::MeasuredChannel& view, std::s
   for (std::size_t i = 0; i < view.count; ++i) {
     const std::size_t from = i < half ? 0 : i - half, to = std::min(view.count, i + half + 1);
     double sum = 0;
-    for (std::size_t k = from; k < to; ++k) sum += view.measured[k] - predicted[k];
-    level[i] += sum / static_cast<double>(to - from);
+    std::size_t measured = 0;
+    for (std::size_t k = from; k < to; ++k) {
+      if (std::isnan(view.measured[k])) continue;
+      sum += view.measured[k] - predicted[k];
+      ++measured;
+    }
+    if (measured > 0) level[i] += sum / static_cast<double>(measured);
   }
   return level;
 }

@@ -153,8 +153,8 @@ std::vector<Plan> plans(const Evidence& evidence, const plugins::Catalogue& cata
 
 }  // namespace
 
-bool predict(const Design& design, const Refit& rival, std::span<const double> free, std::vector<double>& values) {
-  const auto& assembly = rival.extension->assembly();
+bool predict(const Design& design, const assembly::Assembly& assembly, std::span<const double> free,
+             std::vector<double>& values) {
   const std::vector<double> parameters = assembly.models().parameters(0, free);
   values.assign(design.test->rows().count * design.test->rows().channels.size(), 0.0);
   try {
@@ -164,7 +164,8 @@ bool predict(const Design& design, const Refit& rival, std::span<const double> f
   }
 }
 
-std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const Refit& scale) {
+std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const assembly::Assembly& scale,
+                            std::span<const double> free) {
   const plugins::Catalogue& catalogue = inquiry.catalogue;
   std::vector<Design> library;
   for (const Plan& plan : plans(evidence, catalogue)) {
@@ -184,7 +185,7 @@ std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, co
                                                                    : description.nulls[k]);
     if (!plan.angle.empty() && !design.parameters.empty()) design.parameters[0] = plan.angle[0];
     std::vector<double> values;
-    if (!predict(design, scale, scale.fit.free, values)) continue;
+    if (!predict(design, scale, free, values)) continue;
     const std::size_t n = setup.rows.count;
     for (std::size_t k = 0; k < plan.channels.size(); ++k) {
       double largest = 0;

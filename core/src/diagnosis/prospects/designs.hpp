@@ -22,12 +22,14 @@ struct Design {
 /// The library: strips along both directions with their width measured, a strip cut at 45°, sheets pulled equally and
 /// twice as far in one direction, a load–unload cycle and a hold where the data have time, and where tubes were
 /// measured the same tube at another axial stretch. Stretches reach as far as those of the data; noise is that of the
-/// data's channels of the same kind, else 1.5 % of the largest value, which `scale` predicts. Types that no plugin
-/// provides are left out.
-std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const Refit& scale);
+/// data's channels of the same kind, else 1.5 % of the largest value, which `scale` predicts at its parameters. Types
+/// that no plugin provides are left out.
+std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, const assembly::Assembly& scale,
+                            std::span<const double> free);
 
-/// What the material of a refit shows in a design; false where it cannot be simulated. The errors of the rig that the
-/// refit may hold belong to the tests they were found in.
-bool predict(const Design& design, const Refit& rival, std::span<const double> free, std::vector<double>& values);
+/// What the material of a fit shows in a design; false where it cannot be simulated. The errors of the rig that the fit
+/// may hold belong to the tests they were found in.
+bool predict(const Design& design, const assembly::Assembly& rival, std::span<const double> free,
+             std::vector<double>& values);
 
 }  // namespace tunica::diagnosis

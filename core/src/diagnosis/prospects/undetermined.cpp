@@ -42,7 +42,7 @@ std::vector<Coordinate> coordinates(const Refit& model) {
 /// DᵀD of a design, by differences; none where it cannot be simulated.
 std::optional<Eigen::MatrixXd> information(const Design& design, const Refit& model, const std::vector<Coordinate>& u) {
   std::vector<double> at, moved;
-  if (!predict(design, model, model.fit.free, at)) return std::nullopt;
+  if (!predict(design, model.extension->assembly(), model.fit.free, at)) return std::nullopt;
   const std::vector<Variable> variables = model.extension->variables();
   const auto& parameters = model.extension->assembly().layout().parameters;
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(at.size()), static_cast<Eigen::Index>(u.size()));
@@ -51,7 +51,7 @@ std::optional<Eigen::MatrixXd> information(const Design& design, const Refit& mo
     std::vector<double> free = model.fit.free;
     if (free[variables[k].front()] + step * u[k].slope > parameters[variables[k].front()].max) step = -step;
     for (const std::size_t member : variables[k]) free[member] += step * u[k].slope;
-    if (!predict(design, model, free, moved)) continue;
+    if (!predict(design, model.extension->assembly(), free, moved)) continue;
     for (std::size_t i = 0; i < at.size(); ++i)
       D(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = (moved[i] - at[i]) / design.sd[i] / step;
   }
@@ -103,7 +103,7 @@ std::optional<NextExperiment> determining_experiment(const Inquiry& inquiry, con
   }
   if (!(excess > 1)) return std::nullopt;
   const Coordinate& parameter = u[static_cast<std::size_t>(worst)];
-  const std::vector<Design> library = designs(inquiry, evidence, model);
+  const std::vector<Design> library = designs(inquiry, evidence, model.extension->assembly(), model.fit.free);
   struct Outcome {
     std::size_t repeats = most_repeats + 1;
     double sd = INFINITY;
