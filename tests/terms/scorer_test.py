@@ -248,6 +248,13 @@ class Shares(unittest.TestCase):
         self.assertTrue(figures.share("", [], 0.9).passed())
         self.assertIn("| 0.800 (0.711–0.867) | ≥ 0.9 ✗ | 100 |", many.row())
 
+    def test_a_table_has_what_was_counted_and_what_has_a_bar(self):
+        text = figures.table("head", [figures.share("counted", [True]), figures.share("not counted", []),
+                                      figures.share("bar", [], 0.9)])
+        self.assertIn("| counted | 1.000", text)
+        self.assertNotIn("not counted", text)
+        self.assertIn("| bar | – | – | 0 |", text)
+
     def test_a_median_and_its_interval(self):
         found = figures.median("", range(1, 101), 2)
         self.assertEqual(found.value, 50.5)
