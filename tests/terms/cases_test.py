@@ -193,6 +193,7 @@ class CompleteLaws(unittest.TestCase):
                 self.assertEqual(list(experiment["models"]), [model])
                 truth = case_files.open_truth(out / "cases" / name, out / "truths")
                 self.assertTrue(np.all(np.diff(truth["path"]["energy"][:15]) > 0), law)
+                self.assertTrue(0 < truth["oracle_error"] < 0.1, law)
                 for test, entry in experiment["tests"].items():
                     for channel, noise in entry["data"]["noise"].items():
                         names = list(entry["data"]["columns"])
