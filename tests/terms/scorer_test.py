@@ -21,7 +21,7 @@ FIBRES = ("axial", "circumferential", "diagonal")
 
 def truth_of(what, target=0, terms=(), stated=True, rivals=None):
     """Terms are (invariant, law, parameters); the oracle errs by 0.5 kPa."""
-    return {"what": what, "base": "gho", "lambda": target, "noise": "white", "stated": stated, "rig": None,
+    return {"what": what, "base": "gho", "lambda": target, "noise": "white", "stated": stated, "rig": None, "oracle_chi2": 0,
             "rivals": rivals or {}, "terms": [
                 {"invariant": invariant, "law": law, "parameters": values, "free_level": invariant == "I1",
                  "x": list(GRID), "slope": list(laws.slope(law, GRID, values)), "oracle_error": 0.5}
@@ -137,6 +137,12 @@ class Figures(Folder):
         self.assertAlmostEqual(ratio.value, 4)
         self.assertFalse(ratio.passed())
         self.assertIn("at most twice the oracle's in 2 of 5", ratio.note)
+
+    def test_a_law_that_fits_as_well_as_the_true_form_is_within_noise(self):
+        wrong = said("discovered", [[("I2", "power")]], [term_of("I2", "power", CUBIC_SLOPE + 2)])  # |r|² 10
+        for stated, oracle in ((True, 7.5), (True, 6.5), (False, 7.5)):
+            self.add({**truth_of("single", 150, [CUBIC], stated), "oracle_chi2": oracle}, wrong)
+        self.assertEqual([one.laws_right for one in self.judged()], [[True], [False], [False]])
 
     def test_two_terms_and_kinks(self):
         both = truth_of("pair", 400, [CUBIC, ("axial", "quadratic", {"k": 2.0})])
