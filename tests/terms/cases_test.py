@@ -6,6 +6,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -107,6 +108,16 @@ class Case(unittest.TestCase):
         for term in terms:
             known = bases.with_term(form, Part(term["invariant"], term["law"], term["parameters"]), term["x"][-1])
             self.assertGreater(refit(known, protocol, clean, noise.sd(protocol, clean)).chi2, 20)
+
+    def test_a_pair_of_which_one_term_would_do_is_drawn_again(self):
+        draw = [SEED, generate.zlib.crc32(b"pair mooney_rivlin"), 400, 0, self.truth("pair")["attempts"] - 1]
+        for left, refused in ((24.9, True), (25.1, False)):
+            with unittest.mock.patch.object(generate, "misfit", return_value=left):
+                if refused:
+                    with self.assertRaises(generate.Unreachable):
+                        generate.hide(self.specs["pair"], np.random.default_rng(draw))
+                else:
+                    self.assertEqual(len(generate.hide(self.specs["pair"], np.random.default_rng(draw))[4]), 2)
 
     def test_files_give_nothing_away(self):
         for what in self.names:

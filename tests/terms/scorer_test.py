@@ -194,6 +194,13 @@ class Comparison(unittest.TestCase):
         off = np.where(GRID < 1, 0.05, 0.5)  # 20 of 41 points lie within the band of 0.1
         self.assertAlmostEqual(scoring.compare(entry, self.found("I2", "power", CUBIC_SLOPE + off)).covered, 20 / 41)
 
+    def test_a_band_is_shifted_with_the_level_that_the_base_can_take(self):
+        entry = truth_of("single", 150, [("I1", "cubic", {"k": 3.0})])["terms"][0]
+        found = self.found("I1", "power", CUBIC_SLOPE + 40)
+        self.assertEqual(scoring.compare(entry, found).covered, 1)
+        entry["free_level"] = False
+        self.assertEqual(scoring.compare(entry, found).covered, 0)
+
 
 class Verdicts(unittest.TestCase):
     def test_a_diagonal_family_near_an_axis_is_along_it(self):
