@@ -13,7 +13,7 @@ import numpy as np
 sys.path.insert(0, sys.argv.pop())
 from hidden_terms import bases, case_files, complete_laws, generate, laws  # noqa: E402
 from hidden_terms.deformation import Part  # noqa: E402
-from hidden_terms.fitting import misfit, refit  # noqa: E402
+from hidden_terms.fitting import dial, misfit, refit  # noqa: E402
 from hidden_terms.generate import Spec  # noqa: E402
 from hidden_terms.protocol import Curve, RigError, observe, stretches  # noqa: E402
 
@@ -178,6 +178,21 @@ class Draws(unittest.TestCase):
         self.assertIn(("gho", "diagonal", "exponential_square"), seen)
         self.assertTrue({law for _, _, law in seen} >= set(laws.PARAMETERS) - {"linear"})
         self.assertTrue({invariant for base, invariant, _ in seen if base == "gho"} == set(generate.OF_TISSUE))
+
+    def test_an_effect_that_does_not_grow_in_proportion_is_dialled_too(self):
+        form = bases.Form((Part("I1", "linear", {"mu": 100.0}),), (bases.Free(0, "mu", 0.1, 1e4, True),))
+        protocol = [Curve("u", "uniaxial_nominal", np.linspace(1, 2, 15)), Curve("e", "equibiaxial", np.linspace(1, 2, 15))]
+        bare, sd = observe(protocol, form.material), np.full(30, 2.0)
+
+        def readings(amount):
+            return bare + observe(protocol, [Part("I2", "cubic", {"k": amount**3})])
+
+        for target in (25, 400):
+            amount = dial(readings, lambda y: sd, form, protocol, target, 10.0, np.random.default_rng(1))
+            found = misfit(form, protocol, readings(amount), sd, np.random.default_rng(2))
+            self.assertAlmostEqual(found / target, 1, delta=0.031)
+        with self.assertRaises(generate.Unreachable):
+            dial(readings, lambda y: sd, form, protocol, 400, 0.1, np.random.default_rng(1))
 
     def test_a_rig_error_is_of_a_channel_that_there_is(self):
         random, kinds = np.random.default_rng(6), set()
