@@ -37,7 +37,8 @@ DEVELOPMENT_SEED, SCORED_SEED, REDUCED_SEED = 101, 2032, 7
 BEGIN, END = "<!-- blind benchmark of {}: begin -->", "<!-- blind benchmark of {}: end -->"
 
 # Modules that make cases; the others only read verdicts.
-GENERATOR = ("laws", "deformation", "protocol", "bases", "fitting", "case_files", "generate", "complete_laws")
+GENERATOR = ("laws", "deformation", "protocol", "bases", "fitting", "case_files")
+GENERATOR_OF = {"terms": "generate", "laws": "complete_laws"}
 
 # What is hidden → Λ, cases of every base and Λ, and those of a reduced run.
 FULL: typing.Dict[str, typing.Tuple[typing.Tuple[int, ...], int]] = {
@@ -81,8 +82,9 @@ def take_up(told: argparse.Namespace, seed: int) -> str:
     began."""
     here = pathlib.Path(__file__).resolve().parent
     program = [told.build / "bin/tunica", *sorted((told.build / "lib/tunica/plugins").glob("*.so"))]
-    mine = {"seed": seed, "study": "laws" if told.laws else "terms", "scored": told.scored,
-            "generator": fingerprint(here / "hidden_terms" / f"{name}.py" for name in GENERATOR), "program": fingerprint(program),
+    study = "laws" if told.laws else "terms"
+    makers = [here / "hidden_terms" / f"{name}.py" for name in (*GENERATOR, GENERATOR_OF[study])]
+    mine = {"seed": seed, "study": study, "scored": told.scored, "generator": fingerprint(makers), "program": fingerprint(program),
             "begun": datetime.date.today().isoformat()}
     note = told.out / "run.json"
     if note.exists():

@@ -83,5 +83,7 @@ def calibration_error(stated: typing.Sequence[float], right: typing.Sequence[boo
 
 
 def table(heading: str, figures: typing.Sequence[Figure]) -> str:
+    """Figures of no case stand there only where they have a bar."""
+    figures = [figure for figure in figures if figure.cases > 0 or figure.bar is not None]
     lines = [heading, "", "| figure | measured (95 % interval) | pass | of | |", "|---|---|---|---|---|"]
     return "\n".join([*lines, *(figure.row() for figure in figures)]) + "\n"

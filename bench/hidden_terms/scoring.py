@@ -11,6 +11,7 @@ from .fitting import slope_error
 
 Json = typing.Dict[str, typing.Any]
 LAMBDAS = (25, 60, 150, 400)
+WITHIN_NOISE = 3.0  # of |r|²: as much more than a fit of the true form as cannot be told from noise
 SEPARABLE = 9.0  # least |r|² that a term of another invariant leaves, of data in which the two can be told apart
 
 
@@ -82,12 +83,15 @@ def compare(term: Json, found: typing.Sequence[verdict.Found]) -> Compared:
 def judge(case: pathlib.Path, truths: pathlib.Path, results: pathlib.Path) -> Judged:
     truth = case_files.open_truth(case, truths)
     said = verdict.read_file(results / case.name / "result.json")
+    # Only where the noise is stated is |r|² of both in the same unit.
+    fits = bool(truth["stated"]) and said.chi2_after <= truth.get("oracle_chi2", 0.0) + WITHIN_NOISE and (
+        len(said.terms) <= len(truth["terms"]))
     compared = []
     for term in truth["terms"]:
         found = [one for one in said.terms if one.invariant == term["invariant"]]
         if found and term["invariant"] in said.first.invariants():
             compared.append((term, compare(term, found)))
-    return Judged(case.name, truth, said, [one.ratio for _, one in compared], [one.right for _, one in compared],
+    return Judged(case.name, truth, said, [one.ratio for _, one in compared], [one.right or fits for _, one in compared],
                   [one.covered for term, one in compared if not term["free_level"] and np.isfinite(one.covered)])
 
 

@@ -6,13 +6,14 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
 sys.path.insert(0, sys.argv.pop())
 from hidden_terms import bases, case_files, complete_laws, generate, laws  # noqa: E402
 from hidden_terms.deformation import Part  # noqa: E402
-from hidden_terms.fitting import misfit, refit  # noqa: E402
+from hidden_terms.fitting import dial, misfit, refit  # noqa: E402
 from hidden_terms.generate import Spec  # noqa: E402
 from hidden_terms.protocol import Curve, RigError, observe, stretches  # noqa: E402
 
@@ -108,6 +109,16 @@ class Case(unittest.TestCase):
             known = bases.with_term(form, Part(term["invariant"], term["law"], term["parameters"]), term["x"][-1])
             self.assertGreater(refit(known, protocol, clean, noise.sd(protocol, clean)).chi2, 20)
 
+    def test_a_pair_of_which_one_term_would_do_is_drawn_again(self):
+        draw = [SEED, generate.zlib.crc32(b"pair mooney_rivlin"), 400, 0, self.truth("pair")["attempts"] - 1]
+        for left, refused in ((24.9, True), (25.1, False)):
+            with unittest.mock.patch.object(generate, "misfit", return_value=left):
+                if refused:
+                    with self.assertRaises(generate.Unreachable):
+                        generate.hide(self.specs["pair"], np.random.default_rng(draw))
+                else:
+                    self.assertEqual(len(generate.hide(self.specs["pair"], np.random.default_rng(draw))[4]), 2)
+
     def test_files_give_nothing_away(self):
         for what in self.names:
             folder = self.out / "cases" / self.names[what]
@@ -168,6 +179,21 @@ class Draws(unittest.TestCase):
         self.assertTrue({law for _, _, law in seen} >= set(laws.PARAMETERS) - {"linear"})
         self.assertTrue({invariant for base, invariant, _ in seen if base == "gho"} == set(generate.OF_TISSUE))
 
+    def test_an_effect_that_does_not_grow_in_proportion_is_dialled_too(self):
+        form = bases.Form((Part("I1", "linear", {"mu": 100.0}),), (bases.Free(0, "mu", 0.1, 1e4, True),))
+        protocol = [Curve("u", "uniaxial_nominal", np.linspace(1, 2, 15)), Curve("e", "equibiaxial", np.linspace(1, 2, 15))]
+        bare, sd = observe(protocol, form.material), np.full(30, 2.0)
+
+        def readings(amount):
+            return bare + observe(protocol, [Part("I2", "cubic", {"k": amount**3})])
+
+        for target in (25, 400):
+            amount = dial(readings, lambda y: sd, form, protocol, target, 10.0, np.random.default_rng(1))
+            found = misfit(form, protocol, readings(amount), sd, np.random.default_rng(2))
+            self.assertAlmostEqual(found / target, 1, delta=0.031)
+        with self.assertRaises(generate.Unreachable):
+            dial(readings, lambda y: sd, form, protocol, 400, 0.1, np.random.default_rng(1))
+
     def test_a_rig_error_is_of_a_channel_that_there_is(self):
         random, kinds = np.random.default_rng(6), set()
         form = bases.draw("gho", random)
@@ -193,6 +219,7 @@ class CompleteLaws(unittest.TestCase):
                 self.assertEqual(list(experiment["models"]), [model])
                 truth = case_files.open_truth(out / "cases" / name, out / "truths")
                 self.assertTrue(np.all(np.diff(truth["path"]["energy"][:15]) > 0), law)
+                self.assertTrue(0 < truth["oracle_error"] < 0.1, law)
                 for test, entry in experiment["tests"].items():
                     for channel, noise in entry["data"]["noise"].items():
                         names = list(entry["data"]["columns"])

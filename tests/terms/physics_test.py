@@ -134,6 +134,10 @@ class Stress(unittest.TestCase):
         curves = [Curve("u", "uniaxial_nominal", np.array([1.0, 2.0])), Curve("s", "simple_shear", np.array([0.0, 1.0]))]
         self.assertAlmostEqual(reach(curves, MOONEY, Part("I1", "linear", {})), 4 + 1 - 3)
         self.assertAlmostEqual(reach(curves, MOONEY, Part("I2", "linear", {})), 0.25 + 4 - 3)
+        sheared = [Curve("s", "simple_shear", np.array([0.0, 0.6]))]
+        for family, values, most in (("axial", {}, 0.36), ("circumferential", {}, 0.0),
+                                     ("diagonal", {"theta": 45.0}, 0.6 + 0.18)):
+            self.assertAlmostEqual(reach(sheared, GHO, Part(family, "quadratic", values)), most)
         sheets = [Curve("b", "sheet", np.array([0.0, 1.0]), most=(0.2, 0.1))]
         self.assertAlmostEqual(reach(sheets, GHO, Part("axial", "quadratic", {})), 1.21 - 1)
 

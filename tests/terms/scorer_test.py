@@ -21,7 +21,7 @@ FIBRES = ("axial", "circumferential", "diagonal")
 
 def truth_of(what, target=0, terms=(), stated=True, rivals=None):
     """Terms are (invariant, law, parameters); the oracle errs by 0.5 kPa."""
-    return {"what": what, "base": "gho", "lambda": target, "noise": "white", "stated": stated, "rig": None,
+    return {"what": what, "base": "gho", "lambda": target, "noise": "white", "stated": stated, "rig": None, "oracle_chi2": 0,
             "rivals": rivals or {}, "terms": [
                 {"invariant": invariant, "law": law, "parameters": values, "free_level": invariant == "I1",
                  "x": list(GRID), "slope": list(laws.slope(law, GRID, values)), "oracle_error": 0.5}
@@ -138,6 +138,12 @@ class Figures(Folder):
         self.assertFalse(ratio.passed())
         self.assertIn("at most twice the oracle's in 2 of 5", ratio.note)
 
+    def test_a_law_that_fits_as_well_as_the_true_form_is_within_noise(self):
+        wrong = said("discovered", [[("I2", "power")]], [term_of("I2", "power", CUBIC_SLOPE + 2)])  # |r|² 10
+        for stated, oracle in ((True, 7.5), (True, 6.5), (False, 7.5)):
+            self.add({**truth_of("single", 150, [CUBIC], stated), "oracle_chi2": oracle}, wrong)
+        self.assertEqual([one.laws_right for one in self.judged()], [[True], [False], [False]])
+
     def test_two_terms_and_kinks(self):
         both = truth_of("pair", 400, [CUBIC, ("axial", "quadratic", {"k": 2.0})])
         self.add(both, said("discovered", [[("axial", "power"), ("I2", "power")]]), 2)
@@ -187,6 +193,13 @@ class Comparison(unittest.TestCase):
         entry = truth_of("single", 150, [CUBIC])["terms"][0]
         off = np.where(GRID < 1, 0.05, 0.5)  # 20 of 41 points lie within the band of 0.1
         self.assertAlmostEqual(scoring.compare(entry, self.found("I2", "power", CUBIC_SLOPE + off)).covered, 20 / 41)
+
+    def test_a_band_is_shifted_with_the_level_that_the_base_can_take(self):
+        entry = truth_of("single", 150, [("I1", "cubic", {"k": 3.0})])["terms"][0]
+        found = self.found("I1", "power", CUBIC_SLOPE + 40)
+        self.assertEqual(scoring.compare(entry, found).covered, 1)
+        entry["free_level"] = False
+        self.assertEqual(scoring.compare(entry, found).covered, 0)
 
 
 class Verdicts(unittest.TestCase):
@@ -248,6 +261,13 @@ class Shares(unittest.TestCase):
         self.assertTrue(figures.share("", [], 0.9).passed())
         self.assertIn("| 0.800 (0.711–0.867) | ≥ 0.9 ✗ | 100 |", many.row())
 
+    def test_a_table_has_what_was_counted_and_what_has_a_bar(self):
+        text = figures.table("head", [figures.share("counted", [True]), figures.share("not counted", []),
+                                      figures.share("bar", [], 0.9)])
+        self.assertIn("| counted | 1.000", text)
+        self.assertNotIn("not counted", text)
+        self.assertIn("| bar | – | – | 0 |", text)
+
     def test_a_median_and_its_interval(self):
         found = figures.median("", range(1, 101), 2)
         self.assertEqual(found.value, 50.5)
@@ -263,7 +283,7 @@ class CompleteLaws(unittest.TestCase):
         self.l1, self.l2 = np.linspace(1.1, 1.5, 5), np.ones(5)
         parts = [Part("I1", "linear", {"mu": 10.0}), Part("diagonal", "exponential_square",
                                                           {"k1": 5.0, "k2": 1.0, "theta": 40.0})]
-        self.truth = {"law": "Holzapfel", "noise": 0.01,
+        self.truth = {"law": "Holzapfel", "noise": 0.01, "oracle_error": 0.004,
                       "terms": [{"invariant": p.invariant, "law": p.law, "parameters": p.values} for p in parts],
                       "path": {"circumferential": list(self.l1), "axial": list(self.l2),
                                "energy": list(complete_laws.energy(parts, self.l1, self.l2))}}
@@ -294,6 +314,7 @@ class CompleteLaws(unittest.TestCase):
         found = self.judge()
         self.assertEqual((found.exact, found.invariants, found.error), (False, False, np.inf))
         self.assertIn("| Holzapfel | 1% | 1 | 0.00", complete_laws.table("", [found]))
+        self.assertIn("| inf% | 0.4% |", complete_laws.table("", [found]))
 
 
 unittest.main()
