@@ -20,6 +20,7 @@
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "diagnosis_folder.hpp"
+#include "discovery/output/outputs.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "execution/share.hpp"
@@ -104,8 +105,10 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) fmt::print("\n");
   const auto page = report::write_report(directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", diagnosis::summary(found.diagnosis).shown_on(STDOUT_FILENO),
-             page.string(), (directory.path() / "result.json").string());
+  text::StyledText words = diagnosis::summary(found.diagnosis);
+  if (found.discovered()) words += discovery::term_summary(*found.search);
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", words.shown_on(STDOUT_FILENO), page.string(),
+             (directory.path() / "result.json").string());
   if (found.diagnosis.explanation.claim.best || found.discovered())
     fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;

@@ -64,8 +64,8 @@ int run(int argc, char** argv) {
   app.fallthrough();
   app.footer(examples);
   for (const auto add :
-       {add_run, add_diagnose, add_discover, add_cohort, add_report, add_export, add_certify, add_import, add_check, add_simulate,
-        add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
+       {add_run, add_diagnose, add_discover, add_cohort, add_report, add_export, add_certify, add_import, add_check,
+        add_simulate, add_stability, add_list, add_describe, add_schema, add_plugin, add_completion, add_man})
     add(app, global, action);
 #ifdef TUNICA_SERVES
   add_serve(app, global, action);

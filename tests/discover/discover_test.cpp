@@ -80,7 +80,7 @@ TEST(Discover, AWholeEnergyIsFoundFromNothing) {
 TEST(Discover, AnErrorOfTheLoadCellIsNoTerm) {
   const trial::Rubber rubber;
   rubber.measure(13, [](nlohmann::json& truth) {
-    truth["tests"]["circumferential"]["mechanisms"] = {trial::mechanism("force_offset", "offset", 25)};
+    truth["tests"]["circumferential"]["mechanisms"] = {trial::mechanism("force_offset", "value", 25)};
   });
   const auto found = rubber.discover();
   EXPECT_NE(found.verdict, Verdict::nothing_detected);

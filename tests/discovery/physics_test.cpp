@@ -240,6 +240,7 @@ TEST(GeneratorPhysics, BothSidesListTheSameMechanisms) {
     if (line.starts_with("  ") && line.size() > 2 && line[2] != ' ')
       listed.insert(line.substr(2, line.find(' ', 2) - 2));
   for (const blind::Effect& effect : blind::catalogue()) hidden.insert(effect.id);
+  EXPECT_EQ(listed.erase("added_term"), 1u);  // for discovery, whose blind benchmark is bench/terms.py
   EXPECT_EQ(listed, hidden);
   EXPECT_EQ(words().size(), hidden.size());
 }

@@ -12,7 +12,7 @@ TEST_F(Messages, NameTheNearestKeyOfAnUnknownOne) {
             "experiment.json: unknown key 'sead' in the experiment file (/sead, line 3, column 38). Did you mean "
             "'seed'? Known: $schema, format, "
             "name, seed, models, tests, objective, constraints, optimizers, stop, initial, runs, on_failure, analysis, "
-            "diagnosis.");
+            "diagnosis, discovery.");
   expect_within(refusal(R"("rows": )", R"("row": )"),
                 "unknown key 'row' in the data of test 'circumferential_strip' (/tests/circumferential_strip/data/row, "
                 "line 22, column 9). Did you mean 'rows'?");

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discovery/after_diagnosis.hpp"
 
-#include <algorithm>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "diagnosis/hypotheses/isotropy.hpp"
+#include "discovery/verdict.hpp"
 
 namespace tunica::discovery {
 
@@ -31,11 +34,12 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
 diagnosis::Diagnosis with_verdict_of(const Discovery& discovery, diagnosis::Diagnosis d) {
   if (discovery.verdict != Verdict::discovered) return d;
   d.explanation.verdict = Verdict::discovered;
-  for (const Reason& reason : discovery.reasons) {
-    std::string clause = reason.text;
-    if (!clause.empty() && clause.back() == '.') clause.pop_back();
-    d.explanation.reasons.push_back({diagnosis::ReasonKind::terms_discovered, std::move(clause)});
-  }
+  std::vector<KindPointer> kinds;
+  for (const FoundTerm& term : discovery.terms) kinds.push_back(term.kind);
+  auto& reasons = d.explanation.reasons;
+  reasons.insert(reasons.begin(), {diagnosis::ReasonKind::terms_discovered,
+                                   fmt::format("the energy lacks {}, |r|² {:.1f} → {:.1f}", words_of(kinds),
+                                               discovery.chi2_before, discovery.chi2_after)});
   return d;
 }
 

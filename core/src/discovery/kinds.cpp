@@ -58,8 +58,8 @@ Reach reach_of(const std::string& words, const States& states) {
   if (words == "I1") return reach_of_first(states);
   if (words == "I2") return reach_of_second(states);
   if (words == "stretches") return reach_of_stretches(states);
-  if (words == "fibre axial") return reach_of_fibre(states, 0);
-  if (words == "fibre circumferential") return reach_of_fibre(states, 90);
+  static const std::map<std::string, double> along_axes{{"fibre axial", 0}, {"fibre circumferential", 90}};
+  if (const auto axis = along_axes.find(words); axis != along_axes.end()) return reach_of_fibre(states, axis->second);
   Reach widest;  // of a family whose angle is not known
   for (const double angle : {20., 30., 40., 50., 60., 70.}) {
     const Reach one = reach_of_fibre(states, angle);

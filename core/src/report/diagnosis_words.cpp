@@ -43,8 +43,11 @@ std::string verdict_words(const Json& diagnosis) {
                        text::joined(words(list(diagnosis, said))),
                        unlisted ? ", or it is an effect that the catalogue does not list: " + reasons : "");
   }
-  if (verdict == "discovered")
-    return fmt::format("Discovered: no mechanism of the catalogue explains it; {}.", reasons);
+  if (verdict == "discovered") {
+    const Json& all = list(diagnosis, "reasons");
+    return fmt::format("Discovered: {}. No mechanism of the catalogue explains it.",
+                       all.empty() ? "terms of the energy" : all.front().get<std::string>());
+  }
   if (verdict == "suspect_data") return fmt::format("Suspect data: {}.", reasons);
   if (verdict == "unknown") return fmt::format("Unknown: something is wrong, and {}.", reasons);
   return verdict;

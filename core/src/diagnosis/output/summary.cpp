@@ -58,7 +58,7 @@ std::string verdict_line(const Diagnosis& d) {
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
     case Verdict::discovered:
-      return "DISCOVERED: no mechanism of the catalogue explains it; " + joined_reasons(explanation);
+      return "DISCOVERED: " + joined_reasons(explanation);
     case Verdict::unknown:
       break;
   }

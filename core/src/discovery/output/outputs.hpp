@@ -19,12 +19,15 @@ std::string result_document(const Discovery& discovery, const experiment::Experi
 
 /// What a person reads on the terminal.
 text::StyledText summary(const Discovery& discovery);
+/// The part of it that a diagnosis adds to its own words: terms, how well they predict, what to measure next.
+text::StyledText term_summary(const Discovery& discovery);
 
 /// The experiment with the terms, its parameters at their fitted values: the text of extended.json. Empty without
 /// terms.
 std::string extended_experiment(const Discovery& discovery, const plugins::Catalogue& catalogue);
 
-/// residuals.csv as a diagnosis writes it: measured, predicted by the base and with the terms, σ, and what is left in σ.
+/// residuals.csv as a diagnosis writes it: measured, predicted by the base and with the terms, σ, and what is left in
+/// σ.
 std::string residual_table(const Discovery& discovery);
 
 }  // namespace tunica::discovery

@@ -44,13 +44,22 @@ std::string block_line(const diagnosis::HeldOut& block) {
                                                                                : "inconclusive");
 }
 
+std::string line(const std::string& label, const std::string& words) {
+  return text::hanging(fmt::format("{:<10}", label), words) + "\n";
+}
+
 }  // namespace
+
+text::StyledText term_summary(const Discovery& d) {
+  text::StyledText page;
+  for (std::size_t k = 0; k < d.terms.size(); ++k) page += line(k == 0 ? "Terms:" : "", term_line(d.terms[k]));
+  for (std::size_t k = 0; k < d.held_out.size(); ++k) page += line(k == 0 ? "Gain:" : "", block_line(d.held_out[k]));
+  if (!d.next.empty()) page += line("Next:", d.next);
+  return page;
+}
 
 text::StyledText summary(const Discovery& d) {
   text::StyledText page;
-  const auto line = [&page](const std::string& label, const std::string& words) {
-    page += text::hanging(fmt::format("{:<10}", label), words) + "\n";
-  };
   std::vector<std::string> reasons;
   for (const Reason& reason : d.reasons) reasons.push_back(reason.text);
   page.add(text::hanging(fmt::format("{:<10}", "Verdict:"),
@@ -58,20 +67,19 @@ text::StyledText summary(const Discovery& d) {
            text::Emphasis::heading);
   page += "\n";
   if (!d.request.from_nothing)
-    line("Alarm:", fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f})",
-                               p_words(d.analysis.alarm.p()), d.analysis.evidence.fit.residuals.size(), d.chi2_before));
-  for (std::size_t k = 0; k < d.terms.size(); ++k) line(k == 0 ? "Terms:" : "", term_line(d.terms[k]));
+    page += line("Alarm:",
+                 fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f})",
+                             p_words(d.analysis.alarm.p()), d.analysis.evidence.fit.residuals.size(), d.chi2_before));
   if (d.name && !d.terms.empty())
-    line("Name:",
-         fmt::format("the catalogue's {} changes the energy too and leaves |r|² {:.1f}", d.name->id, d.name->chi2));
+    page += line("Name:", fmt::format("the catalogue's {} changes the energy too and leaves |r|² {:.1f}", d.name->id,
+                                      d.name->chi2));
   if (d.verdict == Verdict::discovered && !d.rivals.empty()) {
     const auto rig = std::find_if(d.rivals.begin(), d.rivals.end(), [](const Rival& r) { return !r.in_the_energy; });
     if (rig != d.rivals.end())
-      line("Rig:", fmt::format("the best error of the rig, {}, leaves |r|² {:.1f}; the terms leave {:.1f}", rig->id,
-                               rig->chi2, d.chi2_after));
+      page += line("Rig:", fmt::format("the best error of the rig, {}, leaves |r|² {:.1f}; the terms leave {:.1f}",
+                                       rig->id, rig->chi2, d.chi2_after));
   }
-  for (std::size_t k = 0; k < d.held_out.size(); ++k) line(k == 0 ? "Gain:" : "", block_line(d.held_out[k]));
-  if (!d.next.empty()) line("Next:", d.next);
+  page += term_summary(d);
   return page;
 }
 
