@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnosis_folder.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -14,8 +15,18 @@ namespace tunica::app {
 
 DiagnosisAndSearch diagnosed(const experiment::Experiment& experiment, const diagnosis::Request& request,
                              const plugins::Catalogue& catalogue, bool discovers, const diagnosis::Progress& progress) {
-  DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, progress), {}};
-  if (discovers) found.search = discovery::after(found.diagnosis, experiment, catalogue, progress);
+  // The search has the last twentieth of the way.
+  constexpr double before_search = 0.95;
+  const diagnosis::Progress first = [&](const std::string& stage, double share) {
+    if (progress && (!discovers || share < 1)) progress(stage, discovers ? std::min(share, before_search) : share);
+  };
+  const diagnosis::Progress last = [&](const std::string& stage, double share) {
+    if (progress && share < 1) progress(stage, before_search + (1 - before_search) * share);
+  };
+  DiagnosisAndSearch found{diagnosis::diagnose(experiment, request, catalogue, first), {}};
+  if (!discovers) return found;
+  found.search = discovery::after(found.diagnosis, experiment, catalogue, last);
+  if (progress) progress("done", 1);
   if (found.search) found.diagnosis = discovery::with_verdict_of(*found.search, std::move(found.diagnosis));
   return found;
 }
