@@ -8,35 +8,16 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
+#include "discovery/term_slope.hpp"
 #include "numerics/orthogonal.hpp"
-#include "plugins/guarded.hpp"
 
 namespace tunica::discovery {
 namespace {
 
 constexpr std::size_t points = 61;
 constexpr double two_sided = 1.96;
-
-/// The free parameters of a term in the order of a model of it alone.
-std::vector<std::size_t> parameters_of(const BoundTerm& term) {
-  std::vector<std::size_t> all{term.amplitude};
-  all.insert(all.end(), term.heights.begin(), term.heights.end());
-  all.insert(all.end(), term.shapes.begin(), term.shapes.end());
-  return all;
-}
-
-/// The term as a model of its own.
-std::unique_ptr<Model> alone(const Subject& subject, const Kind& kind) {
-  nlohmann::ordered_json term = {{"name", "t"}, {"invariant", kind.invariant}, {"law", kind.law}};
-  if (!kind.family.empty()) term["family"] = kind.family;
-  if (!kind.knots.empty()) term["knots"] = kind.knots;
-  Options options;
-  options.set("terms", nlohmann::ordered_json::array({term}).dump());
-  return plugins::create(subject.catalogue.models().at("composed"), options);
-}
 
 /// Fits a set kind by kind.
 std::optional<SetFit> assembled(const Fitter& fitter, const std::vector<KindPointer>& kinds) {

@@ -121,6 +121,36 @@ class Ledger {
       }
   }
 
+  /// The best sets with one law in the place of all terms of an invariant. Two laws may add up to a third, and no
+  /// smaller set leads from one to the other. Whether anything was new.
+  bool try_single_laws() {
+    struct Job {
+      SetFit from;
+      KindPointer law;
+      Key key;
+    };
+    std::vector<Job> jobs;
+    std::vector<SetFit> best = sorted();
+    if (best.size() > exchanged) best.resize(exchanged);
+    for (const SetFit& fit : best)
+      for (const KindPointer& law : request_.kinds) {
+        const auto same = [&](const KindPointer& kind) { return kind->invariant_words() == law->invariant_words(); };
+        if (law->invariant == "stretches" || std::none_of(fit.kinds.begin(), fit.kinds.end(), same)) continue;
+        std::vector<KindPointer> kinds = fit.kinds;
+        std::erase_if(kinds, same);
+        Key key = key_with(kinds, *law);
+        if (all_.contains(key) || !distilled_.insert(key).second) continue;
+        jobs.push_back({fit, law, std::move(key)});
+      }
+    std::vector<std::optional<SetFit>> results(jobs.size());
+    tbb::parallel_for(std::size_t{0}, jobs.size(),
+                      [&](std::size_t k) { results[k] = fitter_.distilled(jobs[k].from, jobs[k].law); });
+    bool found = false;
+    for (std::size_t k = 0; k < jobs.size(); ++k)
+      if (results[k]) found = all_.emplace(jobs[k].key, std::move(*results[k])).second || found;
+    return found;
+  }
+
   [[nodiscard]] std::vector<SetFit> sorted() const {
     std::vector<SetFit> sets;
     for (const auto& [key, fit] : all_) sets.push_back(fit);
@@ -142,7 +172,7 @@ class Ledger {
 
   const Fitter& fitter_;
   const Search& request_;
-  std::set<Key> tried_;
+  std::set<Key> tried_, distilled_;
   std::map<Key, SetFit> all_;
 };
 
@@ -162,9 +192,11 @@ std::vector<SetFit> search(const Fitter& fitter, const Search& request, const Is
     grown.resize(keep);
     level = std::move(grown);
   }
-  ledger.try_linear_laws();
-  for (int round = 0; round < 2; ++round)
-    if (ledger.grow(ledger.with_room()).empty()) break;
+  for (int round = 0; round < 2; ++round) {
+    ledger.try_linear_laws();
+    const bool simpler = ledger.try_single_laws();
+    if (ledger.grow(ledger.with_room()).empty() && !simpler) break;
+  }
   return ledger.sorted();
 }
 

@@ -32,21 +32,6 @@ Eigen::VectorXd residuals_of_nothing(const diagnosis::Evidence& evidence) {
   return evidence.fit.residuals + mirrored;
 }
 
-/// All combinations of the first shapes of a kind.
-std::vector<std::vector<double>> combinations(const Kind& kind) {
-  std::vector<std::vector<double>> all{{}};
-  for (const Shape& shape : kind.shapes) {
-    std::vector<std::vector<double>> longer;
-    for (const auto& one : all)
-      for (const double start : shape.starts) {
-        longer.push_back(one);
-        longer.back().push_back(start);
-      }
-    all.swap(longer);
-  }
-  return all;
-}
-
 /// What the linearisation promises of a term: amplitude, fall of |r|², and its signature.
 struct Promise {
   std::vector<double> shapes;
@@ -86,6 +71,20 @@ bool has_shape_at_bound(const SetFit& fit) {
 double square(double x) { return x * x; }
 
 }  // namespace
+
+std::vector<std::vector<double>> combinations(const Kind& kind) {
+  std::vector<std::vector<double>> all{{}};
+  for (const Shape& shape : kind.shapes) {
+    std::vector<std::vector<double>> longer;
+    for (const auto& one : all)
+      for (const double start : shape.starts) {
+        longer.push_back(one);
+        longer.back().push_back(start);
+      }
+    all.swap(longer);
+  }
+  return all;
+}
 
 double log_prior(const std::vector<KindPointer>& kinds, bool from_nothing) {
   double sum = 0;
@@ -228,12 +227,17 @@ std::optional<SetFit> Fitter::with_linear(const SetFit& from, std::size_t out, c
       const auto& parameter = assembly.layout().parameters[at];
       start[at] = std::clamp(modulus, parameter.min, parameter.max);
     }
-  found->fit =
+  return fitted(std::move(*found), start);
+}
+
+std::optional<SetFit> Fitter::fitted(SetFit set, const std::vector<double>& start) const {
+  const assembly::Assembly& assembly = set.set->assembly();
+  set.fit =
       diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
                                *assembly.evaluator().make_workspace(), 60, {.negligible = diagnosis::says_nothing});
-  if (!found->fit.status.ok() || !has_support(*found) || has_shape_at_bound(*found)) return std::nullopt;
-  found->log_evidence = log_evidence(*found);
-  return found;
+  if (!set.fit.status.ok() || !has_support(set) || has_shape_at_bound(set)) return std::nullopt;
+  set.log_evidence = log_evidence(set);
+  return set;
 }
 
 std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more, double worth) const {

@@ -43,6 +43,10 @@ class Fitter {
   /// the modulus at rest, λ² that of I1 and λ⁻² that of I2. None where it cannot be fitted.
   [[nodiscard]] std::optional<SetFit> with_linear(const SetFit& from, std::size_t out, const KindPointer& linear) const;
 
+  /// The set in which one law takes the place of all terms of its invariant: a fit begins where the law comes closest
+  /// to what they add to dψ/dx. None where it cannot be fitted.
+  [[nodiscard]] std::optional<SetFit> distilled(const SetFit& from, const KindPointer& law) const;
+
   /// ln of the evidence of a fit with its prior: Laplace's approximation,
   ///
   ///   ln E = −|r|²/2 − ½ ln det(I + W JᵀJ W) + ln prior of the set,
@@ -61,12 +65,17 @@ class Fitter {
   [[nodiscard]] std::vector<double> start_of(const SetFit& from, const BoundSet& set) const;
   /// Whether every term shows in a tenth of the rows at least: a steep one can fit a single last point.
   [[nodiscard]] bool has_support(const SetFit& fit) const;
+  /// Fitted from a start; none where it cannot be evaluated, or where a term has nothing to do or leaves its range.
+  [[nodiscard]] std::optional<SetFit> fitted(SetFit set, const std::vector<double>& start) const;
 
   const Subject& subject_;
   const diagnosis::Evidence& evidence_;
   SetFit root_;
   double measured_ = 1;  ///< √Σ(y/σ)²
 };
+
+/// All combinations of the first shapes of a kind.
+std::vector<std::vector<double>> combinations(const Kind& kind);
 
 /// ln of the prior of a set: each further term is in one data set of ten beside a base and in one of two from nothing;
 /// the order in which terms are listed says nothing.
