@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -12,10 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include "batch.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -23,7 +20,6 @@
 #include "discovery/output/outputs.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
-#include "execution/share.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
@@ -114,44 +110,17 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   return done;
 }
 
-/// Every folder with an experiment.json and without a result.json below it gets a diagnosis, several at a time. One
-/// that fails is reported and leaves the others alone.
 int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
-  const std::filesystem::path root = options.file;
-  if (!std::filesystem::is_directory(root))
-    throw InputError(fmt::format("--batch {}: no such folder. Name one that holds folders with an experiment.json each",
-                                 root.string()));
-  const std::filesystem::path into = options.directory.empty() ? root : std::filesystem::path(options.directory);
-  const auto share = options.share.empty() ? execution::Share{} : execution::parse_share(options.share);
-  std::vector<std::filesystem::path> all, cases;
-  for (const auto& entry : std::filesystem::directory_iterator(root))
-    if (std::filesystem::exists(entry.path() / "experiment.json")) all.push_back(entry.path());
-  std::sort(all.begin(), all.end());
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (share.holds(k) && !std::filesystem::exists(into / all[k].filename() / "result.json")) cases.push_back(all[k]);
-  std::atomic<std::size_t> failures = 0, finished = 0;
-  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t k) {
-    // A diagnosis runs its own loops side by side; here its neighbours do.
-    tbb::this_task_arena::isolate([&] {
-      try {
-        const auto experiment = session.read(cases[k] / "experiment.json");
-        const auto found =
-            diagnosed(experiment, request_of(experiment, session, options), session.catalogue(), !options.no_discovery);
-        const std::filesystem::path directory = into / cases[k].filename();
-        std::filesystem::create_directories(directory);
-        write_diagnosis(directory, found, experiment, session.catalogue());
-      } catch (const std::exception& problem) {
-        ++failures;
-        say_error(fmt::format("{}: {}", cases[k].string(), problem.what()));
-      }
-    });
-    if (const std::size_t n = ++finished; !global.quiet && (n % 50 == 0 || n == cases.size()))
-      fmt::print(stderr, "{} of {} diagnoses\n", n, cases.size());
-  });
-  fmt::print("{} diagnoses made, {} failed\n", cases.size() - failures, failures.load());
-  return failures == 0 ? done : not_converged;
+  return run_batch({options.file, options.directory, options.share, "diagnoses", global.quiet},
+                   [&](const std::filesystem::path& of_case, const std::filesystem::path& results) {
+                     const auto experiment = session.read(of_case / "experiment.json");
+                     const auto found = diagnosed(experiment, request_of(experiment, session, options),
+                                                  session.catalogue(), !options.no_discovery);
+                     std::filesystem::create_directories(results);
+                     write_diagnosis(results, found, experiment, session.catalogue());
+                   });
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -11,10 +10,9 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include "batch.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "discovery/output/outputs.hpp"
@@ -36,7 +34,7 @@ namespace tunica::app {
 namespace {
 
 struct DiscoverOptions {
-  std::string file, directory;
+  std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
@@ -118,41 +116,17 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   return done;
 }
 
-/// Every folder with an experiment.json and without a result.json below it, several at a time. One that fails is
-/// reported and leaves the others alone.
 int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
-  const std::filesystem::path root = options.file;
-  if (!std::filesystem::is_directory(root))
-    throw InputError(fmt::format("--batch {}: no such folder. Name one that holds folders with an experiment.json each",
-                                 root.string()));
-  const std::filesystem::path into = options.directory.empty() ? root : std::filesystem::path(options.directory);
-  std::vector<std::filesystem::path> cases;
-  for (const auto& entry : std::filesystem::directory_iterator(root))
-    if (std::filesystem::exists(entry.path() / "experiment.json") &&
-        !std::filesystem::exists(into / entry.path().filename() / "result.json"))
-      cases.push_back(entry.path());
-  std::sort(cases.begin(), cases.end());
-  std::atomic<std::size_t> failures = 0, finished = 0;
-  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t k) {
-    tbb::this_task_arena::isolate([&] {
-      try {
-        const auto experiment = session.read(cases[k] / "experiment.json");
-        const auto found = discovery::discover(experiment, request_of(experiment, options), session.catalogue());
-        const std::filesystem::path directory = into / cases[k].filename();
-        std::filesystem::create_directories(directory);
-        write_discovery(directory, found, experiment, session.catalogue());
-      } catch (const std::exception& problem) {
-        ++failures;
-        say_error(fmt::format("{}: {}", cases[k].string(), problem.what()));
-      }
-    });
-    if (const std::size_t n = ++finished; !global.quiet && (n % 50 == 0 || n == cases.size()))
-      fmt::print(stderr, "{} of {} discoveries\n", n, cases.size());
-  });
-  fmt::print("{} discoveries made, {} failed\n", cases.size() - failures, failures.load());
-  return failures == 0 ? done : not_converged;
+  return run_batch({options.file, options.directory, options.share, "discoveries", global.quiet},
+                   [&](const std::filesystem::path& of_case, const std::filesystem::path& results) {
+                     const auto experiment = session.read(of_case / "experiment.json");
+                     const auto found =
+                         discovery::discover(experiment, request_of(experiment, options), session.catalogue());
+                     std::filesystem::create_directories(results);
+                     write_discovery(results, found, experiment, session.catalogue());
+                   });
 }
 
 }  // namespace
@@ -191,8 +165,12 @@ void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(CLI::Range(0.0001, 0.5))
       ->type_name("A");
   verb->add_flag("--quick", options->quick, "The alarm from linear draws only: a second instead of several");
-  verb->add_flag("--batch", options->batch,
-                 "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
+  auto* batch =
+      verb->add_flag("--batch", options->batch,
+                     "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");
+  verb->add_option("--shard", options->share, "With --batch: only part k of N of the folders, as 2/7")
+      ->needs(batch)
+      ->type_name("k/N");
   verb->add_flag("--quiet", global.quiet, "Nothing on stderr but errors");
   verb->footer(
       "Examples:\n"
