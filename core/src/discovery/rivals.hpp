@@ -22,7 +22,7 @@ struct Rival {
 };
 
 /// Every mechanism that could be fitted, likeliest first. The errors of the rig together have the prior weight of the
-/// terms together. `p_after` of each stays open.
+/// terms together.
 std::vector<Rival> rivals_of(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis);
 
 }  // namespace tunica::discovery

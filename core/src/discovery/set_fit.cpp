@@ -282,17 +282,15 @@ std::optional<SetFit> Fitter::grown(const SetFit& from, const KindPointer& more,
   if (promises.empty() || promises.front().gain < std::max(worth_trying, missing)) return std::nullopt;
   if (promises.size() > starts) promises.resize(starts);
 
+  std::vector<std::size_t> amplitudes = term.heights;
+  amplitudes.push_back(term.amplitude);
   const std::vector<diagnosis::Variable> variables = diagnosis::all_variables(assembly);
   bool ok = false;
   double share = 1;
   for (const Promise& promise : promises) {
     std::vector<double> at = beginning;
     const double amplitude = share * promise.amplitude;
-    for (const std::size_t index : [&] {
-           std::vector<std::size_t> all = term.heights;
-           all.push_back(term.amplitude);
-           return all;
-         }())
+    for (const std::size_t index : amplitudes)
       at[index] = std::clamp(amplitude, parameters[index].min, parameters[index].max);
     for (std::size_t k = 0; k < promise.shapes.size(); ++k) at[term.shapes[k]] = promise.shapes[k];
     // What the others do when it is added: J Δ = −s a.
