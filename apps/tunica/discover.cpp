@@ -2,17 +2,20 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
 #include "batch.hpp"
+#include "cohort/discovery_study.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "discovery/output/outputs.hpp"
@@ -80,22 +83,39 @@ std::string discovery_interrupted() {
       text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "");
 }
 
+/// The folder for results, and what of it was made for them.
+struct Output {
+  std::vector<std::filesystem::path> made;
+  execution::RunDirectory directory;
+
+  Output(const std::filesystem::path& requested, const std::string& name)
+      : made(to_be_made(requested)),
+        directory(execution::RunDirectory::create(requested.empty() ? std::nullopt : std::optional(requested), name)) {
+    if (requested.empty()) made.insert(made.begin(), directory.path());
+  }
+
+ private:
+  static std::vector<std::filesystem::path> to_be_made(const std::filesystem::path& requested) {
+    const std::filesystem::path first = requested.empty() ? "results" : requested;
+    if (std::filesystem::exists(first)) return {};
+    return {first};
+  }
+};
+
+void tell(const std::vector<diagnosis::Warning>& warnings) {
+  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
+  if (!warnings.empty()) fmt::print("\n");
+}
+
 int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
   const auto experiment = session.read(options.file);
   const auto request = request_of(experiment, options);
-  const std::filesystem::path requested = options.directory;
-  const bool was_there = !requested.empty() && std::filesystem::exists(requested);
-  const bool results_were_there = std::filesystem::exists("results");
-  auto directory =
-      execution::RunDirectory::create(requested.empty() ? std::nullopt : std::optional(requested), experiment.name);
-  std::vector<std::filesystem::path> made;
-  if (!was_there) made.push_back(directory.path());
-  if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
+  Output output(options.directory, experiment.name);
   discovery::Discovery found;
   try {
-    UnfinishedFolder folder(made, discovery_interrupted());
+    UnfinishedFolder folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
     found = discovery::discover(experiment, request, session.catalogue(),
                                 [&stages](const std::string& what, double share) { stages.tell(what, share); });
@@ -106,13 +126,53 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
-  const bool extended = write_discovery(directory.path(), found, experiment, session.catalogue());
-  for (const diagnosis::Warning& warning : found.warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
-  if (!found.warnings.empty()) fmt::print("\n");
-  const auto page = report::write_report(directory.path());
+  const bool extended = write_discovery(output.directory.path(), found, experiment, session.catalogue());
+  tell(found.warnings);
+  const auto page = report::write_report(output.directory.path());
   fmt::print("{}\nReport:   {}\nResults:  {}\n", discovery::summary(found).shown_on(STDOUT_FILENO), page.string(),
-             (directory.path() / "result.json").string());
-  if (extended) fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
+             (output.directory.path() / "result.json").string());
+  if (extended) fmt::print("Try:      tunica run {}\n", (output.directory.path() / "extended.json").string());
+  return done;
+}
+
+/// Whether the file describes a cohort: it names specimens and the experiment of each.
+bool is_cohort(const std::string& file) {
+  std::ifstream stream(file);
+  const auto json = nlohmann::json::parse(stream, nullptr, false, true);
+  return json.is_object() && json.contains("specimens") && json.contains("experiment");
+}
+
+/// The terms that all specimens of a cohort have in common.
+int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  const Session session(global);
+  const cohort::Specification specification = cohort::read_specification(options.file);
+  const cohort::SpecimenTable table = cohort::read_specimens(specification);
+  const cohort::Template pattern(specification, table);
+  const bool quick = !specification.diagnosis || specification.diagnosis->quick;
+  const auto asked = [&](const experiment::Experiment& experiment) {
+    discovery::Request request = request_of(experiment, options);
+    request.quick = request.quick || quick;  // the others make up for what a quick one does not see
+    if (!options.seed) request.seed = specification.seed;
+    return request;
+  };
+  Output output(options.directory, specification.name);
+  std::optional<cohort::DiscoveryStudy> study;
+  {
+    UnfinishedFolder folder(output.made, discovery_interrupted());
+    Stages stages(global.quiet);
+    study = cohort::study_discovery(specification, table, pattern, session.catalogue(), asked,
+                                    [&stages](const std::string& what, double share) { stages.tell(what, share); });
+    folder.keep();
+  }
+  const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
+  const std::filesystem::path& folder = output.directory.path();
+  write_cohort_discovery(folder, *study, specification, table, session.catalogue());
+  tell(study->found.warnings);
+  const auto page = report::write_report(folder);
+  fmt::print("{}\nReport:   {}\nResults:  {}\n", cohort::discovery_words(*study).shown_on(STDOUT_FILENO), page.string(),
+             (folder / "terms.csv").string());
+  if (!study->extended.empty()) fmt::print("Try:      tunica cohort {}\n", (folder / "extended_cohort.json").string());
   return done;
 }
 
@@ -134,7 +194,7 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
 void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
   auto options = std::make_shared<DiscoverOptions>();
   auto* verb = app.add_subcommand("discover", "Find the terms that the energy lacks, or is made of");
-  verb->add_option("experiment", options->file, "Experiment file (JSON)")->required()->type_name("EXP");
+  verb->add_option("experiment", options->file, "Experiment or cohort file (JSON)")->required()->type_name("EXP");
   verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
       ->type_name("DIR");
   verb->add_option("--model", options->model, "The base, instead of the file's")->type_name("NAME");
@@ -177,12 +237,15 @@ void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
       "  tunica discover experiment.json\n"
       "  tunica discover experiment.json --from-nothing -o results/a\n"
       "  tunica discover experiment.json --invariants I1,I2 --most-terms 2\n"
+      "  tunica discover cohort.json -o results/tissue\n"
       "  tunica discover --batch --quick cases/\n\n"
       "Writes report.html, result.json, extended.json (the experiment with the terms: `tunica run` takes it),\n"
-      "residuals.csv and input.json. Exit code 0 whatever the verdict.");
+      "residuals.csv and input.json. Of a cohort the terms are common to all specimens, their parameters each\n"
+      "specimen's own: terms.csv, extended_cohort.json. Exit code 0 whatever the verdict.");
   verb->callback([&global, &action, options] {
     action = [&global, options] {
-      return options->batch ? discover_batch(global, *options) : discover(global, *options);
+      if (options->batch) return discover_batch(global, *options);
+      return is_cohort(options->file) ? discover_cohort(global, *options) : discover(global, *options);
     };
   });
 }

@@ -18,4 +18,16 @@ bool write_discovery(const std::filesystem::path& directory, const discovery::Di
   return !extended.empty();
 }
 
+void write_cohort_discovery(const std::filesystem::path& directory, const cohort::DiscoveryStudy& study,
+                            const cohort::Specification& cohort, const cohort::SpecimenTable& table,
+                            const plugins::Catalogue& catalogue) {
+  execution::write_atomically(directory / "cohort.json", cohort.text);
+  execution::write_atomically(directory / "terms.csv", cohort::term_table(table, study));
+  if (!study.extended.empty()) {
+    execution::write_atomically(directory / "extended.json", study.extended);
+    execution::write_atomically(directory / "extended_cohort.json", study.extended_cohort);
+  }
+  execution::write_atomically(directory / "result.json", cohort::discovery_document(cohort, study, catalogue));
+}
+
 }  // namespace tunica::app

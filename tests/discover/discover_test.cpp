@@ -22,7 +22,7 @@ namespace {
 
 std::vector<ReasonKind> reasons_of(const discovery::Discovery& found) {
   std::vector<ReasonKind> kinds;
-  for (const auto& reason : found.reasons) kinds.push_back(reason.kind);
+  for (const auto& reason : found.judgement.reasons) kinds.push_back(reason.kind);
   return kinds;
 }
 
@@ -35,7 +35,7 @@ TEST(Discover, ATermInTheSecondInvariantIsFound) {
   rubber.measure(
       11, trial::hidden_term({{"invariant", "I2"}, {"law", "linear"}, {"parameters", {{"mu", {{"initial", 40}}}}}}));
   const auto found = rubber.discover();
-  ASSERT_EQ(found.verdict, Verdict::discovered) << found.reasons.front().text;
+  ASSERT_EQ(found.judgement.verdict, Verdict::discovered) << found.judgement.reasons.front().text;
   ASSERT_THAT(found.terms, SizeIs(1));
   const auto& term = found.terms.front();
   EXPECT_EQ(term.kind->invariant, "I2");
@@ -55,8 +55,8 @@ TEST(Discover, NothingIsFoundWhereNothingIsWrong) {
     const trial::Rubber rubber;
     rubber.measure(seed);
     const auto found = rubber.discover();
-    if (found.verdict != Verdict::nothing_detected) ++discovered;
-    if (found.verdict == Verdict::nothing_detected) {
+    if (found.judgement.verdict != Verdict::nothing_detected) ++discovered;
+    if (found.judgement.verdict == Verdict::nothing_detected) {
       EXPECT_THAT(found.terms, ::testing::IsEmpty());
     }
   }
@@ -68,7 +68,7 @@ TEST(Discover, AWholeEnergyIsFoundFromNothing) {
   rubber.measure(
       12, trial::hidden_term({{"invariant", "I2"}, {"law", "linear"}, {"parameters", {{"mu", {{"initial", 60}}}}}}));
   const auto found = rubber.discover(true);
-  ASSERT_EQ(found.verdict, Verdict::discovered) << found.reasons.front().text;
+  ASSERT_EQ(found.judgement.verdict, Verdict::discovered) << found.judgement.reasons.front().text;
   ASSERT_THAT(found.terms, SizeIs(2));
   EXPECT_EQ(found.terms[0].name, "I1_linear");
   EXPECT_EQ(found.terms[1].name, "I2_linear");
@@ -83,8 +83,8 @@ TEST(Discover, AnErrorOfTheLoadCellIsNoTerm) {
     truth["tests"]["circumferential"]["mechanisms"] = {trial::mechanism("force_offset", "value", 25)};
   });
   const auto found = rubber.discover();
-  EXPECT_NE(found.verdict, Verdict::nothing_detected);
-  EXPECT_NE(found.verdict, Verdict::discovered) << found.reasons.front().text;
+  EXPECT_NE(found.judgement.verdict, Verdict::nothing_detected);
+  EXPECT_NE(found.judgement.verdict, Verdict::discovered) << found.judgement.reasons.front().text;
   EXPECT_THAT(reasons_of(found), ::testing::AnyOf(Contains(ReasonKind::rig_explains), Contains(ReasonKind::rig_rival)));
 }
 
@@ -101,7 +101,7 @@ TEST(Discover, ACurveStandsWhereNoLawFits) {
                                            {"c_3", {{"initial", 60}}},
                                            {"c_4", {{"initial", 60}}}}}}));
   const auto found = rubber.discover();
-  ASSERT_FALSE(found.terms.empty()) << found.reasons.front().text;
+  ASSERT_FALSE(found.terms.empty()) << found.judgement.reasons.front().text;
   double slope = 0;
   for (const auto& term : found.terms) {
     EXPECT_EQ(term.kind->invariant, "I1");
@@ -120,7 +120,7 @@ TEST(Discover, WhatIsWrittenRunsAndGivesTheSameFit) {
       15, trial::hidden_term({{"invariant", "I1"}, {"law", "quadratic"}, {"parameters", {{"k", {{"initial", 30}}}}}}));
   for (const bool from_nothing : {false, true}) {
     const auto found = rubber.discover(from_nothing);
-    ASSERT_EQ(found.verdict, Verdict::discovered);
+    ASSERT_EQ(found.judgement.verdict, Verdict::discovered);
     const auto file =
         rubber.folder.write("extended.json", discovery::extended_experiment(found, tunica::testing::catalogue()));
     const auto extended = experiment::read_experiment(file, tunica::testing::catalogue());
@@ -152,7 +152,7 @@ TEST(Discover, HistoryIsNotAnEnergy) {
   discovery::Request request = discovery::request_of(read);
   request.quick = true;
   const auto found = discovery::discover(read, request, tunica::testing::catalogue());
-  EXPECT_EQ(found.verdict, Verdict::unknown);
+  EXPECT_EQ(found.judgement.verdict, Verdict::unknown);
   EXPECT_THAT(reasons_of(found), Contains(ReasonKind::not_an_energy));
   EXPECT_THAT(found.terms, ::testing::IsEmpty());
   EXPECT_TRUE(discovery::extended_experiment(found, tunica::testing::catalogue()).empty());

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cohort/diagnosis_study.hpp"
-#include "data/csv.hpp"
-#include "experiment/json_document.hpp"
+#include "cohort/extended_files.hpp"
 #include "experiment/reader.hpp"
 
 namespace tunica::cohort {
@@ -69,46 +68,6 @@ void add(Json& owner, const Json& mechanism) {
   owner["mechanisms"].push_back(mechanism);
 }
 
-/// A file name of the experiment, as a file in another folder has to say it.
-std::string moved(const std::string& name, const std::filesystem::path& from) {
-  const std::filesystem::path path(name);
-  return path.is_absolute() ? name
-                            : (std::filesystem::absolute(from.empty() ? "." : from) / path).lexically_normal().string();
-}
-
-/// Measured data stay where they are: every "file" and "files" of a test's data.
-void move_data(Json& experiment, const std::filesystem::path& from) {
-  for (auto& [name, test] : experiment["tests"].items()) {
-    if (!test.contains("data") || !test["data"].is_object()) continue;
-    Json& data = test["data"];
-    if (data.contains("file") && data["file"].is_string()) data["file"] = moved(data["file"], from);
-    if (data.contains("files") && data["files"].is_array())
-      for (Json& file : data["files"])
-        if (file.is_string()) file = moved(file, from);
-  }
-}
-
-bool names_a_file(const std::string& pointer) {
-  return pointer.ends_with("/data/file") || pointer.find("/data/files/") != std::string::npos;
-}
-
-std::string cohort_text(const Specification& cohort) {
-  Json json = Json::parse(cohort.text, nullptr, true, true);
-  const auto folder = cohort.experiment.parent_path();
-  json["name"] = cohort.name + "_extended";
-  json["experiment"] = "extended.json";
-  const std::string table = std::filesystem::absolute(cohort.table).lexically_normal().string();
-  if (json["specimens"].is_object())
-    json["specimens"]["file"] = table;
-  else
-    json["specimens"] = table;
-  for (auto& [pointer, pattern] : json["bind"].items())
-    if (names_a_file(pointer)) pattern = moved(pattern, folder);
-  json.erase("diagnosis");
-  json.erase("$schema");
-  return json.dump(2) + "\n";
-}
-
 }  // namespace
 
 void extend(const Specification& cohort, const plugins::Catalogue& catalogue, DiagnosisStudy& study) {
@@ -117,8 +76,7 @@ void extend(const Specification& cohort, const plugins::Catalogue& catalogue, Di
       verdict.verdict == diagnosis::Verdict::named || verdict.verdict == diagnosis::Verdict::indistinguishable;
   if (!has_a_cause || verdict.amplitudes.empty()) return;
   const auto& best = verdict.explanations.front();
-  const std::string text = experiment::JsonDocument(cohort.experiment, data::read_bytes(cohort.experiment)).text();
-  Json experiment = Json::parse(text, nullptr, true, true);
+  Json experiment = template_json(cohort);
   for (std::size_t k = 0; k < best.ids.size(); ++k) {
     const diagnosis::Place& place = best.places[k];
     const Json mechanism = mechanism_json(best.ids[k], catalogue.mechanisms().at(best.ids[k]).factory, place,
@@ -127,9 +85,7 @@ void extend(const Specification& cohort, const plugins::Catalogue& catalogue, Di
       add(experiment["models"][place.model.empty() ? first_model(cohort, catalogue) : place.model], mechanism);
     for (const std::string& test : place.tests) add(experiment["tests"][test], mechanism);
   }
-  move_data(experiment, cohort.experiment.parent_path());
-  experiment.erase("$schema");
-  study.extended = experiment.dump(2) + "\n";
+  study.extended = experiment_text(cohort, std::move(experiment));
   study.extended_cohort = cohort_text(cohort);
 }
 

@@ -32,7 +32,7 @@ std::optional<Discovery> after(const diagnosis::Diagnosis& d, const experiment::
 }
 
 diagnosis::Diagnosis with_verdict_of(const Discovery& discovery, diagnosis::Diagnosis d) {
-  if (discovery.verdict != Verdict::discovered) return d;
+  if (discovery.judgement.verdict != Verdict::discovered) return d;
   d.explanation.verdict = Verdict::discovered;
   std::vector<KindPointer> kinds;
   for (const FoundTerm& term : discovery.terms) kinds.push_back(term.kind);

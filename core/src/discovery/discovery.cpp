@@ -3,78 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
-#include "diagnosis/evidence/gross_rows.hpp"
-#include "diagnosis/hypotheses/isotropy.hpp"
 #include "diagnosis/naming/remainder.hpp"
 #include "diagnosis/prospects/gain.hpp"
 #include "discovery/next.hpp"
+#include "discovery/preparation.hpp"
 #include "discovery/remainder.hpp"
+#include "discovery/search.hpp"
 #include "discovery/verdict.hpp"
-#include "plugins/guarded.hpp"
-#include "tunica/error.hpp"
 
 namespace tunica::discovery {
 namespace {
-
-/// What is searched, with amplitudes that the data can hold.
-std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> kinds) {
-  tbb::parallel_for(std::size_t{0}, kinds.size(),
-                    [&](std::size_t k) { kinds[k].largest = fitter.largest_amplitude(kinds[k]); });
-  std::vector<KindPointer> shared;
-  for (Kind& kind : kinds)
-    if (kind.largest != 0) shared.push_back(std::make_shared<const Kind>(std::move(kind)));
-  return shared;
-}
 
 struct Searched {
   std::shared_ptr<const Subject> subject;
   std::vector<SetFit> sets;  ///< likeliest first
 };
 
-/// Whether the tests show two directions of the sheet: strips cut along both, or stresses along both.
-bool shows_directions(const diagnosis::Evidence& evidence) {
-  std::set<std::string> directions;
-  for (const diagnosis::Curve& curve : evidence.curves) {
-    const experiment::TestEntry& test = evidence.experiment.test(curve.test);
-    directions.insert(test.options.has("direction") ? test.options.text("direction") : curve.channel);
-  }
-  return directions.size() > 1;
-}
-
-/// Of sets of the same invariants whose 2 ln E is within 3 of the best, the one with the fewest parameters comes first
-/// if what it leaves is as clean: a law is not preferred to its own limit.
-template <class IsClean>
-void simplest_first(std::vector<SetFit>& sets, const IsClean& is_clean) {
-  constexpr double as_likely = 1.5;
-  const auto invariants = [](const SetFit& set) {
-    std::set<std::string> words;
-    for (const KindPointer& kind : set.kinds) words.insert(kind->invariant_words());
-    return words;
-  };
-  const auto parameters = [](const SetFit& set) { return set.set->assembly().layout().parameters.size(); };
-  std::size_t first = 0;
-  for (std::size_t k = 1; k < sets.size() && sets[k].log_evidence > sets.front().log_evidence - as_likely; ++k)
-    if (parameters(sets[k]) < parameters(sets[first]) && invariants(sets[k]) == invariants(sets.front()) &&
-        (is_clean(sets[k]) || !is_clean(sets[first])))
-      first = k;
-  std::rotate(sets.begin(), sets.begin() + static_cast<std::ptrdiff_t>(first),
-              sets.begin() + static_cast<std::ptrdiff_t>(first) + 1);
-}
-
 /// All sets of closed laws, and of curves where these say more.
 std::vector<SetFit> searched_over(const diagnosis::Analysis& analysis, const Request& request, const Fitter& fitter,
                                   const std::vector<KindPointer>& kinds) {
   constexpr double worth_a_curve = 3;
   const auto is_clean = [&](const SetFit& fit) { return diagnosis::is_clean(p_of_rest(analysis, fit.fit)); };
-  std::vector<SetFit> sets =
-      search(fitter, {kinds, request.term_limit(), request.from_nothing, request.most_parameters}, is_clean);
+  const CommonFitter one({&fitter}, {kinds}, request.from_nothing);
+  std::vector<SetFit> sets;
+  for (CommonFit& fit : search(one, {request.term_limit(), request.most_parameters},
+                               [&](const CommonFit& set) { return is_clean(set.specimens.front()); }))
+    sets.push_back(std::move(fit.specimens.front()));
   const std::vector<std::string>& laws = request.laws;
   if (sets.empty() || !(laws.empty() || std::find(laws.begin(), laws.end(), "spline") != laws.end())) return sets;
   if (request.most_parameters > 0) return sets;  // a curve has more
@@ -114,21 +71,6 @@ Searched search_in(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis&
   return found;
 }
 
-/// Rows that are gross take no part.
-diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry) {
-  diagnosis::Analysis whole = diagnosis::analyse(inquiry, {});
-  if (!whole.alarm.raised) return whole;
-  const auto gross = diagnosis::gross_rows(whole.evidence);
-  return gross.empty() ? std::move(whole) : diagnosis::analyse(inquiry, gross);
-}
-
-/// Whether the material that the file describes has directions of its own.
-bool has_directions(const experiment::Experiment& experiment, const std::string& name,
-                    const plugins::Catalogue& catalogue) {
-  const experiment::ModelEntry& entry = experiment.model(name);
-  return !diagnosis::is_isotropic(*plugins::create(catalogue.models().at(entry.type), entry.options));
-}
-
 std::vector<diagnosis::HeldOut> gain_of(const diagnosis::Inquiry& inquiry, const diagnosis::Evidence& evidence,
                                         const SetFit& best) {
   const std::vector<diagnosis::Variable> variables = diagnosis::all_variables(best.set->assembly());
@@ -160,7 +102,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
     found.p_after = p_of_rest(found.analysis, found.best->fit);
   }
   found.paths = path_dependence(found.analysis.evidence, found.best ? found.best->fit : found.analysis.evidence.fit);
-  judge(found, searched.sets);
+  settle(found, searched.sets);
   if (!found.terms.empty()) {
     for (std::size_t k = 0; k < found.terms.size(); ++k)
       found.terms[k].curve = mixed_curve(*found.subject, searched.sets, k);
@@ -172,14 +114,7 @@ Discovery discover_in(const diagnosis::Inquiry& inquiry, diagnosis::Analysis ana
 
 Discovery discover(const experiment::Experiment& experiment, const Request& request,
                    const plugins::Catalogue& catalogue, const diagnosis::Progress& progress) {
-  if (request.model.empty())
-    throw InputError(
-        "discovery: every test names the models of its layers, so that it is open which of them gets the terms. Name "
-        "one in \"discovery\": {\"model\": …}");
-  if (!catalogue.models().contains("composed"))
-    throw InputError(
-        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Give "
-        "--plugin-path a folder that holds it");
+  check(request, catalogue);
   const bool directions = has_directions(experiment, request.model, catalogue);
   experiment::Experiment measured = experiment::measured_only(experiment);
   if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);

@@ -26,7 +26,7 @@ std::vector<const SetFit*> rivals_of(const Discovery& found, const std::vector<S
   std::vector<const SetFit*> rivals{&sets.front()};
   for (const SetFit& set : sets) {
     if (&set == &sets.front() || rivals.size() == most_rivals) continue;
-    const bool credible = std::any_of(found.ambiguity.begin(), found.ambiguity.end(),
+    const bool credible = std::any_of(found.judgement.ambiguity.begin(), found.judgement.ambiguity.end(),
                                       [&](const Alternative& one) { return one.kinds == set.kinds; });
     const bool other = std::none_of(rivals.begin(), rivals.end(), [&](const SetFit* one) {
       return by_invariant && invariants_of(*one) == invariants_of(set);

@@ -66,7 +66,10 @@ std::vector<Rival> rivals_of(const diagnosis::Inquiry& inquiry, const diagnosis:
     rival.plausible = amplitude >= range.plausible_min && amplitude <= range.plausible_max;
     rivals.push_back(std::move(rival));
   }
-  for (Rival& rival : rivals) rival.log_evidence -= std::log(static_cast<double>(std::max<std::size_t>(of_rig, 1)));
+  for (Rival& rival : rivals) {
+    rival.log_prior = -std::log(static_cast<double>(std::max<std::size_t>(of_rig, 1)));
+    rival.log_evidence += rival.log_prior;
+  }
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.log_evidence > b.log_evidence; });
   return rivals;

@@ -15,7 +15,8 @@ struct Rival {
   diagnosis::Place place;
   bool in_the_energy = false;  ///< of the material, and without memory: it may be a name for the missing term
   bool remembers = false;
-  double log_evidence = 0;
+  double log_evidence = 0;  ///< with the prior
+  double log_prior = 0;     ///< the errors of the rig share the weight of the terms
   double chi2 = 0;
   bool clean = false;     ///< what it leaves is noise
   bool plausible = true;  ///< the amplitude is what one would believe

@@ -39,36 +39,36 @@ std::size_t parameters_of(const std::vector<KindPointer>& kinds) {
   return count;
 }
 
-bool likelier(const SetFit& a, const SetFit& b) { return a.log_evidence > b.log_evidence; }
+bool likelier(const CommonFit& a, const CommonFit& b) { return a.log_evidence > b.log_evidence; }
 
 /// What was tried, and what came of it.
 class Ledger {
  public:
-  Ledger(const Fitter& fitter, const Search& request) : fitter_(fitter), request_(request) {}
+  Ledger(const CommonFitter& fitter, const Search& request) : fitter_(fitter), request_(request) {}
 
   /// Every set grown by every kind that suits it, if it is new; those that could be fitted.
-  std::vector<SetFit> grow(const std::vector<SetFit>& from) {
+  std::vector<CommonFit> grow(const std::vector<CommonFit>& from) {
     const double best_so_far = all_.empty() ? -INFINITY : sorted().front().log_evidence;
     struct Job {
-      const SetFit* from;
+      const CommonFit* from;
       const KindPointer* kind;
       Key key;
     };
     std::vector<Job> jobs;
     std::set<Key> planned;
-    for (const SetFit& smaller : from)
-      for (const KindPointer& kind : request_.kinds) {
+    for (const CommonFit& smaller : from)
+      for (const KindPointer& kind : fitter_.kinds()) {
         if (!suits(smaller, *kind)) continue;
         Key key = key_with(smaller.kinds, *kind);
         // From the likeliest of the smaller sets, which come first.
         if (tried_.contains(key) || !planned.insert(key).second) continue;
         jobs.push_back({&smaller, &kind, std::move(key)});
       }
-    std::vector<std::optional<SetFit>> results(jobs.size());
+    std::vector<std::optional<CommonFit>> results(jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
       results[k] = fitter_.grown(*jobs[k].from, *jobs[k].kind, best_so_far - tolerance);
     });
-    std::map<Key, SetFit> best;
+    std::map<Key, CommonFit> best;
     for (std::size_t k = 0; k < jobs.size(); ++k) {
       tried_.insert(jobs[k].key);
       if (!results[k]) continue;
@@ -78,7 +78,7 @@ class Ledger {
       else if (likelier(*results[k], found->second))
         found->second = std::move(*results[k]);
     }
-    std::vector<SetFit> grown;
+    std::vector<CommonFit> grown;
     for (auto& [key, fit] : best) grown.push_back(fit);
     std::stable_sort(grown.begin(), grown.end(), likelier);
     for (auto& [key, fit] : best) all_.emplace(key, std::move(fit));
@@ -86,12 +86,12 @@ class Ledger {
   }
 
   /// The best sets with each of their terms taken out, where that set was fitted.
-  [[nodiscard]] std::vector<SetFit> with_room() const {
-    std::vector<SetFit> smaller;
+  [[nodiscard]] std::vector<CommonFit> with_room() const {
+    std::vector<CommonFit> smaller;
     std::set<Key> seen;
-    std::vector<SetFit> best = sorted();
+    std::vector<CommonFit> best = sorted();
     if (best.size() > exchanged) best.resize(exchanged);
-    for (const SetFit& fit : best)
+    for (const CommonFit& fit : best)
       for (std::size_t out = 0; out < fit.kinds.size() && fit.kinds.size() > 1; ++out) {
         std::vector<KindPointer> rest = fit.kinds;
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(out));
@@ -104,15 +104,15 @@ class Ledger {
   /// The best sets with a power of the stretches as the linear law of I1 or I2 that it may stand for. Without it fibres
   /// may hold nothing together, so that no smaller set leads there.
   void try_linear_laws() {
-    std::vector<SetFit> best = sorted();
+    std::vector<CommonFit> best = sorted();
     if (best.size() > exchanged) best.resize(exchanged);
-    for (const SetFit& fit : best)
+    for (const CommonFit& fit : best)
       for (std::size_t k = 0; k < fit.kinds.size(); ++k) {
         if (fit.kinds[k]->invariant != "stretches") continue;
         const std::string name = fit.kinds[k]->negative ? "I2_linear" : "I1_linear";
-        const auto linear = std::find_if(request_.kinds.begin(), request_.kinds.end(),
+        const auto linear = std::find_if(fitter_.kinds().begin(), fitter_.kinds().end(),
                                          [&](const KindPointer& kind) { return kind->name == name; });
-        if (linear == request_.kinds.end() || !suits(fit, **linear)) continue;
+        if (linear == fitter_.kinds().end() || !suits(fit, **linear)) continue;
         std::vector<KindPointer> kinds = fit.kinds;
         kinds.erase(kinds.begin() + static_cast<std::ptrdiff_t>(k));
         Key key = key_with(kinds, **linear);
@@ -125,15 +125,15 @@ class Ledger {
   /// smaller set leads from one to the other. Whether anything was new.
   bool try_single_laws() {
     struct Job {
-      SetFit from;
+      CommonFit from;
       KindPointer law;
       Key key;
     };
     std::vector<Job> jobs;
-    std::vector<SetFit> best = sorted();
+    std::vector<CommonFit> best = sorted();
     if (best.size() > exchanged) best.resize(exchanged);
-    for (const SetFit& fit : best)
-      for (const KindPointer& law : request_.kinds) {
+    for (const CommonFit& fit : best)
+      for (const KindPointer& law : fitter_.kinds()) {
         const auto same = [&](const KindPointer& kind) { return kind->invariant_words() == law->invariant_words(); };
         if (law->invariant == "stretches" || std::none_of(fit.kinds.begin(), fit.kinds.end(), same)) continue;
         std::vector<KindPointer> kinds = fit.kinds;
@@ -142,7 +142,7 @@ class Ledger {
         if (all_.contains(key) || !distilled_.insert(key).second) continue;
         jobs.push_back({fit, law, std::move(key)});
       }
-    std::vector<std::optional<SetFit>> results(jobs.size());
+    std::vector<std::optional<CommonFit>> results(jobs.size());
     tbb::parallel_for(std::size_t{0}, jobs.size(),
                       [&](std::size_t k) { results[k] = fitter_.distilled(jobs[k].from, jobs[k].law); });
     bool found = false;
@@ -151,8 +151,8 @@ class Ledger {
     return found;
   }
 
-  [[nodiscard]] std::vector<SetFit> sorted() const {
-    std::vector<SetFit> sets;
+  [[nodiscard]] std::vector<CommonFit> sorted() const {
+    std::vector<CommonFit> sets;
     for (const auto& [key, fit] : all_) sets.push_back(fit);
     std::stable_sort(sets.begin(), sets.end(), likelier);
     return sets;
@@ -161,8 +161,8 @@ class Ledger {
  private:
   /// Fibres alone hold nothing together. A second term of the same kind says something for powers of the stretches
   /// only.
-  [[nodiscard]] bool suits(const SetFit& from, const Kind& kind) const {
-    if (!from.set && !kind.isotropic()) return false;
+  [[nodiscard]] bool suits(const CommonFit& from, const Kind& kind) const {
+    if (from.lacks_a_term() && !kind.isotropic()) return false;
     if (request_.most_parameters > 0 && parameters_of(from.kinds) + 1 + kind.shapes.size() > request_.most_parameters)
       return false;
     if (kind.invariant == "stretches") return true;
@@ -170,22 +170,22 @@ class Ledger {
                         [&](const KindPointer& k) { return k->name == kind.name; });
   }
 
-  const Fitter& fitter_;
+  const CommonFitter& fitter_;
   const Search& request_;
   std::set<Key> tried_, distilled_;
-  std::map<Key, SetFit> all_;
+  std::map<Key, CommonFit> all_;
 };
 
 }  // namespace
 
-std::vector<SetFit> search(const Fitter& fitter, const Search& request, const IsClean& is_clean) {
+std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean) {
   constexpr std::size_t exhaustive = 2;
   Ledger ledger(fitter, request);
-  std::vector<SetFit> level{fitter.root()};
+  std::vector<CommonFit> level{fitter.root()};
   for (std::size_t size = 1; size <= request.most_terms && !level.empty(); ++size) {
-    std::vector<SetFit> grown = ledger.grow(level);
+    std::vector<CommonFit> grown = ledger.grow(level);
     if (grown.empty()) break;
-    const SetFit best = ledger.sorted().front();
+    const CommonFit best = ledger.sorted().front();
     // Nothing is left to explain, and one term more was not worth its price.
     if (size >= exhaustive && best.kinds.size() < size && is_clean(best)) break;
     const std::size_t keep = size < exhaustive ? grown.size() : std::min(grown.size(), beam);

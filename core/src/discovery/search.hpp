@@ -4,17 +4,15 @@
 #include <functional>
 #include <vector>
 
-#include "discovery/set_fit.hpp"
+#include "discovery/common/common_fit.hpp"
 
 namespace tunica::discovery {
 
 /// Whether what a set leaves is noise.
-using IsClean = std::function<bool(const SetFit&)>;
+using IsClean = std::function<bool(const CommonFit&)>;
 
 struct Search {
-  const std::vector<KindPointer>& kinds;
   std::size_t most_terms;
-  bool from_nothing;
   std::size_t most_parameters = 0;  ///< 0 = no limit
 };
 
@@ -22,6 +20,6 @@ struct Search {
 /// often belongs to no pair. Larger sets grow from the best of the smaller ones, while what these leave is not noise,
 /// or while the last term was worth more than it costs. In the best sets each term then makes room for every other
 /// kind. The outcome does not depend on threads.
-std::vector<SetFit> search(const Fitter& fitter, const Search& request, const IsClean& is_clean);
+std::vector<CommonFit> search(const CommonFitter& fitter, const Search& request, const IsClean& is_clean);
 
 }  // namespace tunica::discovery

@@ -23,6 +23,7 @@ struct SetFit {
   double log_evidence = -INFINITY;  ///< with the prior of the set
 
   [[nodiscard]] double chi2() const { return fit.chi2; }
+  [[nodiscard]] std::size_t parameter_count() const { return set ? set->assembly().layout().parameters.size() : 0; }
 };
 
 /// Fits sets of terms and weighs them. Const and thread-safe.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "numerics/distributions.hpp"
 
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
@@ -39,6 +40,12 @@ double f_below(double x, double freedom, double freedom_below) {
 
 double f_above(double x, double freedom, double freedom_below) {
   return math::cdf(math::complement(math::fisher_f(freedom, freedom_below), x));
+}
+
+double binomial_at_least(std::size_t successes, std::size_t trials, double probability) {
+  if (successes == 0) return 1;
+  const math::binomial_distribution<> distribution(static_cast<double>(trials), probability);
+  return math::cdf(math::complement(distribution, static_cast<double>(successes - 1)));
 }
 
 }  // namespace tunica::numerics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 /// Quantiles and tails. `freedom`: degrees of freedom, not necessarily whole, above 0.
 namespace tunica::numerics {
 
@@ -16,5 +18,8 @@ double chi_squared_above(double x, double freedom);  ///< P(χ² > x)
 /// P(F ≤ x) and P(F > x) of a ratio of two mean squares.
 double f_below(double x, double freedom, double freedom_below);
 double f_above(double x, double freedom, double freedom_below);
+
+/// P(X ≥ successes) in so many independent trials.
+double binomial_at_least(std::size_t successes, std::size_t trials, double probability);
 
 }  // namespace tunica::numerics

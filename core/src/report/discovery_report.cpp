@@ -48,16 +48,32 @@ std::vector<double> numbers(const Json& values) {
   return all;
 }
 
+/// One line a specimen.
+void add_curves_of_specimens(Chart& chart, const Json& curves) {
+  chart.about = "The derivative of the term over its invariant in each specimen, over the range that its data reach";
+  chart.note = "A line a specimen. Beyond its end the data say nothing.";
+  for (const Json& curve : curves) {
+    Series line{"a specimen", "line", 0, numbers(list(curve, "x")), numbers(list(curve, "slope"))};
+    line.faint = true;
+    line.label = word(curve, "specimen");
+    if (!line.x.empty()) chart.series.push_back(std::move(line));
+  }
+}
+
 Chart curve_chart(const Json& term) {
   const Json& curve = member(term, "curve");
   const std::vector<double> x = numbers(list(curve, "x"));
   Chart chart;
   chart.id = "term_" + word(term, "name");
   chart.title = form_words(term);
-  chart.about = "The derivative of the term over its invariant, with a 95 % band, over the range that the data reach";
-  chart.note = "95 % band. Beyond this range the data say nothing.";
   chart.x.title = abscissa_of(term);
   chart.y.title = "dψ/dx [kPa]";
+  if (const Json& curves = list(term, "curves"); !curves.empty()) {
+    add_curves_of_specimens(chart, curves);
+    return chart;
+  }
+  chart.about = "The derivative of the term over its invariant, with a 95 % band, over the range that the data reach";
+  chart.note = "95 % band. Beyond this range the data say nothing.";
   Series band{"95 % band",
               "band",
               0,
@@ -105,6 +121,33 @@ void add_held_out(Page& page, const Json& discovery) {
   page.html(table_html({"left out", "error before [σ]", "error with the terms [σ]", ""}, rows));
 }
 
+/// Of a cohort: what each specimen says, and which could not take part.
+void add_specimens(Page& page, const Json& discovery) {
+  const Json& specimens = list(discovery, "specimens");
+  if (specimens.empty()) return;
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& one : specimens) {
+    const bool noise = number(one, "p_after") > 0.01;
+    const Json& needed = member(one, "needed");
+    rows.push_back({{word(one, "specimen")},
+                    {figure(number(one, "rows")), true},
+                    {figure(number(one, "chi2_before")), true},
+                    {figure(number(one, "chi2_after")), true},
+                    {figure(number(one, "gain")), true},
+                    {noise ? "noise" : "not noise", false, !noise},
+                    {needed.is_boolean() && needed.get<bool>() ? "other invariants" : "the same invariants"}});
+  }
+  page.section("Specimens");
+  page.html(table_html({"specimen", "values", "sum of squares before", "after", "gain [ln evidence]", "what is left",
+                        "without it the others choose"},
+                       rows));
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Json& one : list(discovery, "left_out")) out.emplace_back(word(one, "specimen"), word(one, "reason"));
+  if (out.empty()) return;
+  page.heading("Specimens that could not take part");
+  page.words(out);
+}
+
 }  // namespace
 
 void add_terms(Page& page, const Folder& folder) {
@@ -116,6 +159,9 @@ void add_terms(Page& page, const Folder& folder) {
   std::vector<std::pair<std::string, std::vector<std::string>>> lines;
   for (const Json& term : terms) {
     std::vector<std::string> of_term = parameter_words(term);
+    const double seen = number(term, "seen");
+    if (std::isfinite(seen))
+      of_term.push_back(fmt::format("shows in {} of {} specimens", figure(seen), list(discovery, "specimens").size()));
     of_term.push_back(fmt::format("probability {}, of the invariant {}", share(number(term, "probability")),
                                   share(number(term, "invariant_probability"))));
     lines.emplace_back(form_words(term), std::move(of_term));
@@ -155,7 +201,8 @@ void add_discovery(Page& page, const Folder& folder) {
     pairs.emplace_back("What to measure next", next);
   page.words(pairs);
   add_terms(page, folder);
-  add_misfit(page, folder);
+  add_specimens(page, discovery);
+  if (folder.has("residuals.csv")) add_misfit(page, folder);
   add_provenance(page, folder);
 }
 

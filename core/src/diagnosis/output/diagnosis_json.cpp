@@ -231,16 +231,15 @@ json codes(const std::vector<Reason>& reasons) {
   return all;
 }
 
-/// As other results have them; a diagnosis has no runs.
-json details(const std::vector<Warning>& warnings) {
+}  // namespace
+
+json warning_details(const std::vector<Warning>& warnings) {
   json all = json::array();
   for (const Warning& warning : warnings)
     all.push_back(
         {{"kind", code_of(warning.kind)}, {"run", nullptr}, {"subjects", json::array()}, {"sentence", warning.text}});
   return all;
 }
-
-}  // namespace
 
 json diagnosis_json(const Diagnosis& d) {
   const Analysis& analysis = d.analysis;
@@ -304,7 +303,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
       {"format", 1},
       {"name", experiment.name},
       {"warnings", texts(warnings)},
-      {"warning_details", details(warnings)},
+      {"warning_details", warning_details(warnings)},
       {"ranking", json::array()},
       {"identifiability", json::array()},
       {"runs", json::array()},

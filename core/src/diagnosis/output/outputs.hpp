@@ -15,6 +15,9 @@ namespace tunica::diagnosis {
 /// `diagnosis` of result.json.
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 
+/// `warning_details` of result.json; a diagnosis has no runs.
+nlohmann::ordered_json warning_details(const std::vector<Warning>& warnings);
+
 /// The whole of result.json: no runs, the diagnosis, its warnings and provenance; and what followed the diagnosis, by
 /// its key.
 std::string result_document(const Diagnosis& diagnosis, const experiment::Experiment& experiment,

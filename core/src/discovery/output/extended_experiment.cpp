@@ -9,11 +9,16 @@ namespace tunica::discovery {
 
 std::string extended_experiment(const Discovery& d, const plugins::Catalogue& catalogue) {
   if (!d.best || !d.best->set || d.terms.empty()) return {};
-  experiment::Experiment experiment = d.best->set->experiment();
+  return extended_experiment(*d.best, d.analysis, catalogue);
+}
+
+std::string extended_experiment(const SetFit& fit, const diagnosis::Analysis& analysis,
+                                const plugins::Catalogue& catalogue) {
+  experiment::Experiment experiment = fit.set->experiment();
   // What was asked of the discovery has been answered.
   experiment.discovery.reset();
-  return experiment::write_input(diagnosis::fitted_experiment(std::move(experiment), d.analysis.evidence.run,
-                                                              d.best->set->assembly(), d.best->fit.free, "", catalogue),
+  return experiment::write_input(diagnosis::fitted_experiment(std::move(experiment), analysis.evidence.run,
+                                                              fit.set->assembly(), fit.fit.free, "", catalogue),
                                  catalogue);
 }
 

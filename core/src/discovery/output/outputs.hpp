@@ -25,6 +25,9 @@ text::StyledText term_summary(const Discovery& discovery);
 /// The experiment with the terms, its parameters at their fitted values: the text of extended.json. Empty without
 /// terms.
 std::string extended_experiment(const Discovery& discovery, const plugins::Catalogue& catalogue);
+/// The same of a set that was fitted.
+std::string extended_experiment(const SetFit& fit, const diagnosis::Analysis& analysis,
+                                const plugins::Catalogue& catalogue);
 
 /// residuals.csv as a diagnosis writes it: measured, predicted by the base and with the terms, σ, and what is left in
 /// σ.

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "discovery/output/outputs.hpp"
-#include "discovery/verdict.hpp"
+#include "discovery/output/parts.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::discovery {
 namespace {
 
 using diagnosis::Verdict;
-
-std::string verdict_words(Verdict verdict) {
-  std::string words = diagnosis::code_of(verdict);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  std::transform(words.begin(), words.end(), words.begin(), [](unsigned char c) { return std::toupper(c); });
-  return words;
-}
 
 std::string amount(const diagnosis::Amplitude& parameter) {
   const std::string unit = parameter.unit == "1" ? "" : " " + parameter.unit;
@@ -34,8 +26,6 @@ std::string term_line(const FoundTerm& term) {
   return fmt::format("{}: {}; probability {:.2f}, of the invariant {:.2f}", words_of({term.kind}),
                      fmt::join(parameters, ", "), term.probability, term.invariant_probability);
 }
-
-std::string p_words(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
 
 std::string block_line(const diagnosis::HeldOut& block) {
   return fmt::format("{}: error {:.2f} → {:.2f} σ ({})", block.block, block.before, block.after,
@@ -59,21 +49,15 @@ text::StyledText term_summary(const Discovery& d) {
 }
 
 text::StyledText summary(const Discovery& d) {
-  text::StyledText page;
-  std::vector<std::string> reasons;
-  for (const Reason& reason : d.reasons) reasons.push_back(reason.text);
-  page.add(text::hanging(fmt::format("{:<10}", "Verdict:"),
-                         fmt::format("{}: {}", verdict_words(d.verdict), fmt::join(reasons, " "))),
-           text::Emphasis::heading);
-  page += "\n";
+  text::StyledText page = verdict_words(d.judgement);
   if (!d.request.from_nothing)
     page += line("Alarm:",
                  fmt::format("noise alone would look like this with {} ({} values, |r|² = {:.1f})",
                              p_words(d.analysis.alarm.p()), d.analysis.evidence.fit.residuals.size(), d.chi2_before));
-  if (d.name && !d.terms.empty())
-    page += line("Name:", fmt::format("the catalogue's {} changes the energy too and leaves |r|² {:.1f}", d.name->id,
-                                      d.name->chi2));
-  if (d.verdict == Verdict::discovered && !d.rivals.empty()) {
+  if (d.judgement.name && !d.terms.empty())
+    page += line("Name:", fmt::format("the catalogue's {} changes the energy too and leaves |r|² {:.1f}",
+                                      d.judgement.name->id, d.judgement.name->chi2));
+  if (d.judgement.verdict == Verdict::discovered && !d.rivals.empty()) {
     const auto rig = std::find_if(d.rivals.begin(), d.rivals.end(), [](const Rival& r) { return !r.in_the_energy; });
     if (rig != d.rivals.end())
       page += line("Rig:", fmt::format("the best error of the rig, {}, leaves |r|² {:.1f}; the terms leave {:.1f}",

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discovery/preparation.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "diagnosis/evidence/gross_rows.hpp"
+#include "diagnosis/hypotheses/isotropy.hpp"
+#include "plugins/guarded.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::discovery {
+
+void check(const Request& request, const plugins::Catalogue& catalogue) {
+  if (request.model.empty())
+    throw InputError(
+        "discovery: every test names the models of its layers, so that it is open which of them gets the terms. Name "
+        "one in \"discovery\": {\"model\": …}");
+  if (!catalogue.models().contains("composed"))
+    throw InputError(
+        "discovery: no loaded plugin provides the model 'composed', which terms are written in. Give "
+        "--plugin-path a folder that holds it");
+}
+
+std::vector<KindPointer> scaled_kinds(const Fitter& fitter, std::vector<Kind> kinds) {
+  tbb::parallel_for(std::size_t{0}, kinds.size(),
+                    [&](std::size_t k) { kinds[k].largest = fitter.largest_amplitude(kinds[k]); });
+  std::vector<KindPointer> shared;
+  for (Kind& kind : kinds)
+    if (kind.largest != 0) shared.push_back(std::make_shared<const Kind>(std::move(kind)));
+  return shared;
+}
+
+bool shows_directions(const diagnosis::Evidence& evidence) {
+  std::set<std::string> directions;
+  for (const diagnosis::Curve& curve : evidence.curves) {
+    const experiment::TestEntry& test = evidence.experiment.test(curve.test);
+    directions.insert(test.options.has("direction") ? test.options.text("direction") : curve.channel);
+  }
+  return directions.size() > 1;
+}
+
+diagnosis::Analysis screened(const diagnosis::Inquiry& inquiry) {
+  diagnosis::Analysis whole = diagnosis::analyse(inquiry, {});
+  if (!whole.alarm.raised) return whole;
+  const auto gross = diagnosis::gross_rows(whole.evidence);
+  return gross.empty() ? std::move(whole) : diagnosis::analyse(inquiry, gross);
+}
+
+bool has_directions(const experiment::Experiment& experiment, const std::string& name,
+                    const plugins::Catalogue& catalogue) {
+  const experiment::ModelEntry& entry = experiment.model(name);
+  return !diagnosis::is_isotropic(*plugins::create(catalogue.models().at(entry.type), entry.options));
+}
+
+}  // namespace tunica::discovery
