@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -16,10 +14,10 @@
 
 #include "batch.hpp"
 #include "cohort/discovery_study.hpp"
-#include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "discovery/output/outputs.hpp"
 #include "discovery_folder.hpp"
+#include "discovery_request.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
@@ -28,7 +26,6 @@
 #include "stages.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
-#include "tunica/error.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"
 
@@ -39,42 +36,9 @@ namespace {
 struct DiscoverOptions {
   std::string file, directory, share;
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
-  std::optional<std::uint64_t> seed;
-  std::optional<double> alpha;
-  std::optional<std::size_t> most_terms, most_parameters;
-  std::vector<std::string> invariants, laws;
-  std::string model;
-  bool from_nothing = false, quick = false, batch = false;
+  DiscoveryWishes wishes;
+  bool batch = false;
 };
-
-/// Refuses words that are not among the known ones.
-void check_words(const char* option, const std::vector<std::string>& words, const std::vector<std::string>& known) {
-  for (const std::string& word : words)
-    if (std::find(known.begin(), known.end(), word) == known.end())
-      throw InputError(fmt::format("{}: '{}' is not known. {}", option, word, data::suggestion(word, known)));
-}
-
-/// The file's request, with what the command line says instead.
-discovery::Request request_of(const experiment::Experiment& experiment, const DiscoverOptions& options) {
-  discovery::Request request = discovery::request_of(experiment);
-  check_words("--invariants", options.invariants, experiment::discovery_invariants);
-  check_words("--laws", options.laws, experiment::discovery_laws);
-  std::vector<std::string> models;
-  for (const auto& model : experiment.models) models.push_back(model.name);
-  if (!options.model.empty()) {
-    check_words("--model", {options.model}, models);
-    request.model = options.model;
-  }
-  if (options.seed) request.seed = *options.seed;
-  if (options.alpha) request.alpha = *options.alpha;
-  if (options.most_terms) request.most_terms = *options.most_terms;
-  if (options.most_parameters) request.most_parameters = *options.most_parameters;
-  if (!options.invariants.empty()) request.invariants = options.invariants;
-  if (!options.laws.empty()) request.laws = options.laws;
-  request.from_nothing = request.from_nothing || options.from_nothing;
-  request.quick = options.quick;
-  return request;
-}
 
 std::string discovery_interrupted() {
   return fmt::format(
@@ -111,7 +75,7 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const Session session(global);
   const auto experiment = session.read(options.file);
-  const auto request = request_of(experiment, options);
+  const auto request = request_of(experiment, options.wishes);
   Output output(options.directory, experiment.name);
   discovery::Discovery found;
   try {
@@ -151,9 +115,9 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   const cohort::Template pattern(specification, table);
   const bool quick = !specification.diagnosis || specification.diagnosis->quick;
   const auto asked = [&](const experiment::Experiment& experiment) {
-    discovery::Request request = request_of(experiment, options);
+    discovery::Request request = request_of(experiment, options.wishes);
     request.quick = request.quick || quick;  // the others make up for what a quick one does not see
-    if (!options.seed) request.seed = specification.seed;
+    if (!options.wishes.seed) request.seed = specification.seed;
     return request;
   };
   Output output(options.directory, specification.name);
@@ -183,7 +147,7 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
                    [&](const std::filesystem::path& of_case, const std::filesystem::path& results) {
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found =
-                         discovery::discover(experiment, request_of(experiment, options), session.catalogue());
+                         discovery::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
                      std::filesystem::create_directories(results);
                      write_discovery(results, found, experiment, session.catalogue());
                    });
@@ -197,34 +161,34 @@ void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("experiment", options->file, "Experiment or cohort file (JSON)")->required()->type_name("EXP");
   verb->add_option("-o,--output", options->directory, "New folder for the results; results/<name>-<n> without it")
       ->type_name("DIR");
-  verb->add_option("--model", options->model, "The base, instead of the file's")->type_name("NAME");
-  verb->add_flag("--from-nothing", options->from_nothing, "The terms make up the whole energy; no base is kept");
-  verb->add_option("--invariants", options->invariants,
+  verb->add_option("--model", options->wishes.model, "The base, instead of the file's")->type_name("NAME");
+  verb->add_flag("--from-nothing", options->wishes.from_nothing, "The terms make up the whole energy; no base is kept");
+  verb->add_option("--invariants", options->wishes.invariants,
                    "Only functions of these, separated by commas: I1,I2,stretches,'fibre axial'")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("INVARIANTS");
-  verb->add_option("--laws", options->laws, "Only these laws, separated by commas")
+  verb->add_option("--laws", options->wishes.laws, "Only these laws, separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LAWS");
-  verb->add_option("--most-terms", options->most_terms, "The most terms; 3 without it, from nothing 4")
+  verb->add_option("--most-terms", options->wishes.most_terms, "The most terms; 3 without it, from nothing 4")
       ->check(CLI::Range(1, 6))
       ->type_name("N");
-  verb->add_option("--most-parameters", options->most_parameters,
+  verb->add_option("--most-parameters", options->wishes.most_parameters,
                    "The most parameters of the terms together; as many as it takes without it")
       ->check(CLI::Range(1, 20))
       ->type_name("N");
   verb->add_option("-j,--threads", options->threads, "Threads; all of the machine without it")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  verb->add_option("--seed", options->seed, "Root seed instead of the one in the file")
+  verb->add_option("--seed", options->wishes.seed, "Root seed instead of the one in the file")
       ->check(seed_number())
       ->type_name("S");
-  verb->add_option("--alpha", options->alpha, "Share of false alarms that is accepted, instead of the file's")
+  verb->add_option("--alpha", options->wishes.alpha, "Share of false alarms that is accepted, instead of the file's")
       ->check(CLI::Range(0.0001, 0.5))
       ->type_name("A");
-  verb->add_flag("--quick", options->quick, "The alarm from linear draws only: a second instead of several");
+  verb->add_flag("--quick", options->wishes.quick, "The alarm from linear draws only: a second instead of several");
   auto* batch =
       verb->add_flag("--batch", options->batch,
                      "EXP is a folder of folders with an experiment.json each; those with a result.json are skipped");

@@ -95,6 +95,17 @@ class CommandLine(Case):
         self.assertTrue(found.extended.exists())
         self.assertEqual(1, stages[-1][0])
 
+    def test_a_discovery_has_the_terms_of_the_program(self):
+        experiment = EXAMPLES / "treloar_discovery" / "experiment.json"
+        program("discover", experiment, "--from-nothing", "--most-terms", 2, "-o", self.folder / "a", "--quiet")
+        found = tunica.discover(experiment, self.folder / "b", from_nothing=True, most_terms=2)
+        self.assertEqual(result_of(self.folder / "a"), result_of(self.folder / "b"))
+        self.assertEqual(2, len(found.terms))
+        self.assertTrue(found.extended.exists())
+        self.assertEqual(found.terms, tunica.open(self.folder / "b").terms)
+        with self.assertRaisesRegex(tunica.InputError, "invariants: 'I3' is not known"):
+            tunica.discover(experiment, invariants=["I3"])
+
     def test_results_are_arrays_and_numbers(self):
         result = tunica.run(of_treloar({"type": "neo_hooke"}), self.folder / "run", base=TRELOAR)
         mu = result.parameters["mu"]

@@ -14,6 +14,8 @@
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "diagnosis_folder.hpp"
+#include "discovery_folder.hpp"
+#include "discovery_request.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
@@ -164,12 +166,12 @@ class NewFolder {
   execution::RunDirectory folder_;
 };
 
-py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned threads,
-                  const std::optional<std::uint64_t>& seed, const std::optional<double>& alpha,
-                  const std::vector<std::string>& mechanisms, bool quick, const py::object& progress) {
+/// Searches and writes, as long as nobody interrupts: `search` gets what listens, and gives what writes.
+template <class Search>
+py::dict searched(const Loaded& loaded, const Folder& directory, unsigned threads, const py::object& progress,
+                  const Search& search) {
   const OneAtATime alone;
   Told told(progress);
-  const auto request = request_of(loaded, seed, alpha, mechanisms, quick);
   const auto catalogue = interruptible(*loaded.catalogue);
   const auto listener = told.function();
   const NewFolder folder(directory, loaded.experiment.name);
@@ -180,12 +182,10 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
   try {
     const py::gil_scoped_release free;
     const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
-    const auto found =
-        app::diagnosed(loaded.experiment, request, catalogue, true, [&](const std::string& stage, double share) {
-          if (listener) listener(share, stage);
-          if (execution::InterruptWatch::interrupted()) throw Stopped{};
-        });
-    app::write_diagnosis(folder.path(), found, loaded.experiment, *loaded.catalogue);
+    search(catalogue, folder.path(), [&](const std::string& stage, double share) {
+      if (listener) listener(share, stage);
+      if (execution::InterruptWatch::interrupted()) throw Stopped{};
+    });
     report::write_report(folder.path());
   } catch (...) {
     if (!execution::InterruptWatch::interrupted()) throw;  // what failed because of Ctrl-C is no failure
@@ -193,6 +193,39 @@ py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned thread
   }
   told.finish();
   return outcome;
+}
+
+py::dict diagnose(const Loaded& loaded, const Folder& directory, unsigned threads,
+                  const std::optional<std::uint64_t>& seed, const std::optional<double>& alpha,
+                  const std::vector<std::string>& mechanisms, bool quick, const py::object& progress) {
+  const auto request = request_of(loaded, seed, alpha, mechanisms, quick);
+  return searched(
+      loaded, directory, threads, progress,
+      [&](const plugins::Catalogue& catalogue, const std::filesystem::path& folder, const diagnosis::Progress& told) {
+        const auto found = app::diagnosed(loaded.experiment, request, catalogue, true, told);
+        app::write_diagnosis(folder, found, loaded.experiment, *loaded.catalogue);
+      });
+}
+
+py::dict discover(const Loaded& loaded, const Folder& directory, unsigned threads, const py::dict& options,
+                  const py::object& progress) {
+  app::DiscoveryWishes wishes;
+  wishes.seed = options["seed"].cast<std::optional<std::uint64_t>>();
+  wishes.alpha = options["alpha"].cast<std::optional<double>>();
+  wishes.most_terms = options["most_terms"].cast<std::optional<std::size_t>>();
+  wishes.most_parameters = options["most_parameters"].cast<std::optional<std::size_t>>();
+  wishes.invariants = options["invariants"].cast<std::vector<std::string>>();
+  wishes.laws = options["laws"].cast<std::vector<std::string>>();
+  wishes.model = options["model"].cast<std::string>();
+  wishes.from_nothing = options["from_nothing"].cast<bool>();
+  wishes.quick = options["quick"].cast<bool>();
+  const auto request = app::request_of(loaded.experiment, wishes, "");
+  return searched(
+      loaded, directory, threads, progress,
+      [&](const plugins::Catalogue& catalogue, const std::filesystem::path& folder, const diagnosis::Progress& told) {
+        const auto found = discovery::discover(loaded.experiment, request, catalogue, told);
+        app::write_discovery(folder, found, loaded.experiment, *loaded.catalogue);
+      });
 }
 
 /// What `tunica export` prints.
@@ -231,6 +264,7 @@ void add_verbs(py::module_& module) {
   module.def("check", &check);
   module.def("simulate", &simulate);
   module.def("diagnose", &diagnose);
+  module.def("discover", &discover);
   module.def("certify", &certify);
   module.def("export_card", &export_card);
   module.def("write_report", [](const std::string& folder) { return report::write_report(folder).string(); });

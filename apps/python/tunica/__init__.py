@@ -13,15 +13,15 @@ from .library import Experiment, describe, names, read, schema, use_plugins
 from .material import Material
 from .mechanisms import mechanism
 from .problem import Evaluation, Problem
-from .results import Check, Diagnosis, Estimate, Result, Run, Simulation
+from .results import Check, Diagnosis, Discovery, Estimate, Result, Run, Simulation
 from .results import open_results as open
 from .rows import Rows, test
 from .searches import Search, optimizer
 from .table import Table
-from .verbs import check, diagnose, run, simulate
+from .verbs import check, diagnose, discover, run, simulate
 
-__all__ = ["Check", "Diagnosis", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "InputError",
+__all__ = ["Check", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "InputError",
            "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
            "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "describe",
-           "diagnose", "forget", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
+           "diagnose", "discover", "forget", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
            "simulate", "test", "use_plugins", "__version__"]

@@ -272,6 +272,40 @@ class Diagnosis(Folder):
         return f"<tunica.Diagnosis '{self.name}' in {self.directory}: {self.verdict}; causes: {causes}>"
 
 
+class Discovery(Folder):
+    """What tunica.discover() found."""
+
+    @property
+    def verdict(self):
+        """The code of the verdict, for example "discovered"; docs/discovery.md lists them."""
+        return self.json["discovery"]["verdict"]
+
+    @property
+    def reasons(self):
+        """Why, each a dictionary with code and text."""
+        return self.json["discovery"]["reasons"]
+
+    @property
+    def terms(self):
+        """The terms of the energy, each a dictionary with name, invariant, law, probability, parameters and curve."""
+        return self.json["discovery"]["terms"]
+
+    @property
+    def extended(self):
+        """The path of the experiment with the terms added, which run() takes, or None."""
+        file = self.directory / "extended.json"
+        return file if file.exists() else None
+
+    @property
+    @_once
+    def residuals(self):
+        return self.table("residuals")
+
+    def __repr__(self):
+        terms = ", ".join(term["name"] for term in self.terms) or "none"
+        return f"<tunica.Discovery '{self.name}' in {self.directory}: {self.verdict}; terms: {terms}>"
+
+
 class Simulation:
     """What tunica.simulate() predicted."""
 
@@ -312,7 +346,9 @@ def open_results(directory):
     """Results that were written before, by Python or by the command line."""
     directory = pathlib.Path(directory)
     if not (directory / "result.json").exists():
-        raise InputError(f"{directory}: there is no result.json; name the folder of a finished run or diagnosis")
+        raise InputError(f"{directory}: there is no result.json; name the folder of a finished run, diagnosis or discovery")
     with open(directory / "result.json", encoding="utf-8") as stream:
-        diagnosed = "diagnosis" in json.load(stream)
-    return Diagnosis(directory) if diagnosed else Result(directory)
+        found = json.load(stream)
+    if "diagnosis" in found:
+        return Diagnosis(directory)
+    return Discovery(directory) if "discovery" in found else Result(directory)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the command line does, as functions: run, check, simulate, diagnose."""
+"""What the command line does, as functions: run, check, simulate, diagnose, discover."""
 import json
 import os
 import pathlib
@@ -11,7 +11,7 @@ from . import _core
 from .declarations import modules
 from .errors import Interrupted, WriteFailure
 from .library import library, read
-from .results import Check, Diagnosis, Result, Simulation
+from .results import Check, Diagnosis, Discovery, Result, Simulation
 
 
 def _threads(threads):
@@ -141,18 +141,41 @@ def diagnose(experiment, directory=None, *, base=".", threads=None, seed=None, a
     Arguments as run() has them; alpha: the share of false alarms that is accepted; mechanisms: only these causes;
     quick: a first answer. Ctrl-C raises Interrupted, and leaves nothing behind.
     """
+    found = _searched(experiment, base, progress, lambda loaded, listener: _core.diagnose(
+        loaded, None if directory is None else str(directory), _threads(threads), seed, alpha, list(mechanisms), quick,
+        listener))
+    return Diagnosis(found["directory"])
+
+
+def discover(experiment, directory=None, *, base=".", threads=None, seed=None, alpha=None, model="", from_nothing=False,
+             invariants=(), laws=(), most_terms=None, most_parameters=None, quick=False, progress=None):
+    """Finds the terms that the energy lacks, or is made of, as `tunica discover` does; returns a Discovery.
+
+    Arguments as diagnose() has them; model: the base; from_nothing: the terms make up the whole energy; invariants,
+    laws: only these; most_terms, most_parameters: limits of a set. Ctrl-C raises Interrupted, and leaves nothing
+    behind.
+    """
+    options = {"seed": seed, "alpha": alpha, "model": model, "from_nothing": from_nothing,
+               "invariants": list(invariants), "laws": list(laws), "most_terms": most_terms,
+               "most_parameters": most_parameters, "quick": quick}
+    found = _searched(experiment, base, progress, lambda loaded, listener: _core.discover(
+        loaded, None if directory is None else str(directory), _threads(threads), options, listener))
+    return Discovery(found["directory"])
+
+
+def _searched(experiment, base, progress, search):
+    """What `search` says of the experiment that was read, and of a listener. Raises Interrupted."""
     found_experiment = read(experiment, base)
     listener = _listener(progress)
     try:
-        found = _core.diagnose(found_experiment._loaded, None if directory is None else str(directory),
-                               _threads(threads), seed, alpha, list(mechanisms), quick, listener)
+        found = search(found_experiment._loaded, listener)
     finally:
         if isinstance(listener, _Line):
             listener.clear()
     if found["ending"] == "interrupted":
-        raise Interrupted("interrupted; an unfinished diagnosis leaves nothing behind. Start it again, or with "
+        raise Interrupted("interrupted; an unfinished search leaves nothing behind. Start it again, or with "
                           "quick=True for a first answer")
-    return Diagnosis(found["directory"])
+    return found
 
 
 def certify(folder, points):
