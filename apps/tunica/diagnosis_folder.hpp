@@ -14,7 +14,9 @@ struct DiagnosisAndSearch {
   diagnosis::Diagnosis diagnosis;
   std::optional<discovery::Discovery> search;
 
-  [[nodiscard]] bool discovered() const { return search && search->judgement.verdict == diagnosis::Verdict::discovered; }
+  [[nodiscard]] bool discovered() const {
+    return search && search->judgement.verdict == diagnosis::Verdict::discovered;
+  }
 };
 
 /// The whole of `tunica diagnose`; `discovers` decides whether terms are searched where the cause is unknown.
