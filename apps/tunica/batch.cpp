@@ -9,9 +9,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "answer.hpp"
 #include "execution/share.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "text/aside.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -42,9 +44,9 @@ int run_batch(
       }
     });
     if (const std::size_t n = ++finished; !batch.quiet && (n % 50 == 0 || n == cases.size()))
-      fmt::print(stderr, "{} of {} {}\n", n, cases.size(), batch.many);
+      text::aside("{} of {} {}\n", n, cases.size(), batch.many);
   });
-  fmt::print("{} {} made, {} failed\n", cases.size() - failures, batch.many, failures.load());
+  answer("{} {} made, {} failed\n", cases.size() - failures, batch.many, failures.load());
   return failures == 0 ? done : not_converged;
 }
 

@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include "answer.hpp"
 #include "execution/files.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
@@ -39,7 +40,7 @@ int certify(const GlobalOptions& global, const CertifyOptions& options) {
   const auto experiment = session.read(folder / "input.json");
   const auto plan = execution::make_plan(experiment, session.catalogue());
   std::vector<std::string> contradictions;
-  fmt::print("{}", comparison::certify(plan, execution::read_text(points), &contradictions));
+  answer("{}", comparison::certify(plan, execution::read_text(points), &contradictions));
   for (const auto& contradiction : contradictions) say_error(contradiction);
   return contradictions.empty() ? done : not_converged;
 }

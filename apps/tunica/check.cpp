@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "data/loading_path.hpp"
 #include "data/nearest.hpp"
 #include "data/signal.hpp"
@@ -42,8 +43,8 @@ void print_tests(const assembly::Assembly& assembly) {
                                                               *first, *last, text::unit_suffix(channel.abscissa_unit));
     std::string text = fmt::format("{} rows", channel.count);
     if (values.empty()) {
-      fmt::print("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable),
-                                 text + over + ", nothing measured: predicted only"));
+      answer("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable),
+                             text + over + ", nothing measured: predicted only"));
       continue;
     }
     if (channel.held_out_rows() > 0) text += fmt::format(" ({} held out)", channel.held_out_rows());
@@ -53,7 +54,7 @@ void print_tests(const assembly::Assembly& assembly) {
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
                           : std::string(", noise estimated");
-    fmt::print("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable), text));
+    answer("{}\n", hanging(fmt::format("  {}, {}: ", channel.test, channel.observable), text));
   }
 }
 
@@ -66,13 +67,13 @@ void print_parameters(const assembly::Assembly& assembly) {
   const auto cell = [width](const std::string& name) {
     return columns(name) <= width ? pad(name, width) : fmt::format("{}\n  {}", name, std::string(width, ' '));
   };
-  fmt::print("  {}  {:<6} {:>10} {:>10} {:>10}  scale\n", pad("parameter", width), "unit", "initial", "min", "max");
+  answer("  {}  {:<6} {:>10} {:>10} {:>10}  scale\n", pad("parameter", width), "unit", "initial", "min", "max");
   for (const auto& parameter : assembly.layout().parameters)
-    fmt::print("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", cell(parameter.name), parameter.unit,
-               parameter.initial, parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear",
-               parameter.prior ? fmt::format(", prior {:g} ± {:g}", parameter.prior->mean, parameter.prior->sd) : "");
+    answer("  {}  {:<6} {:>10.5g} {:>10.5g} {:>10.5g}  {}{}\n", cell(parameter.name), parameter.unit, parameter.initial,
+           parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear",
+           parameter.prior ? fmt::format(", prior {:g} ± {:g}", parameter.prior->mean, parameter.prior->sd) : "");
   for (const auto& parameter : assembly.layout().fixed_parameters)
-    fmt::print("  {}  {:<6} {:>10.5g}  fixed\n", cell(parameter.name), parameter.unit, parameter.value);
+    answer("  {}  {:<6} {:>10.5g}  fixed\n", cell(parameter.name), parameter.unit, parameter.value);
 }
 
 std::string duration_text(double seconds) {
@@ -87,36 +88,36 @@ void print_cost(const calibration::PosedProblem& problem) {
   const auto evaluations = entry.stop.max_evaluations * entry.realisations;
   const double most = problem.initial.seconds * static_cast<double>(evaluations);
   if (problem.run->assembly->layout().has_costly_tests && most > 3600)
-    fmt::print("{}\n", hanging("  ", fmt::format("the {} evaluations that a run may take last up to {} one after the "
-                                                 "other; for fewer, set \"max_evaluations\" in \"stop\" and \"starts\" "
-                                                 "of its optimiser",
-                                                 evaluations, duration_text(most))));
+    answer("{}\n", hanging("  ", fmt::format("the {} evaluations that a run may take last up to {} one after the "
+                                             "other; for fewer, set \"max_evaluations\" in \"stop\" and \"starts\" "
+                                             "of its optimiser",
+                                             evaluations, duration_text(most))));
 }
 
 /// What the tests find of themselves by other means.
 void print_agreement(const calibration::OtherMeans& other) {
   for (const auto& one : other.found)
-    fmt::print("{}\n",
-               hanging(fmt::format("  {} against ", other.test),
-                       fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference, text::unit_suffix(one.unit),
-                                   calibration::agrees(one) ? ""
-                                                            : fmt::format("; at most {:.2g} was expected. Take a "
-                                                                          "finer mesh, or do not trust this simulation",
-                                                                          one.expected))));
+    answer("{}\n",
+           hanging(fmt::format("  {} against ", other.test),
+                   fmt::format("{}: differs by {:.2g}{}{}", one.with, one.difference, text::unit_suffix(one.unit),
+                               calibration::agrees(one) ? ""
+                                                        : fmt::format("; at most {:.2g} was expected. Take a "
+                                                                      "finer mesh, or do not trust this simulation",
+                                                                      one.expected))));
   if (!other.status.ok())
-    fmt::print("{}\n", hanging(fmt::format("  {}: ", other.test),
-                               "could not be checked by other means: " + other.status.reason()));
+    answer("{}\n",
+           hanging(fmt::format("  {}: ", other.test), "could not be checked by other means: " + other.status.reason()));
 }
 
 /// The paths that mechanisms with memory would take the rows for.
 void print_paths(const std::vector<calibration::TestPath>& paths) {
   if (paths.empty()) return;
-  fmt::print("\npaths of loading, row after row\n");
+  answer("\npaths of loading, row after row\n");
   for (const auto& path : paths)
-    fmt::print("{}\n    {}\n",
-               hanging(fmt::format("  {}: ", path.test),
-                       path.words + (path.ordered ? "" : "; nobody says that this is the order")),
-               path.drawing);
+    answer("{}\n    {}\n",
+           hanging(fmt::format("  {}: ", path.test),
+                   path.words + (path.ordered ? "" : "; nobody says that this is the order")),
+           path.drawing);
 }
 
 void print_initial_point(const calibration::PosedProblem& problem) {
@@ -124,53 +125,51 @@ void print_initial_point(const calibration::PosedProblem& problem) {
   const auto& tests = problem.run->entry->tests;
   const auto& initial = problem.initial;
   if (initial.status.kind() == Status::Kind::failed) {
-    fmt::print("{}\n", hanging("  the initial point cannot be evaluated: ", initial.status.reason()));
+    answer("{}\n", hanging("  the initial point cannot be evaluated: ", initial.status.reason()));
     return;
   }
   std::string text = fmt::format("objective {:.6g}", initial.objective);
   if (tests.size() > 1)
     for (std::size_t test = 0; test < tests.size(); ++test)
       text += fmt::format("{} {} {:.4g}", test == 0 ? " =" : " +", tests[test], initial.per_test[test]);
-  fmt::print("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
-             duration_text(initial.seconds), assembly.layout().jacobian_is_exact ? "exact" : "differenced");
+  answer("{}\n  one evaluation takes {}; derivatives are {}\n", hanging("  at the initial point: ", text),
+         duration_text(initial.seconds), assembly.layout().jacobian_is_exact ? "exact" : "differenced");
   print_cost(problem);
   if (assembly.constraints().count() > 0)
-    fmt::print(
-        "{}\n",
-        hanging(fmt::format("  {}: ", counted(assembly.constraints().count(), "constraint", "constraints")),
-                initial.status.ok() ? "kept at the initial point"
-                                    : "broken at the initial point, which is no harm: " + initial.status.reason()));
+    answer("{}\n",
+           hanging(fmt::format("  {}: ", counted(assembly.constraints().count(), "constraint", "constraints")),
+                   initial.status.ok() ? "kept at the initial point"
+                                       : "broken at the initial point, which is no harm: " + initial.status.reason()));
   for (const auto& other : initial.other_means) print_agreement(other);
-  for (const auto& sentence : initial.sentences)
-    fmt::print("{}\n", hanging("  set-up, at the initial point: ", sentence));
+  for (const auto& sentence : initial.sentences) answer("{}\n", hanging("  set-up, at the initial point: ", sentence));
   if (initial.analysed && initial.sentences.empty())
-    fmt::print("  set-up: the data fix every parameter at the initial point\n");
+    answer("  set-up: the data fix every parameter at the initial point\n");
 }
 
 void print(const calibration::Examination& checked, const std::string& file) {
   const auto& [experiment, plan, warnings, notes, problems, paths, understood] = checked;
-  fmt::print("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
-             counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
-             counted(experiment.runs.size(), "run", "runs"), experiment.seed);
-  for (const auto& warning : warnings) fmt::print("{}", text::caution_line(warning.text()).shown_on(STDOUT_FILENO));
-  for (const auto& note : notes) fmt::print("{}\n", hanging("  ", note));
-  fmt::print("\n");
+  answer("{}: {}, {}, {}, seed {}\n", data::excerpt(experiment.name),
+         counted(experiment.models.size(), "model", "models"), counted(experiment.tests.size(), "test", "tests"),
+         counted(experiment.runs.size(), "run", "runs"), experiment.seed);
+  for (const auto& warning : warnings) answer("{}", text::caution_line(warning.text()).shown_on(answer_descriptor()));
+  for (const auto& note : notes) answer("{}\n", hanging("  ", note));
+  answer("\n");
   for (const auto& run : plan.runs)
-    fmt::print("{}: {} of at most {} evaluations\n", run.label,
-               counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
+    answer("{}: {} of at most {} evaluations\n", run.label,
+           counted(run.entry->realisations, "realisation", "realisations"), run.entry->stop.max_evaluations);
   for (const auto& [test, lines] : understood) {
-    fmt::print("\n{}, as its file was understood\n", test);
-    for (const auto& line : lines) fmt::print("{}\n", hanging("  ", line));
+    answer("\n{}, as its file was understood\n", test);
+    for (const auto& line : lines) answer("{}\n", hanging("  ", line));
   }
   print_paths(paths);
   for (const auto& problem : problems) {
-    fmt::print("\n{}\n", hanging("", problem.title));
+    answer("\n{}\n", hanging("", problem.title));
     print_tests(*problem.run->assembly);
     print_parameters(*problem.run->assembly);
     print_initial_point(problem);
   }
-  fmt::print("\n{}\n", checked.good() ? fmt::format("In order. Next: tunica run {}", file)
-                                      : std::string("Not in order: see above. `tunica run` would still start."));
+  answer("\n{}\n", checked.good() ? fmt::format("In order. Next: tunica run {}", file)
+                                  : std::string("Not in order: see above. `tunica run` would still start."));
 }
 
 /// The data as they were understood, as one HTML file.

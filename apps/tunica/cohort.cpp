@@ -9,6 +9,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "cohort/collection.hpp"
 #include "cohort/results_folder.hpp"
 #include "cohort/shares.hpp"
@@ -21,6 +22,8 @@
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "supervisor.hpp"
+#include "text/aside.hpp"
 #include "text/shell.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -105,10 +108,10 @@ int merge(const GlobalOptions& global, const Session& session, const CohortOptio
   }
   write_results(opened, found, study, results);
   const auto page = report::write_report(results);
-  fmt::print("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
-             cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
+  answer("{}{}\nReport:   {}\nResults:  {}\n", cohort::outcome_words(opened.table, found),
+         cohort::study_words(opened.table, study), page.string(), (results / "result.json").string());
   if (study.diagnosis && !study.diagnosis->extended.empty())
-    fmt::print("Try:      {}\n", text::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
+    answer("Try:      {}\n", text::quoted({"tunica", "cohort", (results / "extended_cohort.json").string()}));
   return found.count(cohort::Outcome::fitted) > 0 ? done : not_converged;
 }
 
@@ -117,7 +120,9 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
   const cohort::Share share = options.share.empty() ? cohort::Share{} : cohort::parse_share(options.share);
   const Session session(global);
   const Opened opened(options);
-  const auto results = cohort::results_folder(options.directory, opened.cohort.name);
+  const auto begun = supervised::resumable_folder();
+  const auto results = cohort::results_folder(begun.empty() ? options.directory : begun.string(), opened.cohort.name);
+  supervised::resumable_in(results);
   execution::write_atomically(results / "cohort.json", opened.cohort.text);
   cohort::FitSettings settings;
   settings.results = results;
@@ -135,13 +140,13 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
                                 });
   }
   if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted; the specimens that are done are saved. Go on with\n  {}\n",
-               command(global, "", options, results));
+    text::aside("interrupted; the specimens that are done are saved. Go on with\n  {}\n",
+                command(global, "", options, results));
     return interrupted;
   }
   if (!options.share.empty()) {  // one of one, too: its limits on a cluster are those of fits
-    fmt::print("shard {} of {}: {} of {} specimens fitted\nMerge:    {}\n", share.part, share.of, outcome.fitted,
-               outcome.specimens, command(global, "merge", options, results));
+    answer("shard {} of {}: {} of {} specimens fitted\nMerge:    {}\n", share.part, share.of, outcome.fitted,
+           outcome.specimens, command(global, "merge", options, results));
     return done;
   }
   return merge(global, session, options, opened, results);

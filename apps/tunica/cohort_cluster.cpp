@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "cluster/command.hpp"
 #include "cluster/overview.hpp"
 #include "cohort/presence.hpp"
@@ -85,22 +86,22 @@ int tell_status(const GlobalOptions& global, const ClusterOptions& options) {
   view.queue_problem = problem;
   const int code = view.stuck() && problem.empty() ? not_converged : done;
   if (options.json) {
-    fmt::print("{}", cluster::in_json(view, submission));
+    answer("{}", cluster::in_json(view, submission));
     return code;
   }
-  fmt::print("{}", cluster::in_words(view, submission));
+  answer("{}", cluster::in_words(view, submission));
   if (view.missing == 0 && view.merge && view.merge->phase == cluster::slurm::Phase::ended)
-    fmt::print("Results:  {}\n", cohort.results.string());
+    answer("Results:  {}\n", cohort.results.string());
   else if (view.missing == 0 && !view.merge)
-    fmt::print("Merge:    {}\n", cohort.command("merge"));
+    answer("Merge:    {}\n", cohort.command("merge"));
   if (code == done) return code;
   if (!stored) {
-    fmt::print("Go on:    {} --slurm\n", cohort.command("submit"));
+    answer("Go on:    {} --slurm\n", cohort.command("submit"));
     return code;
   }
   if (std::any_of(view.shards.begin(), view.shards.end(), ended_by_a_limit))
-    fmt::print("A limit ended some; give them more with --time or --memory.\n");
-  fmt::print("Go on:    {}\n", cohort.command("resubmit"));
+    answer("A limit ended some; give them more with --time or --memory.\n");
+  answer("Go on:    {}\n", cohort.command("resubmit"));
   return code;
 }
 

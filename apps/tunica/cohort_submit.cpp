@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "cluster/command.hpp"
 #include "cluster/estimate.hpp"
 #include "cluster/overview.hpp"
@@ -135,10 +136,10 @@ cluster::Wishes plan(const ClusterOptions& options, const ClusterCohort& cohort,
     if (wishes.time.empty()) wishes.time = std::to_string(limits.minutes);
     if (wishes.memory.empty()) wishes.memory = fmt::format("{}M", limits.mebibytes);
     mean_seconds = pilot.mean_seconds;
-    fmt::print("{}Shards:   {} of at most {} specimens, about {:.2g} min each\n", describe_pilot(pilot), wishes.shards,
-               each, cluster::shard_seconds(pilot, each, options.threads) / 60);
-    fmt::print("Limits:   {} min ({} × the longest specimens, and {} min), {} ({} × the pilot's memory)\n", wishes.time,
-               cluster::time_margin, cluster::spare_seconds / 60, wishes.memory, cluster::memory_margin);
+    answer("{}Shards:   {} of at most {} specimens, about {:.2g} min each\n", describe_pilot(pilot), wishes.shards,
+           each, cluster::shard_seconds(pilot, each, options.threads) / 60);
+    answer("Limits:   {} min ({} × the longest specimens, and {} min), {} ({} × the pilot's memory)\n", wishes.time,
+           cluster::time_margin, cluster::spare_seconds / 60, wishes.memory, cluster::memory_margin);
   }
   const auto limits = cluster::merge_limits(specimens, scan_seconds, mean_seconds);
   if (wishes.merge_time.empty()) wishes.merge_time = std::to_string(limits.minutes);
@@ -185,11 +186,10 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
   std::string after = alive;
   if (dry_run) {
     if (!array.empty()) {
-      fmt::print("{}\n",
-                 text::quoted(cluster::slurm::words_of(cluster::shards_order(submission, cohort.results, array))));
+      answer("{}\n", text::quoted(cluster::slurm::words_of(cluster::shards_order(submission, cohort.results, array))));
       after += (after.empty() ? "" : ":") + std::string("JOB");
     }
-    fmt::print("{}\n", text::quoted(cluster::slurm::words_of(cluster::merge_order(submission, cohort.results, after))));
+    answer("{}\n", text::quoted(cluster::slurm::words_of(cluster::merge_order(submission, cohort.results, after))));
     return;
   }
   cluster::store(submission, cohort.results);
@@ -197,14 +197,14 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
     const auto job = cluster::slurm::submit(cluster::shards_order(submission, cohort.results, array));
     submission.jobs.push_back({job, array});
     cluster::store(submission, cohort.results);
-    fmt::print("Job {}: shards {}\n", job, array);
+    answer("Job {}: shards {}\n", job, array);
     after += (after.empty() ? "" : ":") + job;
   }
   try {
     const auto merge = cluster::slurm::submit(cluster::merge_order(submission, cohort.results, after));
     submission.jobs.push_back({merge, ""});
     cluster::store(submission, cohort.results);
-    fmt::print("Job {}: the merge, when they have ended\nStatus:   {}\n", merge, cohort.command("status"));
+    answer("Job {}: the merge, when they have ended\nStatus:   {}\n", merge, cohort.command("status"));
   } catch (const InputError& refusal) {
     throw InputError(fmt::format("the shards were submitted, but not the merge: {}. Run `{}`, which submits it",
                                  refusal.what(), cohort.command("resubmit")));
@@ -212,7 +212,7 @@ void submit_and_tell(cluster::Submission& submission, const ClusterCohort& cohor
 }
 
 int nothing_missing(const ClusterCohort& cohort) {
-  fmt::print("No specimen is left to fit, so nothing was submitted.\nMerge:    {}\n", cohort.command("merge"));
+  answer("No specimen is left to fit, so nothing was submitted.\nMerge:    {}\n", cohort.command("merge"));
   return done;
 }
 
@@ -266,8 +266,8 @@ int resubmit_cohort(const GlobalOptions& global, const ClusterOptions& options) 
   for (const auto& shard : view.shards)
     if (shard.standing == cluster::Standing::stopped) array.add(shard.progress.share.part);
   if (array.text().empty() && merge_waits) {
-    fmt::print("Nothing has stopped: {} shards are running, {} are waiting, and the merge waits for them.\n",
-               view.count(cluster::Standing::running), view.count(cluster::Standing::waiting));
+    answer("Nothing has stopped: {} shards are running, {} are waiting, and the merge waits for them.\n",
+           view.count(cluster::Standing::running), view.count(cluster::Standing::waiting));
     return done;
   }
   // A merge that waits for the old jobs alone would only find specimens missing.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "command_tree.hpp"
 #include "comparison/provenance.hpp"
 #include "data/nearest.hpp"
@@ -19,9 +20,9 @@ namespace {
 int complete(const CLI::App& app, const std::string& shell) {
   const std::vector<std::string> shells = {"bash", "zsh"};
   if (shell == "bash")
-    fmt::print("{}", bash_completion(command_tree(app)));
+    answer("{}", bash_completion(command_tree(app)));
   else if (shell == "zsh")
-    fmt::print("{}", zsh_completion(command_tree(app)));
+    answer("{}", zsh_completion(command_tree(app)));
   else
     throw InputError(fmt::format("there is no completion for '{}'. {}", shell, data::suggestion(shell, shells)));
   return done;
@@ -50,7 +51,7 @@ void add_man(CLI::App& app, GlobalOptions&, Action& action) {
       "An installed tunica includes it: man tunica.");
   verb->callback([&app, &action] {
     action = [&app] {
-      fmt::print("{}", manual_page(command_tree(app), comparison::version()));
+      answer("{}", manual_page(command_tree(app), comparison::version()));
       return done;
     };
   });

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "data/nearest.hpp"
 #include "exit_codes.hpp"
 #include "plugins/guarded.hpp"
@@ -54,40 +55,39 @@ std::string kind_of(const Option& option) {
 }
 
 void print_options(const std::vector<Option>& options, bool layered = false) {
-  if (!options.empty() || layered) fmt::print("\noptions\n");
+  if (!options.empty() || layered) answer("\noptions\n");
   if (layered)
-    fmt::print("{}\n",
-               hanging(fmt::format("  {:<18} ", "layers"),
-                       "Layers of the wall from inside, each with a model of its own. (list of {\"model\": name, "
-                       "\"thickness\": quantity in mm}; without it the model of the run fills the wall)"));
+    answer("{}\n", hanging(fmt::format("  {:<18} ", "layers"),
+                           "Layers of the wall from inside, each with a model of its own. (list of {\"model\": name, "
+                           "\"thickness\": quantity in mm}; without it the model of the run fills the wall)"));
   for (const auto& option : options) {
     std::string text = kind_of(option);
     if (option.min) text += fmt::format(", at least {}", *option.min);
     if (option.max) text += fmt::format(", at most {}", *option.max);
     text += option.fallback ? fmt::format("; default {}", text_of(*option.fallback)) : std::string("; must be given");
-    fmt::print("{}\n", hanging(fmt::format("  {:<18} ", option.name), fmt::format("{} ({})", option.doc, text)));
+    answer("{}\n", hanging(fmt::format("  {:<18} ", option.name), fmt::format("{} ({})", option.doc, text)));
   }
 }
 
 void print_parameters(const std::vector<Parameter>& parameters, const std::vector<double>& nulls = {}) {
   if (parameters.empty()) return;
-  fmt::print("\nparameters\n  {:<18} {:<8} {:>10} {:>10} {:>10}  scale\n", "name", "unit", "initial", "min", "max");
+  answer("\nparameters\n  {:<18} {:<8} {:>10} {:>10} {:>10}  scale\n", "name", "unit", "initial", "min", "max");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto& parameter = parameters[i];
-    fmt::print("  {:<18} {:<8} {:>10.6g} {:>10.6g} {:>10.6g}  {}\n", parameter.name, parameter.unit, parameter.initial,
-               parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear");
+    answer("  {:<18} {:<8} {:>10.6g} {:>10.6g} {:>10.6g}  {}\n", parameter.name, parameter.unit, parameter.initial,
+           parameter.min, parameter.max, parameter.scale == Scale::log ? "log" : "linear");
     std::string text = parameter.doc;
     if (i < nulls.size() && !std::isnan(nulls[i]))
       text += fmt::format(" An imperfection: held at {} unless the experiment frees it.", nulls[i]);
     if (!parameter.reference.empty()) text += fmt::format(" [{}]", parameter.reference);
-    if (!text.empty()) fmt::print("{}\n", hanging("      ", text));
+    if (!text.empty()) answer("{}\n", hanging("      ", text));
   }
 }
 
 void print_head(const std::string& kind, const std::string& name, const std::string& doc, const std::string& reference,
                 const std::string& plugin) {
-  fmt::print("{} ({}, plugin {})\n{}\n", name, kind, plugin, hanging("  ", doc));
-  if (!reference.empty()) fmt::print("{}\n", hanging("  Reference: ", reference));
+  answer("{} ({}, plugin {})\n{}\n", name, kind, plugin, hanging("  ", doc));
+  if (!reference.empty()) answer("{}\n", hanging("  Reference: ", reference));
 }
 
 void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
@@ -95,25 +95,24 @@ void print(const plugins::Catalogue::Entry<ModelFactory>& entry) {
   print_head("model", factory.type, factory.doc, factory.reference, entry.plugin);
   const auto model = plugins::create(entry, any_options(factory.options));
   const auto& description = model->describe();
-  if (!description.formula.empty()) fmt::print("\n{}\n", hanging("energy: ", description.formula));
+  if (!description.formula.empty()) answer("\n{}\n", hanging("energy: ", description.formula));
   print_parameters(description.parameters);
   print_options(factory.options);
-  if (description.history_size > 0)
-    fmt::print("\nremembers its history: {} numbers a point\n", description.history_size);
+  if (description.history_size > 0) answer("\nremembers its history: {} numbers a point\n", description.history_size);
   for (const auto& part : model->parts())
-    fmt::print("{}energy part: {}\n", part == model->parts().front() ? "\n" : "", part->describe().name);
+    answer("{}energy part: {}\n", part == model->parts().front() ? "\n" : "", part->describe().name);
 }
 
 void print(const plugins::Catalogue::Entry<TestFactory>& entry) {
   const auto& factory = entry.factory;
   print_head("test", factory.type, factory.doc, factory.reference, entry.plugin);
-  fmt::print("\nobservables that a data column can be mapped to\n");
+  answer("\nobservables that a data column can be mapped to\n");
   for (const auto& observable : factory.observables) {
     const char* role = observable.role == Observable::Role::abscissa ? "prescribed"
                        : observable.role == Observable::Role::time   ? "clock"
                                                                      : "measured";
-    fmt::print("{}\n", hanging(fmt::format("  {:<18} {:<8} ", observable.name, observable.unit),
-                               fmt::format("{}{}. {}", role, observable.required ? ", required" : "", observable.doc)));
+    answer("{}\n", hanging(fmt::format("  {:<18} {:<8} ", observable.name, observable.unit),
+                           fmt::format("{}{}. {}", role, observable.required ? ", required" : "", observable.doc)));
   }
   const auto own = parameters_of(entry);
   print_parameters(own.parameters, own.nulls);
@@ -124,14 +123,14 @@ void print(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {
   const auto& factory = entry.factory;
   print_head("optimizer", factory.type, factory.doc, factory.reference, entry.plugin);
   const auto optimizer = plugins::create(entry, any_options(factory.options));
-  const auto& needs = optimizer->needs();
+  const auto needs = plugins::needs(entry.plugin, *optimizer);
   std::vector<std::string> words;
   if (needs.residuals) words.push_back("sees residuals");
   if (needs.gradient) words.push_back("uses derivatives");
   if (needs.constraints) words.push_back("handles constraints itself");
   if (needs.batch) words.push_back("evaluates populations in parallel");
   words.push_back(needs.random ? "depends on the seed" : "uses no random numbers");
-  fmt::print("{}\n", hanging("  ", fmt::format("{}.", fmt::join(words, "; "))));
+  answer("{}\n", hanging("  ", fmt::format("{}.", fmt::join(words, "; "))));
   print_options(factory.options);
 }
 
@@ -142,15 +141,15 @@ void print(const plugins::Catalogue::Entry<MechanismFactory>& entry) {
   const char* side = factory.side == MechanismFactory::Side::positive ? "at or above it"
                      : factory.side == MechanismFactory::Side::both   ? "on both sides"
                                                                       : "on both sides, even";
-  fmt::print("\n  absent at {} = {}; acts {}; plausible from {} to {}\n",
-             factory.parameters.empty() ? "amplitude" : factory.parameters.front().name, factory.null, side,
-             factory.plausible_min, factory.plausible_max);
+  answer("\n  absent at {} = {}; acts {}; plausible from {} to {}\n",
+         factory.parameters.empty() ? "amplitude" : factory.parameters.front().name, factory.null, side,
+         factory.plausible_min, factory.plausible_max);
   if (factory.plausible_effect > 0)
-    fmt::print("  diagnosis: plausible up to an effect of {} times the range of the data\n", factory.plausible_effect);
-  if (!factory.applies_to.empty()) fmt::print("  applies to: {}\n", fmt::join(factory.applies_to, ", "));
+    answer("  diagnosis: plausible up to an effect of {} times the range of the data\n", factory.plausible_effect);
+  if (!factory.applies_to.empty()) answer("  applies to: {}\n", fmt::join(factory.applies_to, ", "));
   if (!factory.look_alikes.empty())
-    fmt::print("{}\n", hanging("  looks like: ", fmt::format("{}", fmt::join(factory.look_alikes, ", "))));
-  if (!factory.isolated_by.empty()) fmt::print("{}\n", hanging("  isolated by: ", factory.isolated_by));
+    answer("{}\n", hanging("  looks like: ", fmt::format("{}", fmt::join(factory.look_alikes, ", "))));
+  if (!factory.isolated_by.empty()) answer("{}\n", hanging("  isolated by: ", factory.isolated_by));
   print_options(factory.options);
 }
 

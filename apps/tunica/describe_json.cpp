@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "describe.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
@@ -140,7 +141,7 @@ json description_json(const plugins::Catalogue::Entry<TestFactory>& entry) {
 json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry) {
   const auto& factory = entry.factory;
   const auto optimizer = plugins::create(entry, any_options(factory.options));
-  const auto& needs = optimizer->needs();
+  const auto needs = plugins::needs(entry.plugin, *optimizer);
   json document = head(factory.type, factory.doc, factory.reference, entry.plugin);
   document["needs"] = {{"residuals", needs.residuals},
                        {"gradient", needs.gradient},
@@ -169,8 +170,6 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
   return document;
 }
 
-void print_json(const json& document) {
-  fmt::print("{}\n", document.dump(2, ' ', false, json::error_handler_t::replace));
-}
+void print_json(const json& document) { answer("{}\n", document.dump(2, ' ', false, json::error_handler_t::replace)); }
 
 }  // namespace tunica::app

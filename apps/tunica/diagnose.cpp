@@ -12,6 +12,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "batch.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
@@ -24,6 +25,7 @@
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "supervisor.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
@@ -83,6 +85,7 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   std::vector<std::filesystem::path> made;
   if (!was_there) made.push_back(directory.path());
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
+  supervised::unfinished(directory.path(), made);
   DiagnosisAndSearch found;
   try {
     UnfinishedFolder folder(made, interruption_message());
@@ -98,15 +101,15 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   write_diagnosis(directory.path(), found, experiment, session.catalogue());
   const std::vector<diagnosis::Warning> warnings = found.diagnosis.warnings();
-  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
-  if (!warnings.empty()) fmt::print("\n");
+  for (const diagnosis::Warning& warning : warnings) answer("{}\n", text::hanging("warning: ", warning.text));
+  if (!warnings.empty()) answer("\n");
   const auto page = report::write_report(directory.path());
   text::StyledText words = diagnosis::summary(found.diagnosis);
   if (found.discovered()) words += discovery::term_summary(*found.search);
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", words.shown_on(STDOUT_FILENO), page.string(),
-             (directory.path() / "result.json").string());
+  answer("{}\nReport:   {}\nResults:  {}\n", words.shown_on(answer_descriptor()), page.string(),
+         (directory.path() / "result.json").string());
   if (found.diagnosis.explanation.claim.best || found.discovered())
-    fmt::print("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
+    answer("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;
 }
 

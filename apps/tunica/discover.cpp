@@ -12,6 +12,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "batch.hpp"
 #include "cohort/discovery_study.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
@@ -24,6 +25,7 @@
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
+#include "supervisor.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "unfinished_folder.hpp"
@@ -67,8 +69,8 @@ struct Output {
 };
 
 void tell(const std::vector<diagnosis::Warning>& warnings) {
-  for (const diagnosis::Warning& warning : warnings) fmt::print("{}\n", text::hanging("warning: ", warning.text));
-  if (!warnings.empty()) fmt::print("\n");
+  for (const diagnosis::Warning& warning : warnings) answer("{}\n", text::hanging("warning: ", warning.text));
+  if (!warnings.empty()) answer("\n");
 }
 
 int discover(const GlobalOptions& global, const DiscoverOptions& options) {
@@ -79,6 +81,7 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   Output output(options.directory, experiment.name);
   discovery::Discovery found;
   try {
+    supervised::unfinished(output.directory.path(), output.made);
     UnfinishedFolder folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
     found = discovery::discover(experiment, request, session.catalogue(),
@@ -93,9 +96,9 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   const bool extended = write_discovery(output.directory.path(), found, experiment, session.catalogue());
   tell(found.warnings);
   const auto page = report::write_report(output.directory.path());
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", discovery::summary(found).shown_on(STDOUT_FILENO), page.string(),
-             (output.directory.path() / "result.json").string());
-  if (extended) fmt::print("Try:      tunica run {}\n", (output.directory.path() / "extended.json").string());
+  answer("{}\nReport:   {}\nResults:  {}\n", discovery::summary(found).shown_on(answer_descriptor()), page.string(),
+         (output.directory.path() / "result.json").string());
+  if (extended) answer("Try:      tunica run {}\n", (output.directory.path() / "extended.json").string());
   return done;
 }
 
@@ -123,6 +126,7 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   Output output(options.directory, specification.name);
   std::optional<cohort::DiscoveryStudy> study;
   {
+    supervised::unfinished(output.directory.path(), output.made);
     UnfinishedFolder folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
     study = cohort::study_discovery(specification, table, pattern, session.catalogue(), asked,
@@ -134,9 +138,9 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   write_cohort_discovery(folder, *study, specification, table, session.catalogue());
   tell(study->found.warnings);
   const auto page = report::write_report(folder);
-  fmt::print("{}\nReport:   {}\nResults:  {}\n", cohort::discovery_words(*study).shown_on(STDOUT_FILENO), page.string(),
-             (folder / "terms.csv").string());
-  if (!study->extended.empty()) fmt::print("Try:      tunica cohort {}\n", (folder / "extended_cohort.json").string());
+  answer("{}\nReport:   {}\nResults:  {}\n", cohort::discovery_words(*study).shown_on(answer_descriptor()),
+         page.string(), (folder / "terms.csv").string());
+  if (!study->extended.empty()) answer("Try:      tunica cohort {}\n", (folder / "extended_cohort.json").string());
   return done;
 }
 

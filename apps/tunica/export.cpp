@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "card_name.hpp"
 #include "cards/card.hpp"
 #include "data/units.hpp"
@@ -50,12 +51,12 @@ int export_card(const ExportOptions& options) {
                                               .remarks = fitted.remarks});
   if (!options.subroutine.empty()) execution::write_atomically(options.subroutine, cards::uanisohyper_inv());
   if (options.file.empty()) {
-    fmt::print("{}", card);
+    answer("{}", card);
     return done;
   }
   execution::write_atomically(options.file, card);
-  fmt::print("{}\n", options.file);
-  if (!options.subroutine.empty()) fmt::print("{}\n", options.subroutine);
+  answer("{}\n", options.file);
+  if (!options.subroutine.empty()) answer("{}\n", options.subroutine);
   return done;
 }
 

@@ -14,12 +14,14 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "data/dataset.hpp"
 #include "data/units.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "importing/proposal.hpp"
 #include "messages.hpp"
+#include "text/aside.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -51,7 +53,7 @@ importing::Pairs pairs(const std::vector<std::string>& texts, std::string_view o
 /// Asks on the terminal until the answer makes sense.
 std::string ask_on_terminal(const Question& question) {
   for (;;) {
-    fmt::print(stderr, "{} (for example {}): ", question.text, question.example);
+    text::aside("{} (for example {}): ", question.text, question.example);
     std::string answer;
     if (!std::getline(std::cin, answer))
       throw InputError(fmt::format("no answer to '{}'. Give {}", question.text, question.option));
@@ -59,9 +61,9 @@ std::string ask_on_terminal(const Question& question) {
     if (!question.length || answer == "preload") return answer;
     try {
       if (data::parse_quantity(answer, "mm") > 0) return answer;
-      fmt::print(stderr, "It must be greater than zero.\n");
+      text::aside("It must be greater than zero.\n");
     } catch (const InputError& problem) {
-      fmt::print(stderr, "{}\n", problem.what());
+      text::aside("{}\n", problem.what());
     }
   }
 }
@@ -167,9 +169,9 @@ int import(const GlobalOptions& global, ImportOptions options) {
   if (!unanswered.empty()) refuse_unanswered(unanswered);
   execution::write_atomically(file, proposal.experiment.dump(2) + '\n');
   for (const std::string& warning : warnings_about(file, session)) say_wrapped_warning(warning);
-  for (const std::string& note : proposal.notes) fmt::print("{}\n", text::hanging("", note));
+  for (const std::string& note : proposal.notes) answer("{}\n", text::hanging("", note));
   const auto& first = proposal.experiment["tests"].front();
-  fmt::print("\n\"data\": {}\n\n{}\nNext: tunica check {}\n", first["data"].dump(2), file.string(), file.string());
+  answer("\n\"data\": {}\n\n{}\nNext: tunica check {}\n", first["data"].dump(2), file.string(), file.string());
   return done;
 }
 

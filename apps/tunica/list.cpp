@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "data/nearest.hpp"
 #include "describe.hpp"
 #include "exit_codes.hpp"
@@ -41,15 +42,15 @@ void print_shelf(const std::string& title, const Shelf& shelf, const ListOptions
                       {"plugin", entry.plugin}});
     return;
   }
-  if (!options.names) fmt::print("{} ({})\n", title, shelf.size());
+  if (!options.names) answer("{} ({})\n", title, shelf.size());
   std::size_t width = 0;
   for (const auto& [name, entry] : shelf) width = std::max(width, name.size());
   for (const auto& [name, entry] : shelf)
     if (options.names)
-      fmt::print("{}\n", name);
+      answer("{}\n", name);
     else
-      fmt::print("{}\n", text::hanging(fmt::format("  {:<{}}  ", name, width),
-                                       fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
+      answer("{}\n", text::hanging(fmt::format("  {:<{}}  ", name, width),
+                                   fmt::format("{} [{}]", doc_of(entry.factory), entry.plugin)));
 }
 
 int list(const GlobalOptions& global, const ListOptions& options) {

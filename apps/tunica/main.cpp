@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include <algorithm>
 #include <exception>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "comparison/provenance.hpp"
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "plugins/guarded.hpp"
+#include "supervisor.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
 
 namespace {
+
+/// For debuggers and profilers; read before the command line is.
+constexpr std::string_view in_process = "--in-process";
 
 constexpr const char* examples = R"(Examples:
   tunica check experiment.json             is everything in order?
@@ -34,7 +42,7 @@ and resumable.)";
 void check_verb(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--plugin-path") ++i;  // its value may be anything
+    if (word == "--plugin-path" || word == "--call-limit") ++i;  // its value may be anything
     if (word.empty() || word.front() == '-') continue;
     std::vector<std::string> verbs;
     for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -60,6 +68,14 @@ int run(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_flag("--allow-world-writable-plugins", global.allow_world_writable_plugins,
                "Load plugins that other users of this machine could have changed");
+  app.add_option("--call-limit", global.call_limit,
+                 "Give up a call of a model that takes longer, in seconds; it counts as failed (default: 60)")
+      ->check(CLI::Range(0.1, 1e6))
+      ->type_name("S")
+      ->allow_extra_args(false);
+  bool alone = false;
+  app.add_flag(std::string(in_process), alone,
+               "Run in this process, as debuggers want it. A plugin that crashes then ends the program");
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(examples);
@@ -74,11 +90,47 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem);
+    if (problem.get_exit_code() == 0) {
+      std::ostringstream help;
+      app.exit(problem, help, help);
+      write_answer(help.str());
+      flush_answer();
+      return done;
+    }
     say_error(command_line_error(app, problem));
     return invalid_input;
   }
-  return action();
+  const int code = action();
+  flush_answer();
+  return code;
+}
+
+/// What main() returns, whatever is thrown.
+int contained(int argc, char** argv) {
+  const auto fault = [](const std::string& what) {
+    say_error(
+        fmt::format("internal: {}; this is a fault of tunica, please report it with the files that caused it", what));
+    return internal_error;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const InputError& problem) {
+    say_error(problem.what());
+    return invalid_input;
+  } catch (const PluginRefused& problem) {
+    say_error(problem.what());
+    return plugin_refused;
+  } catch (const execution::WriteFailure& problem) {
+    say_error(problem.what());
+    return invalid_input;
+  } catch (const plugins::PluginFailure& problem) {
+    say_error(fmt::format("{}. Take the plugin out, or report this to its author", problem.what()));
+    return internal_error;
+  } catch (const std::exception& problem) {
+    return fault(problem.what());
+  } catch (...) {
+    return fault("something that is no std::exception was thrown");
+  }
 }
 
 }  // namespace
@@ -87,20 +139,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace tunica::app;
-  try {
-    return run(argc, argv);
-  } catch (const tunica::InputError& problem) {
-    say_error(problem.what());
-    return invalid_input;
-  } catch (const PluginRefused& problem) {
-    say_error(problem.what());
-    return plugin_refused;
-  } catch (const tunica::execution::WriteFailure& problem) {
-    say_error(problem.what());
-    return invalid_input;
-  } catch (const std::exception& problem) {
-    say_error(fmt::format("internal: {}; this is a fault of tunica, please report it with the files that caused it",
-                          problem.what()));
-    return internal_error;
-  }
+  const auto work = [&] { return contained(argc, argv); };
+  const bool alone = std::any_of(argv, argv + argc, [](const char* word) { return word == in_process; });
+  return alone ? work() : supervise(work);
 }

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "data/nearest.hpp"
+#include "text/aside.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 
@@ -27,7 +28,7 @@ void say(const char* word, const char* colour, const std::string& text) {
   std::string quoted = text;
   for (char& c : quoted)
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
-  fmt::print(stderr, "{}: {}\n", shown, quoted);
+  text::aside("{}: {}\n", shown, quoted);
 }
 
 /// "tunica plugin new" for what was being parsed when it went wrong.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "answer.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "plugin.hpp"
@@ -89,7 +90,7 @@ class Table {
  public:
   void add(const Finding& finding) {
     const std::string head = finding.kind + " " + finding.name + (finding.with.empty() ? "" : ", " + finding.with);
-    if (head != head_) fmt::print("{}{}\n", head_.empty() ? "" : "\n", hanging("", head));
+    if (head != head_) answer("{}{}\n", head_.empty() ? "" : "\n", hanging("", head));
     head_ = head;
     const conformance::Verdict& verdict = finding.verdict;
     std::string figures;
@@ -97,16 +98,16 @@ class Table {
       figures = fmt::format("{:.1e} of {:.0e}", verdict.worst, verdict.tolerance);
     std::string line = fmt::format("  {:<11} {}", outcome(finding), finding.property);
     if (!figures.empty()) line = text::pad(line, 64) + " " + figures;
-    fmt::print("{}\n", line);
+    answer("{}\n", line);
     constexpr const char* indent = "              ";
-    if (!verdict.skipped.empty()) fmt::print("{}\n", hanging(indent, verdict.skipped));
+    if (!verdict.skipped.empty()) answer("{}\n", hanging(indent, verdict.skipped));
     if (verdict.counter_example.empty()) {
-      if (!verdict.note.empty() && finding.advisory) fmt::print("{}\n", hanging(indent, verdict.note));
+      if (!verdict.note.empty() && finding.advisory) answer("{}\n", hanging(indent, verdict.note));
     } else {
-      if (!verdict.compared.empty()) fmt::print("{}\n", hanging(indent, "Compared: " + verdict.compared + "."));
-      fmt::print("{}\n", hanging(indent, verdict.counter_example));
+      if (!verdict.compared.empty()) answer("{}\n", hanging(indent, "Compared: " + verdict.compared + "."));
+      answer("{}\n", hanging(indent, verdict.counter_example));
     }
-    std::fflush(stdout);
+    flush_answer();
   }
 
  private:
@@ -141,7 +142,7 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
     experiment = experiment::read_experiment(asked.experiment, bench.catalogue);
     settings.experiment = &*experiment;
   }
-  if (!asked.as_json) fmt::print("plugin {} from {}, seed {}\n\n", plugin, asked.file, asked.seed);
+  if (!asked.as_json) answer("plugin {} from {}, seed {}\n\n", plugin, asked.file, asked.seed);
   Table table;
   const auto findings = conformance::check_plugin(bench.contents, bench.catalogue, settings, [&](const Finding& one) {
     if (!asked.as_json) table.add(one);
@@ -154,21 +155,21 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
   if (asked.as_json) {
     json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
     for (const Finding& one : findings) all["findings"].push_back(as_json(one));
-    fmt::print("{}\n", all.dump(2));
+    answer("{}\n", all.dump(2));
     return failed == 0 ? done : not_converged;
   }
   const std::string checked = fmt::format("{} of {} held", findings.size() - failed - skipped, findings.size()) +
                               (skipped > 0 ? fmt::format(", {} not checked", skipped) : std::string());
   if (failed == 0)
-    fmt::print("\n{}\n", hanging("", fmt::format("In order: {}. Next: an experiment of your own with it, beside a "
-                                                 "built-in one; put the plugin on TUNICA_PLUGIN_PATH.",
-                                                 checked)));
+    answer("\n{}\n", hanging("", fmt::format("In order: {}. Next: an experiment of your own with it, beside a "
+                                             "built-in one; put the plugin on TUNICA_PLUGIN_PATH.",
+                                             checked)));
   else
-    fmt::print("\n{}\n", hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
-                                                 "follow from it, and check again with --only NAME; what each "
-                                                 "property means is in docs/plugin-check.md.",
-                                                 text::counted(failed, "property failed", "properties failed") + ", " +
-                                                     checked)));
+    answer("\n{}\n",
+           hanging("", fmt::format("NOT in order: {}. Mend the first that failed, since others may "
+                                   "follow from it, and check again with --only NAME; what each "
+                                   "property means is in docs/plugin-check.md.",
+                                   text::counted(failed, "property failed", "properties failed") + ", " + checked)));
   return failed == 0 ? done : not_converged;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
@@ -77,16 +78,16 @@ int begin_plugin(const GlobalOptions& global, const New& wanted) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw execution::WriteFailure(folder, error.value());
-  fmt::print("{}: a {} that builds and passes as it stands\n", folder.string(), wanted.kind);
+  answer("{}: a {} that builds and passes as it stands\n", folder.string(), wanted.kind);
   for (const TemplateFile& file : template_files()) {
     if (file.kind != wanted.kind) continue;
     const std::string example(file.example);
     const fs::path path = folder / renamed(std::string(file.path), example, wanted.name);
     execution::write_atomically(path, renamed(std::string(file.text), example, wanted.name));
-    fmt::print("  {}\n", path.string());
+    answer("  {}\n", path.string());
   }
   const std::string build = (folder / "build").string(), plugin = fmt::format("{}/{}.so", build, wanted.name);
-  fmt::print(
+  answer(
       "\nNext:\n  cmake -S {0} -B {1}\n  cmake --build {1}\n  tunica plugin check {2}\n"
       "  tunica --plugin-path {2} {3} {0}/experiment.json\n{0}/README.md says what to change.\n",
       folder.string(), build, plugin, wanted.kind == "mechanism" ? "diagnose" : "run");

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "tunica/error.hpp"
@@ -25,7 +26,7 @@ struct ReportOptions {
 int make_report(const ReportOptions& options) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
   if (folders.size() == 1 && options.file.empty()) {
-    fmt::print("{}\n", report::write_report(folders.front()).string());
+    answer("{}\n", report::write_report(folders.front()).string());
     return done;
   }
   if (options.file.empty())
@@ -38,7 +39,7 @@ int make_report(const ReportOptions& options) {
   if (!std::filesystem::is_directory(beside))
     throw InputError(fmt::format("-o {}: no folder {}; make it first", file.string(), beside.string()));
   execution::write_atomically(file, report::report(folders, beside));
-  fmt::print("{}\n", file.string());
+  answer("{}\n", file.string());
   return done;
 }
 

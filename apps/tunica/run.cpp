@@ -10,6 +10,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include "answer.hpp"
 #include "calibration/calibrate.hpp"
 #include "calibration/overrides.hpp"
 #include "comparison/ranking_table.hpp"
@@ -17,6 +18,8 @@
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
+#include "supervisor.hpp"
+#include "text/aside.hpp"
 #include "text/lists.hpp"
 #include "text/shell.hpp"
 #include "text/terminal.hpp"
@@ -67,9 +70,9 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
 }
 
 void say_interrupted(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory) {
-  fmt::print(stderr, "{}interrupted; everything so far is saved. Go on with\n  {}\n",
-             !global.quiet && text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "",
-             resume_command(global, options, directory));
+  text::aside("{}interrupted; everything so far is saved. Go on with\n  {}\n",
+              !global.quiet && text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "",
+              resume_command(global, options, directory));
 }
 
 /// Asks a process that has seen nothing of the search; the numbers it needs are in the folder.
@@ -112,27 +115,39 @@ calibration::Options options_of(const GlobalOptions& global, const RunOptions& o
     say_interrupted(global, options, directory);
     ::_exit(interrupted);
   };
-  if (!global.quiet)
-    result.started = [&options](const calibration::Start& start) {
-      fmt::print(stderr, "{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", start.directory.string(),
-                 text::counted(start.plan.runs.size(), "run", "runs"),
-                 text::counted(start.plan.tasks.size(), "search", "searches"),
-                 text::counted(options.threads, "thread", "threads"));
-    };
+  result.started = [&global, &options](const calibration::Start& start) {
+    supervised::resumable_in(start.directory);
+    if (!global.quiet && !supervised::successor())
+      text::aside("{} {}: {}, {}, {}\n", options.resume ? "resuming" : "writing to", start.directory.string(),
+                  text::counted(start.plan.runs.size(), "run", "runs"),
+                  text::counted(start.plan.tasks.size(), "search", "searches"),
+                  text::counted(options.threads, "thread", "threads"));
+  };
   return result;
 }
 
 void print(const calibration::Outcome& outcome, const experiment::Experiment& experiment, const std::string& file) {
   const auto& runs = outcome.summary.runs;
-  fmt::print("{}, seed {}, tunica {}\n\n{}", data::excerpt(outcome.summary.name), experiment.seed,
-             outcome.provenance.version, comparison::ranking_table(outcome.summary).shown_on(STDOUT_FILENO));
+  answer("{}, seed {}, tunica {}\n\n{}", data::excerpt(outcome.summary.name), experiment.seed,
+         outcome.provenance.version, comparison::ranking_table(outcome.summary).shown_on(answer_descriptor()));
   if (std::none_of(runs.begin(), runs.end(), [](const auto& entry) { return entry.has_result; }))
     say_error(fmt::format("no evaluation succeeded; the first reason: {}", runs.front().status.reason()));
-  fmt::print("\nReport:  {}\nResults: {}\n{}\n", outcome.report.string(), outcome.result.string(),
-             text::hanging("Next:    ", next_step(outcome.summary, file, outcome.result)));
+  answer("\nReport:  {}\nResults: {}\n{}\n", outcome.report.string(), outcome.result.string(),
+         text::hanging("Next:    ", next_step(outcome.summary, file, outcome.result)));
 }
 
-int run(const GlobalOptions& global, const RunOptions& options) {
+/// What a process before this one has begun is resumed. A shard takes up its own folder by itself.
+RunOptions taken_up(RunOptions options) {
+  const auto folder = supervised::resumable_folder();
+  if (folder.empty() || !options.share.empty()) return options;
+  options.directory = folder;
+  options.resume = true;
+  options.merge = false;
+  return options;
+}
+
+int run(const GlobalOptions& global, const RunOptions& asked) {
+  const RunOptions options = taken_up(asked);
   const Session session(global);
   auto experiment = session.read(options.file);
   check_names(options.overrides.profiles);
@@ -147,8 +162,8 @@ int run(const GlobalOptions& global, const RunOptions& options) {
       say_interrupted(global, options, outcome.directory);
       return interrupted;
     case calibration::Outcome::Ending::part_finished:
-      fmt::print("shard {} is done\nMerge:    {}\n", options.share,
-                 command(global, options, options.directory, {"--merge"}));
+      answer("shard {} is done\nMerge:    {}\n", options.share,
+             command(global, options, options.directory, {"--merge"}));
       return done;
     case calibration::Outcome::Ending::finished:
       break;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "verbs.hpp"
@@ -18,7 +19,7 @@ int write_schema(const GlobalOptions& global, const std::string& file) {
   std::string schema = experiment::compose_schema(session.catalogue());
   if (schema.empty() || schema.back() != '\n') schema += '\n';
   if (file.empty())
-    fmt::print("{}", schema);
+    answer("{}", schema);
   else
     execution::write_atomically(file, schema);
   return done;

@@ -10,12 +10,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 
+#include "answer.hpp"
 #include "data/nearest.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
 #include "http_server.hpp"
 #include "serving/um_bridge.hpp"
+#include "text/aside.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -61,15 +63,14 @@ int serve(const GlobalOptions& global, const ServeOptions& options) {
   service.listening = [&](int port) {
     std::vector<std::string> names;
     for (const auto& parameter : served.layout().parameters) names.push_back(parameter.name);
-    fmt::print("http://{}:{}\n", options.host, port);
-    std::fflush(stdout);
-    fmt::print(stderr, "{}: objective, residuals and predictions of {}; Ctrl-C ends it\n", run.label,
-               fmt::join(names, ", "));
+    answer("http://{}:{}\n", options.host, port);
+    flush_answer();
+    text::aside("{}: objective, residuals and predictions of {}; Ctrl-C ends it\n", run.label, fmt::join(names, ", "));
     std::vector<std::string> others;
     for (const auto& other : plan.runs)
       if (other.label != run.label) others.push_back(other.label);
     if (options.run.empty() && !others.empty())
-      fmt::print(stderr, "the first run is served; for {} say --run\n", fmt::join(others, ", "));
+      text::aside("the first run is served; for {} say --run\n", fmt::join(others, ", "));
   };
   service.over = [] { return execution::InterruptWatch::interrupted(); };
   serve_http(service);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "answer.hpp"
 #include "messages.hpp"
 #include "tunica/error.hpp"
 
@@ -43,7 +44,9 @@ std::vector<std::string> plugin_words(const GlobalOptions& global) {
   return words;
 }
 
-Session::Session(const GlobalOptions& options) {
+Session::Session(const GlobalOptions& options)
+    : watch_({.longest_model_call = std::chrono::duration<double>(options.call_limit)}) {
+  keep_stdout();
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path path : options.plugin_paths) {
     if (!std::filesystem::exists(path))
@@ -75,6 +78,7 @@ Session::Session(const GlobalOptions& options) {
     if (!options.quiet) say_warning(describe(refusal));
     refused_.push_back(std::move(refusal));
   }
+  plugins::leave_last_words();
 }
 
 std::vector<std::string> Session::refusals() const {

@@ -8,6 +8,7 @@
 
 #include "experiment/experiment.hpp"
 #include "plugins/catalogue.hpp"
+#include "plugins/last_words.hpp"
 #include "plugins/loader.hpp"
 
 namespace tunica::app {
@@ -16,7 +17,8 @@ namespace tunica::app {
 struct GlobalOptions {
   std::vector<std::string> plugin_paths;
   bool allow_world_writable_plugins = false;
-  bool quiet = false;  ///< nothing on stderr but errors
+  double call_limit = 60;  ///< s, for one call of a model
+  bool quiet = false;      ///< nothing on stderr but errors
 };
 
 /// The options by which another process, or a command that is printed, finds the same plugins.
@@ -47,6 +49,7 @@ class Session {
   plugins::Catalogue catalogue_;
   std::vector<plugins::LoadedPlugin> loaded_;
   std::vector<plugins::RefusedPlugin> refused_;
+  plugins::CallWatch watch_;
 };
 
 }  // namespace tunica::app

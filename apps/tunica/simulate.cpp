@@ -7,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "comparison/simulation_record.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "subject_options.hpp"
+#include "text/aside.hpp"
 #include "text/wrapping.hpp"
 #include "verbs.hpp"
 
@@ -35,14 +37,14 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   request.noise = options.noise;
   request.seed = options.seed.value_or(experiment.seed);
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request);
-  fmt::print(stderr, "{}\n", text::hanging("", subject.origin));
+  text::aside("{}\n", text::hanging("", subject.origin));
   for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   const auto simulation =
       comparison::simulate_with_fields(experiment, session.catalogue(), request, subject, options.fields);
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
   for (const auto& file : comparison::write_simulation(directory.path(), experiment, request, subject, simulation))
-    fmt::print("{}\n", file.string());
-  fmt::print("{}\n", report::write_report(directory.path()).string());
+    answer("{}\n", file.string());
+  answer("{}\n", report::write_report(directory.path()).string());
   return done;
 }
 

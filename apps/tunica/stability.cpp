@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "answer.hpp"
 #include "comparison/stability_map.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/summary.hpp"
@@ -33,13 +34,13 @@ struct StabilityOptions {
 
 void print(const comparison::Subject& subject, const comparison::StabilitySummary& found,
            const std::vector<std::string>& files) {
-  fmt::print("{}\n{}\n", subject.model, text::hanging("  ", subject.origin));
+  answer("{}\n{}\n", subject.model, text::hanging("  ", subject.origin));
   for (const auto& [name, verdict, inadmissible] : found.models) {
-    if (found.models.size() > 1) fmt::print("  model '{}'\n", name);
+    if (found.models.size() > 1) answer("  model '{}'\n", name);
     const char* const margin = found.models.size() > 1 ? "    " : "  ";
-    for (const auto& sentence : verdict.sentences()) fmt::print("{}\n", text::hanging(margin, sentence));
+    for (const auto& sentence : verdict.sentences()) answer("{}\n", text::hanging(margin, sentence));
   }
-  for (const auto& file : files) fmt::print("{}\n", file);
+  for (const auto& file : files) answer("{}\n", file);
 }
 
 /// As `best.stability` of result.json, with the parameters that were judged.

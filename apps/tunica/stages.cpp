@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "execution/progress.hpp"
+#include "text/aside.hpp"
 
 namespace tunica::app {
 
@@ -51,7 +52,7 @@ void Stages::tell(const std::string& what, double share) {
   what_ = what;
   share_ = share;
   if (new_stage && terminal_.redraws) draw();
-  if (new_stage && !terminal_.redraws) fmt::print(stderr, "{:3.0f} %  {}\n", 100 * share, what);
+  if (new_stage && !terminal_.redraws) text::aside("{:3.0f} %  {}\n", 100 * share, what);
 }
 
 }  // namespace tunica::app

@@ -65,6 +65,16 @@ TEST_P(BandedMatrix, SolvesAndCountsNegativePivotsLikeEigen) {
   }
 }
 
+/// What is asked in between decides, and only for matrices that take a while.
+TEST(Banded, GivesUpWhereTheTimeIsOver) {
+  Banded matrix;
+  matrix.resize(4000, 1000);
+  for (std::size_t j = 0; j < matrix.size(); ++j) matrix.add(j, j, 1);
+  int asked = 0;
+  EXPECT_FALSE(matrix.factorise([&asked] { return ++asked == 3; }).has_value());
+  EXPECT_EQ(asked, 3);
+}
+
 TEST_P(BandedMatrix, CanBeFactorisedAgainAfterItIsCleared) {
   Pair pair(GetParam(), dominant(GetParam()), 5);
   const Pair same(GetParam(), dominant(GetParam()), 5);

@@ -20,19 +20,19 @@ std::string message_of(const Call& call) {
 }
 
 TEST(Guarded, PassesResultsThrough) {
-  EXPECT_EQ(guarded("x 1", [] { return 42; }), 42);
+  EXPECT_EQ(guarded("x 1", "describe", [] { return 42; }), 42);
   int calls = 0;
-  guarded("x 1", [&calls] { ++calls; });
+  guarded("x 1", "describe", [&calls] { ++calls; });
   EXPECT_EQ(calls, 1);
 }
 
 TEST(Guarded, KeepsWrongInputApartFromBrokenPromises) {
-  EXPECT_EQ(
-      message_of<InputError>([] { guarded("x 1", [] { throw InputError("'kappa' is 2, expected at most 1/3"); }); }),
-      "plugin 'x 1': 'kappa' is 2, expected at most 1/3");
-  EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", [] { throw std::out_of_range("index 7"); }); }),
+  EXPECT_EQ(message_of<InputError>(
+                [] { guarded("x 1", "describe", [] { throw InputError("'kappa' is 2, expected at most 1/3"); }); }),
+            "plugin 'x 1': 'kappa' is 2, expected at most 1/3");
+  EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", "describe", [] { throw std::out_of_range("index 7"); }); }),
             "plugin 'x 1' failed: index 7");
-  EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", [] { throw 42; }); }),
+  EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", "describe", [] { throw 42; }); }),
             "plugin 'x 1' threw something that is not a std::exception");
 }
 

@@ -169,7 +169,6 @@ void Builder::add_test(std::size_t number) {
   const data::Dataset& dataset = composed.dataset;
   RunTest test;
   test.name = entry.name;
-  test.plugin = std::move(composed.plugin);
   test.test = std::move(composed.test);
   test.rows = dataset.count;
   test.channels = dataset.channels.size();

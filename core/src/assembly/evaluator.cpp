@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
@@ -109,19 +108,8 @@ TestInput Evaluator::input(const RunTest& test, std::span<const double> at, Work
 
 Status Evaluator::call(const RunTest& test, std::span<const double> at, std::span<double> values,
                        std::span<double> jacobian, Workspace& workspace) const {
-  try {
-    if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok()) {
-      return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
-    }
-  } catch (const std::exception& problem) {
-    return Status::failed(fmt::format("test '{}': plugin '{}' with model plugin '{}' threw: {}", test.name, test.plugin,
-                                      test.model_plugins, problem.what()));
-  } catch (...) {
-    return Status::failed(
-        fmt::format("test '{}': plugin '{}' with model plugin '{}' threw something that is no "
-                    "std::exception",
-                    test.name, test.plugin, test.model_plugins));
-  }
+  if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok())
+    return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
   if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
     return Status::failed(
         fmt::format("test '{}': the prediction is {} in {}", test.name, values[bad], place(test, bad)));
@@ -276,14 +264,7 @@ Status Evaluator::ask(std::size_t number, std::span<const double> free,
                       const std::function<Status(const Test&, const TestInput&)>& question) const {
   const RunTest& test = tests_.at(number);
   const WorkspacePointer workspace = make_workspace();
-  try {
-    return question(*test.test, input(test, free, *workspace));
-  } catch (const std::exception& problem) {
-    return Status::failed(fmt::format("test '{}': plugin '{}' threw: {}", test.name, test.plugin, problem.what()));
-  } catch (...) {
-    return Status::failed(
-        fmt::format("test '{}': plugin '{}' threw something that is no std::exception", test.name, test.plugin));
-  }
+  return question(*test.test, input(test, free, *workspace));
 }
 
 Status Evaluator::diagnostics(std::size_t number, std::span<const double> free,

@@ -36,8 +36,6 @@ void assign_models(RunTest& test, const experiment::TestEntry& entry, const std:
     test.materials.values.insert(test.materials.values.end(), values.begin(), values.end());
     for (const Link& link : model.parameters.links) test.materials.links.push_back({first + link.position, link.index});
     test.differenced = test.differenced || !has_derivatives(test, model.model->describe());
-    if (test.model_plugins.find(model.plugin) == std::string::npos)
-      test.model_plugins += (test.model_plugins.empty() ? "" : ", ") + model.plugin;
   };
   if (entry.layers.empty()) add(models.front());
   for (const experiment::LayerEntry& layer : entry.layers) {

@@ -16,7 +16,7 @@ namespace tunica::assembly {
 
 /// One test of the run, with everything an evaluation needs worked out beforehand.
 struct RunTest {
-  std::string name, plugin, model_plugins;
+  std::string name;
   std::unique_ptr<Test> test;
   const Model* model = nullptr;      ///< of the first layer, where there are several
   std::vector<const Model*> layers;  ///< empty = `model` alone

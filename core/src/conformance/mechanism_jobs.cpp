@@ -41,7 +41,7 @@ WrappedModel around_model(const Entry& entry, const std::function<std::unique_pt
                           const std::vector<double>& parameters) {
   std::string last;
   for (const Options& options : guesses(entry.factory.options, nullptr)) try {
-      return {entry.factory, make(), plugins::wrap(entry, make(), options), parameters};
+      return {entry.factory, make(), plugins::wrap_bare(entry, make(), options), parameters};
     } catch (const InputError& problem) {
       last = problem.what();
     }
@@ -60,7 +60,9 @@ WrappedModel around_some_model(const Entry& entry, const CheckContext& context) 
       last = problem.what();
     }
   for (const auto& [name, model] : context.catalogue.models()) try {
-      const auto make = [&model = model] { return plugins::create(model, plausible_options(model.factory.options)); };
+      const auto make = [&model = model] {
+        return plugins::create_bare(model, plausible_options(model.factory.options));
+      };
       return around_model(entry, make, initial_values(make()->describe().parameters));
     } catch (const InputError& problem) {
       last = problem.what();
@@ -95,8 +97,9 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Check
   }
   std::string last;
   for (const Options& options : guesses(mechanism.options, &bare.test->rows())) try {
-      on.with = plugins::wrap(
-          entry, bare.from ? plugins::create(factory, bare.from->setup()) : composed_test(bare.name, context), options);
+      on.with = plugins::wrap_bare(
+          entry, bare.from ? plugins::create_bare(factory, bare.from->setup()) : composed_test(bare.name, context),
+          options);
       on.amplitude = bare.own.size();
       on.own.push_back(mechanism.null);
       for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) on.own.push_back(mechanism.parameters[k].initial);

@@ -11,7 +11,7 @@ namespace tunica::conformance {
 Jobs model_jobs(const std::string& type, const CheckContext& context) {
   const auto& entry = context.catalogue.models().find(type)->second;
   const Finding head{"model", type, "", ""};
-  const auto made = [&entry] { return plugins::create(entry, plausible_options(entry.factory.options)); };
+  const auto made = [&entry] { return plugins::create_bare(entry, plausible_options(entry.factory.options)); };
   Jobs jobs;
   add(jobs, head, "declaration_is_complete", [&entry] { return declaration_is_complete(entry.factory); });
   add(jobs, head, "parameters_are_declared", [made, type] {
@@ -22,7 +22,7 @@ Jobs model_jobs(const std::string& type, const CheckContext& context) {
     return parameters_are_declared(model->describe().parameters);
   });
   add(jobs, head, "is_made_with_every_option", [&entry] {
-    return made_with_every_option(entry.factory.options, [&](const Options& o) { plugins::create(entry, o); });
+    return made_with_every_option(entry.factory.options, [&](const Options& o) { plugins::create_bare(entry, o); });
   });
   add_properties(jobs, head, model_properties(), context.settings.seed,
                  [made](const auto& check) { return check(*made()); });

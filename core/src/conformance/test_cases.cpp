@@ -94,7 +94,7 @@ class SetupSampler {
 std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
                     const Material& material, std::shared_ptr<Test>& made) {
   try {
-    made = plugins::create(entry, guess.setup());
+    made = plugins::create_bare(entry, guess.setup());
     const std::vector<double> own = own_values(made->describe());
     std::vector<double> values(made->rows().count * made->rows().channels.size());
     const Status status = made->predict({*material.model, material.parameters, own}, {values, {}, {}, {}});

@@ -57,7 +57,7 @@ Verdict check_all(const TestProperty& property, const TestCase& test_case, std::
 Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& from) {
   const std::string compared = "rows() with the rows the test was made from, after these are gone";
   auto given = std::make_unique<OwnedSetup>(from);
-  const auto test = plugins::create(entry, given->setup());
+  const auto test = plugins::create_bare(entry, given->setup());
   for (auto& [name, values] : given->abscissae) std::fill(values.begin(), values.end(), -1e9);
   given.reset();
   const TestRows& rows = test->rows();
@@ -161,7 +161,7 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
         return made_with_every_option(entry.factory.options, [&](const Options& options) {
           OwnedSetup from = *test_case->from;
           for (const auto& [name, value] : options.values()) from.options.set(name, value);
-          plugins::create(entry, from.setup());
+          plugins::create_bare(entry, from.setup());
         });
       });
     }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <utility>
 
+#include "plugins/casualties.hpp"
 #include "plugins/interrupted.hpp"
 
 namespace tunica::execution {
@@ -21,10 +22,12 @@ std::array<Watched, 3> watched{{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}}};
 
 void restore(const Watched& signal) { ::sigaction(signal.number, &signal.before, nullptr); }
 
-void on_signal(int number) {
+/// A supervisor ends what does not stop at the second signal. Without one, any second signal does.
+void on_signal(int) {
   plugins::interrupted.store(true, std::memory_order_relaxed);
+  if (plugins::casualties != nullptr) return;
   for (const Watched& signal : watched)
-    if (signal.number == number) restore(signal);
+    if (signal.number != SIGXFSZ) restore(signal);
 }
 
 }  // namespace

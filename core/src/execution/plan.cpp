@@ -83,7 +83,7 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   bool random = false;
   for (const auto& stage : run.stages) {
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
-    const auto& needs = optimizer->needs();
+    const auto needs = plugins::needs(stage.optimizer->plugin, *optimizer);
     random = random || needs.random;
     if (needs.residuals && run.assembly->layout().blocks.empty() && is_measured(run.assembly->layout()))
       throw InputError(

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "text/aside.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::execution {
@@ -100,7 +101,7 @@ void Progress::draw(bool last) {
   if (style_ == Style::lines) {
     if (last || now - drawn_ < line_interval) return;
     drawn_ = now;
-    fmt::print(stderr, "{}\n", text(now));
+    text::aside("{}\n", text(now));
     return;
   }
   if (last) return line_.clear();

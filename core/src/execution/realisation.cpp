@@ -90,12 +90,13 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
       run.assembly->box().to_unit(result.best.parameters, settings.start);
     }
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
-    settings.skip_costly = !optimizer->needs().infeasible;
+    settings.skip_costly = !plugins::needs(stage.optimizer->plugin, *optimizer).infeasible;
     search::CalibrationProblem problem(*run.assembly, std::move(settings));
     Optimizer::Outcome outcome;
     std::string fault;
     try {
-      outcome = plugins::guarded(stage.optimizer->plugin, [&] { return optimizer->minimise(problem); });
+      outcome = plugins::guarded(
+          stage.optimizer->plugin, "minimise", [&] { return optimizer->minimise(problem); }, problem.seed("call"));
     } catch (const plugins::HostFault&) {
       throw;
     } catch (const InputError& problem_of_plugin) {

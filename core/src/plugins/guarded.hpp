@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "plugins/calls.hpp"
+#include "plugins/casualties.hpp"
 #include "plugins/catalogue.hpp"
+#include "plugins/guarded_model.hpp"
+#include "plugins/guarded_test.hpp"
 #include "tunica/error.hpp"
 
 /// The boundary for calls into plugins: nothing a plugin throws gets past it as it is. Wrong input stays an
@@ -26,11 +31,23 @@ class __attribute__((visibility("default"))) HostFault : public InputError {
   using InputError::InputError;
 };
 
-/// Runs `call` on behalf of the plugin (as an Entry names it: "gho 0.1.0").
-template <class Call>
-std::invoke_result_t<Call> guarded(const std::string& plugin, Call&& call) {
+/// The key of a call that `input` tells from others of its name.
+inline std::uint64_t plain_key(const Call& call) {
+  CallKey key(call.plugin, call.what);
+  key.add(*static_cast<const std::uint64_t*>(call.input));
+  return key.value();
+}
+
+/// Runs `body` on behalf of the plugin (as an Entry names it: "gho 0.1.0"). `what` names the call; `input` tells it
+/// from others of the same name, where one that ended a process must not be made again.
+template <class Body>
+std::invoke_result_t<Body> guarded(const std::string& plugin, const char* what, Body&& body, std::uint64_t input = 0) {
+  const Call call{plugin.c_str(), what, plain_key, &input};
+  if (is_stricken(plugin))
+    if (const std::string reason = refusal(plugin, plain_key(call)); !reason.empty()) throw PluginFailure(reason);
+  const CallScope scope(call);
   try {
-    return std::forward<Call>(call)();
+    return std::forward<Body>(body)();
   } catch (const HostFault&) {
     throw;
   } catch (const InputError& problem) {
@@ -43,35 +60,67 @@ std::invoke_result_t<Call> guarded(const std::string& plugin, Call&& call) {
 }
 
 /// The same for calls that make an object; a null pointer is a broken promise too.
-template <class Call>
-std::invoke_result_t<Call> guarded_object(const std::string& plugin, Call&& call) {
-  auto object = guarded(plugin, std::forward<Call>(call));
+template <class Body>
+std::invoke_result_t<Body> guarded_object(const std::string& plugin, Body&& body) {
+  auto object = guarded(plugin, "create", std::forward<Body>(body));
   if (!object) throw PluginFailure("plugin '" + plugin + "' made no object: its factory returned a null pointer");
   return object;
 }
 
-inline std::unique_ptr<Model> create(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
+/// The object as the plugin made it, for who wants to see what it does wrong: `tunica plugin check`.
+inline std::unique_ptr<Model> create_bare(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
   return guarded_object(entry.plugin, [&] { return entry.factory.create(options); });
 }
-
-inline std::unique_ptr<Test> create(const Catalogue::Entry<TestFactory>& entry, const TestSetup& setup) {
+inline std::unique_ptr<Test> create_bare(const Catalogue::Entry<TestFactory>& entry, const TestSetup& setup) {
   return guarded_object(entry.plugin, [&] { return entry.factory.create(setup); });
+}
+
+inline std::unique_ptr<Model> create(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
+  return std::make_unique<GuardedModel>(create_bare(entry, options), entry.plugin);
+}
+inline std::unique_ptr<Test> create(const Catalogue::Entry<TestFactory>& entry, const TestSetup& setup) {
+  return std::make_unique<GuardedTest>(create_bare(entry, setup), entry.plugin);
 }
 
 inline std::unique_ptr<Optimizer> create(const Catalogue::Entry<OptimizerFactory>& entry, const Options& options) {
   return guarded_object(entry.plugin, [&] { return entry.factory.create(options); });
 }
 
+/// What the optimizer asks of its problems.
+inline Optimizer::Needs needs(const std::string& plugin, const Optimizer& optimizer) {
+  return guarded(plugin, "needs", [&] { return optimizer.needs(); });
+}
+
+/// Takes the guard off `base`: one goes around both. Names the two plugins.
+template <class Guard, class Guarded>
+std::string opened(const std::string& plugin, std::unique_ptr<Guarded>& base) {
+  auto* guard = dynamic_cast<Guard*>(base.get());
+  if (guard == nullptr) return plugin;
+  std::string both = guard->plugin() + "' with '" + plugin;
+  base = guard->release();
+  return both;
+}
+
 /// The mechanism around a model; the mechanism must act on models (Stage::invariants … Stage::history).
+inline std::unique_ptr<Model> wrap_bare(const Catalogue::Entry<MechanismFactory>& entry, std::unique_ptr<Model> base,
+                                        const Options& options) {
+  return guarded_object(entry.plugin, [&] { return entry.factory.wrap_model(std::move(base), options); });
+}
 inline std::unique_ptr<Model> wrap(const Catalogue::Entry<MechanismFactory>& entry, std::unique_ptr<Model> base,
                                    const Options& options) {
-  return guarded_object(entry.plugin, [&] { return entry.factory.wrap_model(std::move(base), options); });
+  const std::string both = opened<GuardedModel>(entry.plugin, base);
+  return std::make_unique<GuardedModel>(wrap_bare(entry, std::move(base), options), both);
 }
 
 /// The mechanism around a test; the mechanism must act on tests (Stage::test, Stage::data).
+inline std::unique_ptr<Test> wrap_bare(const Catalogue::Entry<MechanismFactory>& entry, std::unique_ptr<Test> base,
+                                       const Options& options) {
+  return guarded_object(entry.plugin, [&] { return entry.factory.wrap_test(std::move(base), options); });
+}
 inline std::unique_ptr<Test> wrap(const Catalogue::Entry<MechanismFactory>& entry, std::unique_ptr<Test> base,
                                   const Options& options) {
-  return guarded_object(entry.plugin, [&] { return entry.factory.wrap_test(std::move(base), options); });
+  const std::string both = opened<GuardedTest>(entry.plugin, base);
+  return std::make_unique<GuardedTest>(wrap_bare(entry, std::move(base), options), both);
 }
 
 }  // namespace tunica::plugins

@@ -11,6 +11,9 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "plugins/calls.hpp"
+#include "plugins/casualties.hpp"
+
 namespace tunica::search {
 namespace {
 
@@ -155,6 +158,10 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   const std::span<double> per_test = std::span(made.per_test).subspan(slot * tests, tests);
   shared_.assembly.box().from_unit(x, free);
   if (Status status = check_point(x); !status.ok()) return status;
+  const auto& max_time = shared_.settings.stop.max_time;
+  const plugins::Call whole{nullptr, "evaluation", nullptr, nullptr,
+                            max_time ? shared_.watch.reaches(*max_time) : plugins::Clock::time_point::max()};
+  const plugins::CallScope scope(whole);
   const auto evaluate = [&](std::span<const double> point) {
     shared_.assembly.box().from_unit(point, free);
     return shared_.assembly.evaluator().evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace,
@@ -167,6 +174,8 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
       shared_.assembly.box().from_unit(x, free);
     }
   }
+  plugins::evaluations_done.fetch_add(1, std::memory_order_relaxed);
+  if (status.kind() == Status::Kind::failed) shared_.watch.add(plugins::take_time_lost());
   if (status.kind() != Status::Kind::failed) shared_.assembly.box().jacobian_to_unit(free, jacobian);
   return status;
 }

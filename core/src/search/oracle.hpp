@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -29,10 +30,19 @@ class Stopwatch {
     const double late = seconds - this->seconds();
     if (late > 0) before_ += late;
   }
+  /// What an earlier process lost on the way to its end.
+  void add(double seconds) { before_ += seconds; }
+  /// When it will show `seconds`.
+  [[nodiscard]] std::chrono::steady_clock::time_point reaches(double seconds) const {
+    using Clock = std::chrono::steady_clock;
+    constexpr double far = 1e9;  // s; a clock that counts nanoseconds ends after 292 years
+    const double left = std::min(seconds - before_, far);
+    return start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(left));
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double before_;
+  std::atomic<double> before_;
 };
 
 /// Workspaces lent to threads. Each task borrows one of its own, also a task that a waiting thread takes in between.

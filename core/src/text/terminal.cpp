@@ -10,6 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "text/aside.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::text {
@@ -47,12 +48,12 @@ void StatusLine::draw(const std::string& line, double share) const {
     text = fmt::format("[{}{}{}{}] {}", terminal_.colours ? "\033[36m" : "", std::string(marks, '#'),
                        std::string(length - marks, '.'), terminal_.colours ? "\033[0m" : "", text);
   }
-  fmt::print(stderr, "\r{}\033[K", text);
+  aside("\r{}\033[K", text);
   std::fflush(stderr);
 }
 
 void StatusLine::clear() const {
-  fmt::print(stderr, "\r\033[K");
+  aside("\r\033[K");
   std::fflush(stderr);
 }
 

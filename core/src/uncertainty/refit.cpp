@@ -126,8 +126,9 @@ Refit refit(const assembly::Assembly& assembly, const RefitObjective& target, co
       result.converged = true;
     } else {
       const auto solver = plugins::create(*optimizer.plugin, optimizer.options);
-      result.converged =
-          plugins::guarded(optimizer.plugin->plugin, [&] { return solver->minimise(problem); }).converged;
+      result.converged = plugins::guarded(
+                             optimizer.plugin->plugin, "minimise", [&] { return solver->minimise(problem); }, seed)
+                             .converged;
     }
   } catch (const std::exception& broken) {
     result.status = Status::failed(broken.what());

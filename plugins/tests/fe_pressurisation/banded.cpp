@@ -31,10 +31,14 @@ void Banded::fix(std::size_t i, double diagonal) {
   *column(i) = diagonal;
 }
 
-std::size_t Banded::factorise() {
-  std::size_t negative = 0;
+std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) {
+  constexpr double between = 5e7;  // operations between two questions: some hundredths of a second
+  const double cost = 2.0 * block * static_cast<double>(width_ * width_);
+  const auto every = static_cast<std::size_t>(between / cost) + 1;
+  std::size_t negative = 0, asked = 0;
   // Entries of column j beyond the band are zero up to the stride, so that a block of columns has equal lengths.
   for (std::size_t j = 0; j < size_; j += block) {
+    if (late && ++asked % every == 0 && late()) return {};
     double* __restrict__ const l0 = column(j);
     double* __restrict__ const l1 = column(j + 1);
     double* __restrict__ const l2 = column(j + 2);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,8 +43,9 @@ class Banded {
 
   /// A becomes L D Lᵀ in place, without pivoting; L below the diagonal, D on it. Columns of zeros outside the matrix
   /// pad the blocks. Returns the number of negative pivots, which is that of negative eigenvalues; a pivot of zero
-  /// leaves numbers that are not finite.
-  std::size_t factorise();
+  /// leaves numbers that are not finite. `late` is asked now and then; where it says yes, nothing is returned and A is
+  /// of no use.
+  std::optional<std::size_t> factorise(const std::function<bool()>& late = {});
   /// x = (L D Lᵀ)⁻¹ x.
   void solve(std::span<double> x) const;
 

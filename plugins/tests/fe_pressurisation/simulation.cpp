@@ -45,10 +45,10 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     if (at->first < 1) order.push_back(at->first);
 
   failed_at = lines[order.front()].front();
-  if (Status status = solver_.begin(material); !status.ok()) return status;
   using std::chrono::duration, std::chrono::steady_clock;
   solver_.set_deadline(steady_clock::now() +
                        std::chrono::duration_cast<steady_clock::duration>(duration<double>(tube_.time_limit)));
+  if (Status status = solver_.begin(material); !status.ok()) return status;
   sensitivity_.begin(material, wanted_);
   Path path(solver_, {tube_.steps});
   if (Status status = path.begin(); !status.ok()) return status;

@@ -86,7 +86,7 @@ void Solver::prescribe(std::span<double> dx) const {
   }
 }
 
-void Solver::factorise() {
+bool Solver::factorise() {
   middle_.assign(2 * (mesh_.order + 1) * mesh_.across(), 0);  // the planes that share an element with the first
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
     const std::size_t row = 2 * mesh_.node(i, 0) + 1;
@@ -103,9 +103,11 @@ void Solver::factorise() {
     factor_.fix(2 * mesh_.node(i, end) + 1, diagonal);
     if (held_) factor_.fix(2 * mesh_.node(i, end), diagonal);
   }
-  negative_ = factor_.factorise();
-  has_factor_ = true;
+  const auto negative = factor_.factorise([this] { return late(); });
+  has_factor_ = negative.has_value();
+  negative_ = negative.value_or(0);
   ++effort_.factorisations;
+  return has_factor_;
 }
 
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
@@ -129,7 +131,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
       return status;
-    if (full) factorise();
+    if (full && !factorise()) return Status::failed("the time limit is reached");
     ++effort_.iterations;
     std::copy(system_.right.begin(), system_.right.end(), dx_.begin());
     prescribe(dx_);
@@ -214,7 +216,7 @@ Status Solver::iterate_volume(double volume, Load& load, State& state) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, true, system_); !status.ok())
       return status;
-    factorise();
+    if (!factorise()) return Status::failed("the time limit is reached");
     ++effort_.iterations;
     dx_ = system_.right;
     b = system_.volume;

@@ -81,7 +81,8 @@ class Solver {
   void impose(const Load& load, State& state) const;
   Status iterate(const Load& load, State& state, bool full_steps);
   Status iterate_volume(double volume, Load& load, State& state);
-  void factorise();
+  /// False where the deadline came first.
+  bool factorise();
   void move(State& state, bool mixed);
   void note_force();
   /// Sets prescribed entries to zero.

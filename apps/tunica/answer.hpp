@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+/// Results on stdout, which plugins cannot get at.
+namespace tunica::app {
+
+/// From here on, what anybody else writes to stdout goes to stderr: a plugin that prints must not spoil an answer. Call
+/// it before plugins are loaded.
+void keep_stdout();
+/// The descriptor that answers go to: stdout as the program was started with it.
+int answer_descriptor();
+/// Adds `words` to the answer.
+void write_answer(const std::string& words);
+/// Hands over what was written so far. Throws execution::WriteFailure where it could not be written.
+void flush_answer();
+
+/// Prints a part of the answer.
+template <class... Values>
+void answer(fmt::format_string<Values...> form, Values&&... values) {
+  write_answer(fmt::format(form, std::forward<Values>(values)...));
+}
+
+}  // namespace tunica::app

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "supervisor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <new>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "exit_codes.hpp"
+#include "messages.hpp"
+#include "plugins/casualties.hpp"
+
+namespace tunica::app {
+
+namespace {
+
+using Path = std::array<char, 4096>;
+
+/// The memory that the supervisor shares with its children.
+struct Shared {
+  plugins::CasualtyList casualties;
+  std::atomic<bool> finished = false;  ///< work() came to its end; `code` is what it returned
+  std::atomic<int> code = 0;
+  std::atomic<bool> answered = false;
+  std::atomic<unsigned> generation = 0;  ///< children before this one
+  Path resumable = {}, disposable = {};
+  std::array<Path, 4> unfinished = {};
+};
+Shared* common = nullptr;
+
+constexpr std::array passed_on{SIGINT, SIGTERM, SIGHUP};
+constexpr unsigned patience = 5;  // s, from the first signal to the end of a child that does not answer
+constexpr double apart = 0.2;     // s; what comes sooner is the same wish, told to the process and to its group
+
+volatile pid_t worker = 0;
+volatile sig_atomic_t asked_to_stop = 0;
+double last_signal = -1;  // s, of a clock without jumps
+
+double now() {
+  timespec time;
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The first signal is the child's business: it saves and says how to go on. The second one is ours.
+void pass_on(int number, siginfo_t* info, void*) {
+  const pid_t process = worker;
+  if (process <= 0) return;
+  const double time = now();
+  const bool again = asked_to_stop != 0 && time - last_signal > apart;
+  if (again) {
+    ::kill(process, SIGKILL);
+  } else if (info->si_code <= 0) {  // from a process; what a terminal sends, it sends to the child too
+    ::kill(process, number);
+  }
+  asked_to_stop = 1;
+  last_signal = time;
+  ::alarm(patience);
+}
+
+void on_alarm(int, siginfo_t*, void*) {
+  if (worker > 0) ::kill(worker, SIGKILL);
+}
+
+void handle(int number, void (*handler)(int, siginfo_t*, void*)) {
+  struct sigaction action = {};
+  action.sa_sigaction = handler;
+  action.sa_flags = SA_SIGINFO;
+  ::sigaction(number, &action, nullptr);
+}
+
+void copy(Path& to, const std::filesystem::path& from) {
+  const std::string text = std::filesystem::absolute(from).string();
+  if (text.size() < to.size()) std::memcpy(to.data(), text.c_str(), text.size() + 1);
+}
+
+[[noreturn]] void be_child(const std::function<int()>& work, pid_t parent) {
+  for (const int number : passed_on) ::signal(number, SIG_DFL);
+  ::signal(SIGALRM, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take up the work, or be told of its end
+  if (::getppid() != parent) ::_exit(internal_error);
+  plugins::casualties = &common->casualties;
+  common->code = work();
+  common->finished = true;
+  std::exit(common->code);
+}
+
+/// A worker; blocks signals until it is known whom to pass them on to.
+pid_t start(const std::function<int()>& work) {
+  sigset_t blocked, before;
+  ::sigemptyset(&blocked);
+  for (const int number : passed_on) ::sigaddset(&blocked, number);
+  ::sigprocmask(SIG_BLOCK, &blocked, &before);
+  const pid_t parent = ::getpid(), process = ::fork();
+  worker = process;
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
+  if (process == 0) be_child(work, parent);
+  return process;
+}
+
+/// Ends as the child ended, so that a shell sees what it expects of Ctrl-C or of a closed pipe.
+[[noreturn]] void end_by(int number) {
+  ::signal(number, SIG_DFL);
+  ::raise(number);
+  ::_exit(128 + number);
+}
+
+/// A signal that tells of a fault, or of somebody who made short work of it.
+bool is_fault(int number) {
+  constexpr std::array faults{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGKILL};
+  return std::find(faults.begin(), faults.end(), number) != faults.end();
+}
+
+/// Takes away what the child had begun and another one begins anew.
+void remove_unfinished() {
+  std::error_code left;
+  if (common->disposable.front() != 0)
+    for (const auto& entry : std::filesystem::directory_iterator(common->disposable.data(), left))
+      std::filesystem::remove_all(entry.path(), left);
+  for (Path& folder : common->unfinished) {
+    if (folder.front() != 0) ::rmdir(folder.data());  // fails, as it should, where something is inside
+    folder.front() = 0;
+  }
+  common->disposable.front() = 0;
+}
+
+/// The first few are told as they are; a plugin that goes on like that is told of once more.
+void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
+  using plugins::CasualtyList;
+  constexpr unsigned told = 3;
+  const std::string plugin = casualty.plugin.data();
+  const std::string what = fmt::format("plugin '{}' {} in {}().", plugin, casualty.end.data(), casualty.what.data());
+  if (!goes_on)
+    return say_error(what +
+                     " The work cannot be taken up from here; take the plugin out, or report this to its author");
+  const auto all = std::span(common->casualties.entries).first(common->casualties.size());
+  const auto times =
+      std::count_if(all.begin(), all.end(), [&](const auto& one) { return plugin == one.plugin.data(); });
+  if (common->casualties.weight(plugin) >= CasualtyList::most_of_one_plugin)
+    return say_wrapped_warning(
+        what + fmt::format(" It was time number {}: the plugin is not evaluated again, and the work goes "
+                           "on without it.",
+                           times));
+  if (times <= told) say_wrapped_warning(what + " This call counts as failed, and the work goes on.");
+}
+
+void say_unexplained(int status) {
+  const std::string end =
+      WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : fmt::format("exit code {}", WEXITSTATUS(status));
+  say_error(
+      fmt::format("the work ended in the middle ({}), and nothing tells that it was in a plugin: somebody ended "
+                  "it, memory ran out, or it is a fault of tunica. What was saved is kept; go on with --resume "
+                  "where the verb has it",
+                  end));
+}
+
+int wait_for(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+}  // namespace
+
+int supervise(const std::function<int()>& work) {
+  void* memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return work();
+  common = new (memory) Shared();
+  for (const int number : passed_on) handle(number, pass_on);
+  handle(SIGALRM, on_alarm);
+  for (;; ++common->generation) {
+    const unsigned before = common->casualties.size();
+    const pid_t process = start(work);
+    if (process < 0) return work();
+    const int status = wait_for(process);
+    worker = 0;
+    ::alarm(0);
+    if (common->finished) return common->code;
+    const bool of_plugin = common->casualties.size() > before;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == interrupted && !of_plugin) return interrupted;
+    if (WIFSIGNALED(status) && !is_fault(WTERMSIG(status))) end_by(WTERMSIG(status));
+    remove_unfinished();
+    if (asked_to_stop != 0) {
+      say_error("ended in the middle of a calculation that did not stop; what was saved is kept");
+      return interrupted;
+    }
+    if (!of_plugin) {
+      say_unexplained(status);
+      return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : internal_error;
+    }
+    const bool goes_on = !common->answered && common->casualties.size() < common->casualties.entries.size();
+    say_what_fell(common->casualties.entries[before], goes_on);
+    if (!goes_on) return internal_error;
+  }
+}
+
+namespace supervised {
+
+bool successor() { return common != nullptr && common->generation > 0; }
+
+void resumable_in(const std::filesystem::path& folder) {
+  if (common != nullptr) copy(common->resumable, folder);
+}
+
+std::filesystem::path resumable_folder() { return common == nullptr ? "" : common->resumable.data(); }
+
+void unfinished(const std::filesystem::path& results, const std::vector<std::filesystem::path>& folders) {
+  if (common == nullptr) return;
+  copy(common->disposable, results);
+  for (std::size_t i = 0; i < common->unfinished.size(); ++i) {
+    common->unfinished[i].front() = 0;
+    if (i < folders.size()) copy(common->unfinished[i], folders[i]);
+  }
+}
+
+void answered() {
+  if (common != nullptr) common->answered = true;
+}
+
+}  // namespace supervised
+}  // namespace tunica::app

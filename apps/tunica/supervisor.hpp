@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace tunica::app {
+
+/// Runs `work` in a child process and waits. Where a plugin takes the child down, another one takes up the work, knows
+/// which call it was and does not make it again. So a crash costs one evaluation; no plugin code runs in this process.
+///
+/// Signals: SIGINT, SIGTERM and SIGHUP go on to the child. A second one of any kind ends it, and so does the first one
+/// where the child does not stop within a few seconds. Returns the exit code of the program.
+int supervise(const std::function<int()>& work);
+
+/// What the child tells its supervisor. Each call is of no consequence in a process without one.
+namespace supervised {
+
+/// The work of this process was begun by another one.
+bool successor();
+/// Results go to this folder, and work that is done there is taken up: a successor finds its name here.
+void resumable_in(const std::filesystem::path& folder);
+/// The folder of the predecessor, or empty.
+std::filesystem::path resumable_folder();
+/// The folder `results` was empty when the work began, and `made` were created for it, the innermost first. A successor
+/// finds it as it was.
+void unfinished(const std::filesystem::path& results, const std::vector<std::filesystem::path>& made);
+/// Something was printed that a successor would print again: there must be none.
+void answered();
+
+}  // namespace supervised
+}  // namespace tunica::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/calls.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <mutex>
+
+namespace tunica::plugins {
+
+namespace {
+
+/// Never destroyed: threads may end after the statics are gone.
+struct Register {
+  std::mutex mutex;
+  std::deque<CallsOfThread> all;
+  std::vector<CallsOfThread*> free;
+};
+Register& threads() {
+  static auto& only = *new Register();
+  return only;
+}
+
+constinit thread_local CallsOfThread* mine = nullptr;
+
+/// Gives the entry back when the thread ends. In the middle of a call it is not the thread that ends: a plugin has
+/// called exit(), which destroys what is local to the thread before anything else.
+struct Lease {
+  ~Lease() {
+    if (mine->depth > 0) return;
+    const std::lock_guard lock(threads().mutex);
+    threads().free.push_back(mine);
+    mine = nullptr;
+  }
+};
+
+CallsOfThread& lease() {
+  {
+    Register& all = threads();
+    const std::lock_guard lock(all.mutex);
+    if (all.free.empty()) {
+      mine = &all.all.emplace_back();
+    } else {
+      mine = all.free.back();
+      all.free.pop_back();
+    }
+    mine->depth = 0;
+  }
+  [[maybe_unused]] static thread_local const Lease held;
+  if (prepare_thread != nullptr) prepare_thread();
+  return *mine;
+}
+
+}  // namespace
+
+CallsOfThread& calls_of_this_thread() { return mine != nullptr ? *mine : lease(); }
+
+CallsOfThread* known_calls_of_this_thread() { return mine; }
+
+std::vector<CallsOfThread*> calls_of_all_threads() {
+  Register& all = threads();
+  const std::lock_guard lock(all.mutex);
+  std::vector<CallsOfThread*> found;
+  for (CallsOfThread& thread : all.all) found.push_back(&thread);
+  return found;
+}
+
+const Call* innermost_plugin_call(const CallsOfThread& thread) {
+  const int depth = std::min(thread.depth.load(std::memory_order_acquire), CallsOfThread::depth_recorded);
+  for (int i = depth - 1; i >= 0; --i) {
+    const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+    if (call != nullptr && call->plugin != nullptr) return call;
+  }
+  return nullptr;
+}
+
+}  // namespace tunica::plugins

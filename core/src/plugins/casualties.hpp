@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// Calls into plugins that ended the process: a crash, an exit, a call that never came back. The process that takes
+/// the work up again finds them here, and does not make them again.
+namespace tunica::plugins {
+
+/// Says which call it was: the plugin, what it was asked for and every bit of its parameters. FNV-1a, in steps of 64
+/// bits.
+class CallKey {
+ public:
+  CallKey(std::string_view plugin, std::string_view what);
+  void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3; }
+  void add(std::span<const double> values) {
+    add(values.size());
+    for (const double& value : values) {
+      std::uint64_t word;
+      std::memcpy(&word, &value, sizeof word);
+      add(word);
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+/// One such call. Texts end with 0; longer ones are cut.
+struct Casualty {
+  std::uint64_t key = 0;
+  double seconds = 0;                ///< that it took before it was given up
+  std::array<char, 96> plugin = {};  ///< as Catalogue::Entry names it: "gho 0.1.0"
+  std::array<char, 32> what = {};    ///< "evaluate", "predict", …
+  std::array<char, 96> end = {};     ///< "ended the program: segmentation fault (SIGSEGV)"
+};
+
+/// The list, in memory that a process shares with its successors. Signal handlers write to it, so nothing in it
+/// allocates or locks.
+struct CasualtyList {
+  /// A plugin that ended this many processes is not evaluated again; calls that hang cost time, and count more.
+  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2;
+
+  std::atomic<unsigned> count = 0;
+  std::array<Casualty, 64> entries = {};
+
+  void add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds);
+  [[nodiscard]] unsigned size() const;
+  /// How many of a plugin, hangs weighted.
+  [[nodiscard]] unsigned weight(std::string_view plugin) const;
+  [[nodiscard]] const Casualty* find(std::uint64_t key) const;
+};
+
+/// The list of this process, or null where nobody takes up its work.
+inline CasualtyList* casualties = nullptr;
+
+/// Whether a call of this plugin has ended a process.
+bool is_stricken(const std::string& plugin);
+/// Why the call must not be made: "plugin 'x' ended the program …". Empty: it may be. For stricken plugins only.
+std::string refusal(const std::string& plugin, std::uint64_t key);
+/// The same for an evaluation, which a plugin that has failed too often is not asked for at all.
+std::string refusal_of_evaluation(const std::string& plugin, std::uint64_t key);
+/// What refused calls of this thread had cost, in s, since it was asked last.
+double take_time_lost();
+
+}  // namespace tunica::plugins

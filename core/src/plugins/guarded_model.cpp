@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/guarded_model.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "plugins/calls.hpp"
+#include "plugins/casualties.hpp"
+#include "plugins/guarded.hpp"
+
+namespace tunica::plugins {
+
+namespace {
+
+/// A NaN that no arithmetic makes: where it is found after a call, nobody has written.
+constexpr double unwritten = std::bit_cast<double>(std::uint64_t{0x7ff8'dead'0000'0000});
+
+bool is_unwritten(double value) {
+  return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(unwritten);
+}
+
+/// A model writes all of an output or nothing, as a rule: the ends tell. What is in between is not a finite number,
+/// and is found by whoever uses it.
+bool left_out(std::span<const double> output) {
+  return !output.empty() && (is_unwritten(output.front()) || is_unwritten(output.back()));
+}
+
+struct Named {
+  const char* name;
+  std::span<double> values;
+};
+
+template <std::size_t N>
+void prepare(const Named (&outputs)[N]) {
+  for (const Named& output : outputs) std::fill(output.values.begin(), output.values.end(), unwritten);
+}
+
+template <std::size_t N>
+Status verdict(Status status, const Named (&outputs)[N], const std::string& plugin, std::size_t count) {
+  if (!status.ok() || count == 0) return status;
+  for (const Named& output : outputs)
+    if (left_out(output.values))
+      return Status::failed(
+          fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
+                      "`tunica plugin check` shows what else is amiss",
+                      plugin, output.name));
+  return status;
+}
+
+/// Makes the call; exceptions become a status.
+template <class Body>
+Status contained(const std::string& plugin, const Body& body) {
+  try {
+    return body();
+  } catch (const HostFault&) {
+    throw;
+  } catch (const std::exception& problem) {
+    return Status::failed(fmt::format("plugin '{}' threw: {}", plugin, problem.what()));
+  } catch (...) {
+    return Status::failed(fmt::format("plugin '{}' threw something that is no std::exception", plugin));
+  }
+}
+
+template <class Points, class Response>
+struct Input {
+  const Points& points;
+  const Response& response;
+};
+using TensorInput = Input<MaterialPoints, MaterialResponse>;
+using AxisInput = Input<AxisPoints, AxisResponse>;
+
+/// By the parameters and by what is wanted, not by the points: those may lie in scratch memory of the thread, which is
+/// gone when a plugin has called exit(). So a point that ends the process fails the whole evaluation at once.
+std::uint64_t tensor_key(const Call& call) {
+  const auto& [points, response] = *static_cast<const TensorInput*>(call.input);
+  CallKey key(call.plugin, call.what);
+  key.add(points.parameters);
+  for (const auto& wanted : {response.energy, response.stress, response.tangent, response.stress_dp, response.state})
+    key.add(wanted.empty());
+  return key.value();
+}
+
+std::uint64_t axis_key(const Call& call) {
+  const auto& [points, response] = *static_cast<const AxisInput*>(call.input);
+  CallKey key(call.plugin, call.what);
+  key.add(points.parameters);
+  for (const auto& wanted :
+       {response.energy, response.gradient, response.hessian, response.gradient_dp, response.energy_dp})
+    key.add(wanted.empty());
+  return key.value();
+}
+
+}  // namespace
+
+GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
+    : model_(std::move(model)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
+  description_ = guarded(plugin_, "describe", [this] { return &model_->describe(); });
+}
+
+Status GuardedModel::evaluate(const MaterialPoints& points, const MaterialResponse& response) const {
+  const TensorInput input{points, response};
+  const Call call{plugin_.c_str(), "evaluate", tensor_key, &input};
+  if (stricken_)
+    if (std::string reason = refusal_of_evaluation(plugin_, tensor_key(call)); !reason.empty())
+      return Status::failed(std::move(reason));
+  const Named outputs[] = {{"energy", response.energy},
+                           {"stress", response.stress},
+                           {"tangent", response.tangent},
+                           {"derivatives by parameters", response.stress_dp},
+                           {"state", response.state}};
+  prepare(outputs);
+  const CallScope scope(call);
+  return verdict(contained(plugin_, [&] { return model_->evaluate(points, response); }), outputs, plugin_,
+                 points.count);
+}
+
+Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse& response) const {
+  const AxisInput input{points, response};
+  const Call call{plugin_.c_str(), "evaluate_axes", axis_key, &input};
+  if (stricken_)
+    if (std::string reason = refusal_of_evaluation(plugin_, axis_key(call)); !reason.empty())
+      return Status::failed(std::move(reason));
+  const Named outputs[] = {{"energy", response.energy},
+                           {"gradient", response.gradient},
+                           {"Hessian", response.hessian},
+                           {"derivatives by parameters", response.gradient_dp},
+                           {"derivatives of the energy", response.energy_dp}};
+  prepare(outputs);
+  const CallScope scope(call);
+  return verdict(contained(plugin_, [&] { return model_->evaluate_axes(points, response); }), outputs, plugin_,
+                 points.count);
+}
+
+const Model& GuardedModel::elastic() const {
+  const Model& inner = model_->elastic();
+  return &inner == model_.get() ? *this : inner;
+}
+
+bool GuardedModel::remembers(std::span<const double> parameters) const {
+  return guarded(plugin_, "remembers", [&] { return model_->remembers(parameters); });
+}
+
+}  // namespace tunica::plugins

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tunica/model.hpp"
+
+namespace tunica::plugins {
+
+/// A model of a plugin that the host need not trust. What it throws, an output that it does not write, and a call that
+/// has ended a process before are all a `failed` status which names the plugin. Costs a call: two writes for the record
+/// of calls, and a NaN for each wanted number.
+class GuardedModel final : public Model {
+ public:
+  GuardedModel(std::unique_ptr<Model> model, std::string plugin);
+
+  [[nodiscard]] const ModelDescription& describe() const override { return *description_; }
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override;
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override;
+  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return model_->parts(); }
+  [[nodiscard]] const Model& elastic() const override;
+  [[nodiscard]] bool remembers(std::span<const double> parameters) const override;
+  void remember(const AxisStep& step) const override { model_->remember(step); }
+
+  [[nodiscard]] const std::string& plugin() const { return plugin_; }
+  /// The model without its guard, for a mechanism that goes around it.
+  [[nodiscard]] std::unique_ptr<Model> release() { return std::move(model_); }
+
+ private:
+  std::unique_ptr<Model> model_;
+  std::string plugin_;
+  const ModelDescription* description_;
+  bool stricken_;  ///< an earlier process ended in this plugin: inputs are compared
+};
+
+}  // namespace tunica::plugins

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/last_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "plugins/calls.hpp"
+#include "plugins/casualties.hpp"
+
+namespace tunica::plugins {
+
+namespace {
+
+struct Fatal {
+  int number;
+  const char* end;
+};
+constexpr std::array<Fatal, 5> fatal{{{SIGSEGV, "ended the program with a segmentation fault (SIGSEGV)"},
+                                      {SIGBUS, "ended the program with a bus error (SIGBUS)"},
+                                      {SIGFPE, "ended the program with an arithmetic fault (SIGFPE)"},
+                                      {SIGILL, "ended the program with an illegal instruction (SIGILL)"},
+                                      {SIGABRT, "aborted the program (SIGABRT)"}}};
+
+/// Whether this thread is in a plugin, which then is the culprit.
+bool enter_culprit(const char* end) {
+  const CallsOfThread* thread = known_calls_of_this_thread();
+  const Call* call = thread == nullptr ? nullptr : innermost_plugin_call(*thread);
+  if (call == nullptr || casualties == nullptr) return false;
+  casualties->add(call->key(*call), call->plugin, call->what, end, 0);
+  return true;
+}
+
+/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us.
+void on_fatal(int number) {
+  for (const Fatal& signal : fatal)
+    if (signal.number == number) enter_culprit(signal.end);
+  std::signal(number, SIG_DFL);
+  if (number == SIGABRT) std::raise(number);
+}
+
+void on_exit_in_plugin() {
+  if (enter_culprit("called exit()")) ::_exit(fell);
+}
+
+/// A stack for the handlers of this thread, so that an overflow of its own can be told.
+void give_signal_stack() {
+  constexpr std::size_t size = 64 * 1024;
+  static thread_local std::unique_ptr<std::byte[]> memory;
+  if (memory) return;
+  memory = std::make_unique<std::byte[]>(size);
+  stack_t stack = {};
+  stack.ss_sp = memory.get();
+  stack.ss_size = size;
+  ::sigaltstack(&stack, nullptr);
+}
+
+using Seconds = std::chrono::duration<double>;
+
+bool is_of_model(const Call& call) {
+  return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes");
+}
+
+/// A thread as the watch sees it.
+struct Watched {
+  CallsOfThread* thread;
+  std::uint64_t entered = 0;
+  Clock::time_point since = Clock::now();
+};
+
+/// Looks at calls of other threads. A call that has stayed for a second stays while it is read; should it come back in
+/// that moment, its caller's stack is still mapped, and `entered` tells.
+class Inspection {
+ public:
+  explicit Inspection(CallWatch::Limits limits) : limits_(limits) {}
+
+  void look() {
+    const auto now = Clock::now();
+    const auto threads = calls_of_all_threads();
+    for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
+    for (Watched& one : watched_) look_at(one, now);
+  }
+
+ private:
+  void look_at(Watched& one, Clock::time_point now) {
+    const std::uint64_t entered = one.thread->entered.load(std::memory_order_acquire);
+    const Seconds stayed = now - one.since;
+    if (entered != one.entered || one.thread->depth.load(std::memory_order_acquire) == 0) {
+      if (evaluations_done.load(std::memory_order_relaxed) > 0) longest_ = std::max(longest_, stayed);
+      one.entered = entered;
+      one.since = now;
+      return;
+    }
+    if (stayed < limits_.grace) return;
+    const Call* call = innermost_plugin_call(*one.thread);
+    if (call == nullptr) return;
+    const bool too_long = is_of_model(*call) && stayed > limits_.longest_model_call;
+    const bool late = now > deadline(*one.thread) + std::chrono::duration_cast<Clock::duration>(limits_.grace);
+    if (!too_long && !(late && stayed > patience(*call))) return;
+    const std::uint64_t key = call->key(*call);
+    if (one.thread->entered.load(std::memory_order_acquire) != entered) return;
+    const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
+                                     : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
+    casualties->add(key, call->plugin, call->what, end.c_str(), stayed.count());
+    ::_exit(fell);
+  }
+
+  [[nodiscard]] Seconds patience(const Call& call) const {
+    if (is_of_model(call)) return limits_.grace;
+    if (evaluations_done.load(std::memory_order_relaxed) == 0) return limits_.first_prediction;
+    return std::max<Seconds>(limits_.grace, 10 * longest_);
+  }
+
+  static Clock::time_point deadline(const CallsOfThread& thread) {
+    const int depth = std::min(thread.depth.load(std::memory_order_acquire), CallsOfThread::depth_recorded);
+    auto first = Clock::time_point::max() - std::chrono::hours(1);
+    for (int i = 0; i < depth; ++i) {
+      const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+      if (call != nullptr) first = std::min(first, call->deadline);
+    }
+    return first;
+  }
+
+  CallWatch::Limits limits_;
+  Seconds longest_{0};  ///< that a call has stayed, as far as it was seen
+  std::vector<Watched> watched_;
+};
+
+}  // namespace
+
+void leave_last_words() {
+  if (casualties == nullptr) return;
+  prepare_thread = give_signal_stack;
+  give_signal_stack();
+  for (const Fatal& signal : fatal) {
+    struct sigaction action = {};
+    action.sa_handler = on_fatal;
+    action.sa_flags = SA_ONSTACK | SA_NODEFER;
+    ::sigaction(signal.number, &action, nullptr);
+  }
+  std::atexit(on_exit_in_plugin);
+  std::at_quick_exit(on_exit_in_plugin);
+}
+
+CallWatch::CallWatch(Limits limits) {
+  if (casualties == nullptr) return;
+  thread_ = std::thread([this, limits] {
+    constexpr std::chrono::milliseconds heartbeat{100};
+    Inspection inspection(limits);
+    for (std::unique_lock lock(mutex_); !wake_.wait_for(lock, heartbeat, [this] { return over_; });) inspection.look();
+  });
+}
+
+CallWatch::~CallWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace tunica::plugins

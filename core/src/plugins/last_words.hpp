@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+/// What a process does when a plugin takes it down: it says which call it was, for the process that follows.
+namespace tunica::plugins {
+
+/// From here on, signals that end the process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) and a plugin's exit() are
+/// entered into `casualties` first. Overflow of the stack too: each thread that calls plugins handles signals on a
+/// stack of its own. Call it once, when the plugins are loaded.
+void leave_last_words();
+
+/// Exit code of a process that was ended because of an entry in `casualties`.
+constexpr int fell = 70;
+
+/// While it lives: a call that does not come back is entered into `casualties`, and the process ends. That is
+/// - a call of a model that takes longer than `longest_model_call`: a batch takes milliseconds;
+/// - once max_time has passed for `grace`, a call of a model that has lasted as long, and one of a test that has lasted
+///   ten times as long as any before it. A first prediction may be that of a slow solver: it has `first_prediction`.
+class CallWatch {
+ public:
+  struct Limits {
+    std::chrono::duration<double> longest_model_call{60}, grace{1}, first_prediction{600};
+  };
+  explicit CallWatch(Limits limits);
+  ~CallWatch();
+  CallWatch(const CallWatch&) = delete;
+  CallWatch& operator=(const CallWatch&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tunica::plugins

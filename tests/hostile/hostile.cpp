@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// A material and a search that break every promise of their interfaces, one at a time, as the option "how" says. The
+// material is a neo-Hookean solid, and honest below the shear modulus `from`.
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include <unistd.h>
+
+#include "tunica/models/isotropic.hpp"
+#include "tunica/plugin.hpp"
+
+namespace {
+
+using namespace tunica;
+
+struct NeoHooke {
+  static constexpr std::size_t parameter_count = 1;
+  template <class T>
+  static T energy(const T& x, std::span<const T> p) {
+    return 0.5 * p[0] * x;
+  }
+};
+
+ModelFactory honest() {
+  return isotropic::first_invariant_factory<NeoHooke>(
+      {.type = "hostile", .parameters = {{"mu", "kPa", 10, 0.1, 1000, Scale::log, "Shear modulus.", "none"}}},
+      "Neo-Hookean until it misbehaves.", "none");
+}
+
+int overflow(int depth) {
+  volatile char frame[4096];
+  frame[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : overflow(depth + 1) + frame[0];
+}
+
+void misbehave(const std::string& how) {
+  if (how == "throws") throw std::runtime_error("a bad day");
+  if (how == "throws_42") throw 42;
+  if (how == "prints") std::printf("plugins may not print\n"), std::fflush(stdout);
+  if (how == "exits") std::exit(0);
+  if (how == "exits_at_once") ::_exit(0);
+  if (how == "aborts") std::abort();
+  if (how == "segfaults") ::raise(SIGSEGV);
+  if (how == "overflows_the_stack") overflow(0);
+  if (how == "loops")
+    for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+class HostileModel final : public Model {
+ public:
+  explicit HostileModel(const Options& options)
+      : honest_(honest().create({})), how_(options.text("how")), from_(options.number("from")) {}
+  [[nodiscard]] const ModelDescription& describe() const override {
+    if (how_ == "describe_throws") throw 42;
+    return honest_->describe();
+  }
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    return act(points.parameters[0], !response.tangent.empty(), [&] { return honest_->evaluate(points, response); });
+  }
+  Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
+    return act(points.parameters[0], !response.hessian.empty(),
+               [&] { return honest_->evaluate_axes(points, response); });
+  }
+
+ private:
+  template <class Honest>
+  Status act(double mu, bool tangent, const Honest& answer) const {
+    if (mu < from_) return answer();
+    if (how_ == "writes_nothing") return {};
+    if (how_ == "tangent_throws" && tangent) throw std::runtime_error("no tangent today");
+    if (how_ == "tangent_throws_42" && tangent) throw 42;
+    misbehave(how_);
+    return answer();
+  }
+
+  std::unique_ptr<Model> honest_;
+  std::string how_;
+  double from_;
+};
+
+/// Evaluates a few points, then misbehaves.
+class HostileSearch final : public Optimizer {
+ public:
+  explicit HostileSearch(const Options& options) : how_(options.text("how")) {}
+  [[nodiscard]] const Needs& needs() const override {
+    if (how_ == "needs_throw") throw 42;
+    return needs_;
+  }
+  Outcome minimise(Problem& problem) override {
+    double objective = 0;
+    for (double x : {0.2, 0.3, 0.4})
+      static_cast<void>(problem.evaluate(std::vector<double>(problem.dimension(), x), objective));
+    misbehave(how_);
+    return {true, "three points are enough"};
+  }
+
+ private:
+  Needs needs_;
+  std::string how_;
+};
+
+}  // namespace
+
+TUNICA_PLUGIN("hostile", "1.0.0") {
+  ModelFactory model = honest();
+  model.options = {Option::text("how", "honest", "What it does wrong."),
+                   Option::number("from", 0, {0, 1e9}, "The shear modulus from which on it does so, in kPa.")};
+  model.create = [](const Options& options) { return std::make_unique<HostileModel>(options); };
+  registry.add(std::move(model));
+  registry.add(
+      OptimizerFactory{.type = "hostile_search",
+                       .doc = "Three points, and then misbehaviour.",
+                       .reference = "none",
+                       .options = {Option::text("how", "honest", "What it does wrong.")},
+                       .create = [](const Options& options) { return std::make_unique<HostileSearch>(options); }});
+}

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""hostile_test.py TUNICA PLUGIN: what a plugin that breaks its promises costs. One evaluation, or itself; never the
+result of another run, the end of the program without a word, or a wrong number."""
+import json
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+from laboratory import Program, expect, run_cases
+
+root = pathlib.Path(tempfile.mkdtemp(prefix="hostile"))
+plugin = sys.argv[2]
+
+
+def strip():
+    """A neo-Hookean strip of 12 kPa, with errors of a per cent."""
+    lines = ["stretch,stress [kPa]"]
+    for k in range(25):
+        stretch = 1.02 + 0.02 * k
+        lines.append(f"{stretch},{12 * (stretch**2 - 1 / stretch) * (1 + 0.01 * (k * 7 % 5 - 2)):.8g}")
+    return "\n".join(lines) + "\n"
+
+
+def laboratory(name, how="honest", since=0, search="lm", search_does="honest", **stop):
+    """A hostile material, and an honest one beside it; the program in their folder."""
+    folder = root / name
+    folder.mkdir()
+    (folder / "strip.csv").write_text(strip(), encoding="utf-8")
+    experiment = {
+        "format": 1, "name": "hostile",
+        "models": {"bad": {"type": "hostile", "how": how, "from": since}, "good": {"type": "neo_hooke"}},
+        "tests": {"t": {"type": "uniaxial", "direction": "axial",
+                        "data": {"file": "strip.csv", "columns": {"stretch": "stretch", "stress": "stress"}}}},
+        "optimizers": {"lm": {"type": "ceres_lm"}, "es": {"type": "es"},
+                       "bad": {"type": "hostile_search", "how": search_does}},
+        "runs": [{"model": "bad", "optimizer": search, "stop": stop}, {"model": "good", "optimizer": "lm"}]}
+    (folder / "experiment.json").write_text(json.dumps(experiment), encoding="utf-8")
+    program = Program(sys.argv[1], folder)
+    program.words += ["--plugin-path", plugin, "--call-limit", "1"]
+    return folder, program
+
+
+def outcome(folder, name="results"):
+    """The entries of the hostile and of the honest run."""
+    found = json.loads((folder / name / "result.json").read_text(encoding="utf-8"))
+    runs = {run["run"]: run for run in found["runs"]}
+    honest = runs.pop("good/lm")
+    (bad,) = runs.values()
+    return bad, honest
+
+
+def timeless(value):
+    if isinstance(value, dict):
+        return {key: timeless(one) for key, one in value.items() if not any(w in key for w in ("time", "second", "date"))}
+    return [timeless(one) for one in value] if isinstance(value, list) else value
+
+
+def undisturbed():
+    """The honest run where nothing misbehaves."""
+    folder, tunica = laboratory("undisturbed")
+    tunica("run", "experiment.json", "-o", "results", "--quiet")
+    return timeless(outcome(folder)[1])
+
+
+honest_run = undisturbed()
+
+
+def expect_others_as_ever(folder, case):
+    expect(timeless(outcome(folder)[1]) == honest_run, f"{case}: the honest run is not what it is without the culprit")
+
+
+def a_model_that_always_fails_costs_its_own_run():
+    reasons = {"throws": "threw: a bad day", "throws_42": "threw something that is no std::exception",
+               "writes_nothing": "returned ok without writing the gradient", "aborts": "aborted the program (SIGABRT)",
+               "segfaults": "segmentation fault (SIGSEGV)", "overflows_the_stack": "segmentation fault (SIGSEGV)",
+               "exits": "called exit()", "tangent_throws": "no tangent today",
+               "tangent_throws_42": "threw something that is no std::exception", "loops": "did not come back within"}
+    for how, reason in reasons.items():
+        folder, tunica = laboratory(f"always_{how}", how)
+        said = tunica("run", "experiment.json", "-o", "results", "-j", "2", code=1)
+        expect(reason in " ".join(said.split()), f"{how}: nothing tells of '{reason}':\n{said}")
+        expect("plugin 'hostile 1.0.0'" in said, f"{how}: the plugin is not named:\n{said}")
+        expect_others_as_ever(folder, how)
+        expect(outcome(folder)[0].get("best") is None, f"{how}: a result that nobody calculated")
+
+
+def a_crash_costs_one_evaluation():
+    """The search finds its optimum around the points where the process ends."""
+    for how in ("aborts", "segfaults", "exits", "loops"):
+        folder, tunica = laboratory(f"seldom_{how}", how, since=700, search="es", max_evaluations=400)
+        tunica("run", "experiment.json", "-o", "results", "--quiet")
+        bad, _ = outcome(folder)
+        expect(bad["failures"] > 0, f"{how}: no point was bad")
+        expect(abs(bad["best"]["parameters"]["mu"]["value"] - 12.01) < 0.05, f"{how}: {bad['best']['parameters']}")
+        expect_others_as_ever(folder, how)
+
+
+def resuming_afterwards_gives_the_same():
+    folder, tunica = laboratory("again", "aborts", since=13)
+    tunica("run", "experiment.json", "-o", "results", "--quiet", code=None)
+    first = timeless(outcome(folder))
+    tunica("run", "experiment.json", "-o", "results", "--quiet", "--resume", code=None)
+    expect(timeless(outcome(folder)) == first, "a run that is resumed after its end differs")
+
+
+def a_search_that_misbehaves_costs_its_own_run():
+    for how, reason in {"throws": "a bad day", "throws_42": "something that is not a std::exception",
+                        "aborts": "aborted the program", "exits": "called exit()"}.items():
+        folder, tunica = laboratory(f"search_{how}", search="bad", search_does=how)
+        said = tunica("run", "experiment.json", "-o", "results", code=None)
+        expect(reason in " ".join(said.split()), f"{how}: nothing tells of '{reason}':\n{said}")
+        expect_others_as_ever(folder, how)
+
+
+def what_fails_before_the_work_is_an_error_that_names_the_plugin():
+    for name, wishes in {"describe": {"how": "describe_throws"}, "needs": {"search": "bad", "search_does": "needs_throw"}}.items():
+        folder, tunica = laboratory(f"early_{name}", **wishes)
+        said = tunica("run", "experiment.json", "-o", "results", code=4)
+        expect("plugin 'hostile 1.0.0'" in said and "fault of tunica" not in said, said)
+
+
+def max_time_holds_for_what_hangs():
+    folder, tunica = laboratory("late", "loops", since=13, search="es", max_time=1)
+    begin = time.monotonic()
+    tunica("run", "experiment.json", "-o", "results", "--quiet", code=None)
+    expect(time.monotonic() - begin < 30, "a search of one second took half a minute")
+    expect_others_as_ever(folder, "late")
+
+
+def two_signals_end_what_hangs():
+    for first, second in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
+        folder, tunica = laboratory(f"signals_{first}_{second}", "loops")
+        tunica.words[-1] = "1000"  # the limit of a call
+        process = tunica.start("run", "experiment.json", "-o", "results")
+        while not (folder / "results/evaluations.csv").exists():
+            time.sleep(0.01)
+        process.send_signal(first)
+        time.sleep(0.3)
+        process.send_signal(second)
+        _, said = process.communicate(timeout=20)
+        expect(process.returncode == 130, f"{first}, {second}: exit code {process.returncode}\n{said}")
+
+
+def nothing_that_plugins_print_gets_into_an_answer():
+    folder, tunica = laboratory("prints", "prints")
+    tunica("run", "experiment.json", "-o", "results", "--quiet")
+    bad, _ = outcome(folder)
+    expect(bad["best"]["certificate"]["verdict_code"] == "confirmed", "its certificate is void")
+    process = tunica.start("check", "experiment.json", "--json")
+    answer, _ = process.communicate()
+    json.loads(answer)
+
+
+def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
+    folder, tunica = laboratory("full")
+    command = " ".join([*tunica.words, "run", "experiment.json", "-o"])
+    shell = Program("/bin/sh", folder)
+    shell.words = ["/bin/sh", "-c"]
+    shell(f"{command} deaf 2>/dev/full")
+    expect(timeless(outcome(folder, "deaf")[1]) == honest_run, "a full disk behind stderr changed the result")
+    said = shell(f"{command} mute 2>&1 >/dev/full", code=2)
+    expect("stdout" in said and "o space left" in said, said)
+    expect(timeless(outcome(folder, "mute")[1]) == honest_run, "a full disk behind stdout changed the result")
+    for verb in ("check experiment.json", "list", "--help", "certify mute",
+                 "simulate experiment.json --model good --parameters mute/result.json"):
+        said = shell(f"{' '.join(tunica.words)} {verb} 2>&1 >/dev/full", code=2)
+        expect("stdout" in said, f"{verb}: {said}")
+
+
+run_cases([a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
+           resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
+           what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
+           two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
+           a_full_disk_at_the_other_end_is_told_and_harms_nothing])
+shutil.rmtree(root, ignore_errors=True)
