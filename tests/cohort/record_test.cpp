@@ -54,7 +54,7 @@ TEST(CohortRecord, ThatWasCutOffIsNone) {
 
 TEST(CohortRecord, OfAnotherFormatIsNone) {
   std::string text = to_json(full_record());
-  text.replace(text.find("\"format\": 1"), 11, "\"format\": 2");
+  text.replace(text.find("\"format\": 2"), 11, "\"format\": 1");
   EXPECT_FALSE(record_of(text));
   EXPECT_FALSE(record_of("[1, 2]"));
 }
