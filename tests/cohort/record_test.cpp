@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "execution/damage.hpp"
+
 namespace tunica::cohort {
 namespace {
 
@@ -50,6 +52,12 @@ TEST(CohortRecord, ThatWasCutOffIsNone) {
   const std::string text = to_json(full_record());
   for (std::size_t length = 0; length + 2 < text.size(); length += 7)
     EXPECT_FALSE(record_of(text.substr(0, length))) << "first " << length << " bytes";
+}
+
+TEST(CohortRecord, WithAChangedDigitIsNone) {
+  const std::string text = to_json(full_record());
+  for (std::size_t place = 0; place + 1 < text.size(); ++place)
+    EXPECT_FALSE(record_of(trial::changed(text, place))) << trial::changed(text, place);
 }
 
 TEST(CohortRecord, OfAnotherFormatIsNone) {

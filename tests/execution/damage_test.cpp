@@ -138,7 +138,7 @@ TEST(Damage, OfTheFactsIsRefusedWithWhatToDo) {
   folder.write("checkpoint.json", trial::changed(text, text.find("\"seed\":") + 9));
   EXPECT_THAT(
       trial::message_of<InputError>([&] { execution::read_checkpoint(folder.path()); }),
-      HasSubstr("\"facts\" is not what was written; its checksum does not fit. Bring the file back from a copy"));
+      HasSubstr("\"facts\" is not what was written; its checksum does not fit. Use a copy of the file"));
 }
 
 TEST(Damage, OfAPartIsToldWhenTheyAreMerged) {

@@ -177,8 +177,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
                       file.string(), document.at("format").dump(), checkpoint_format));
     if (!intact(document.at("facts")))
       throw InputError(
-          fmt::format("{}: \"facts\" is not what was written; its checksum does not fit. Bring the file back from a "
-                      "copy, or start anew with another -o",
+          fmt::format("{}: \"facts\" is not what was written; its checksum does not fit. Use a copy of the file, "
+                      "or start anew with another -o",
                       file.string()));
     Checkpoint checkpoint;
     checkpoint.facts = facts_from(document.at("facts"));
