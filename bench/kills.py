@@ -99,6 +99,7 @@ def main():
     parser.add_argument("--length", type=int, default=4, help="how long the work is")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell lets what it starts in the background ignore it
     draw, end = random.Random(options.seed), time.monotonic() + 60 * options.minutes
     room = pathlib.Path(tempfile.mkdtemp(prefix="kills")).resolve()
     campaigns = [Campaign(kind, options.tunica, room, options.length, draw) for kind in options.of]

@@ -43,6 +43,7 @@ class Work:
     """`start` and `go_on` are words of a command, run in a folder that prepare() has filled; results go to out/."""
 
     compared: tuple[str, ...] = ()
+    messages = 1  # at most, where the disk fails
 
     def __init__(self, length=1):
         self.length = length
@@ -50,8 +51,9 @@ class Work:
     def results(self, folder):
         """Path below out/ -> content. Empty where the work is not finished."""
         out = pathlib.Path(folder) / "out"
-        found = {str(file.relative_to(out)): content(file) for pattern in self.compared for file in sorted(out.glob(pattern))}
-        return found if self.finished(out) else {}
+        if not self.finished(out):
+            return {}
+        return {str(file.relative_to(out)): content(file) for pattern in self.compared for file in sorted(out.glob(pattern))}
 
 
 class Calibration(Work):
@@ -96,6 +98,7 @@ class CohortShard(Work):
 
 class Batch(Work):
     compared = ("*/*.csv", "*/*.json")
+    messages = 2  # one a case
 
     def __init__(self, verb, length=1):
         super().__init__(length)

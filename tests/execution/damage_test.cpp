@@ -125,7 +125,7 @@ TEST(Damage, IsToldWithItsPlaceAndWhatIsCutOffIsKept) {
   EXPECT_THAT(told[0], HasSubstr("checkpoint.json: entry 2 of \"finished\" is not what was written"));
   EXPECT_THAT(told[1],
               HasSubstr("evaluations.csv:4: the row is not what was written; its checksum does not fit. It and "
-                        "what follows, 748 rows, are in damaged_rows.csv"));
+                        "what follows, 749 rows, are in damaged_rows.csv"));
   EXPECT_EQ(trial::text_of(folder.path() / "damaged_rows.csv"), trial::changed(journal, third_row).substr(third_row));
   EXPECT_THAT(trial::text_of(folder.path() / "run.log"), HasSubstr("damaged_rows.csv"));
 }
