@@ -50,7 +50,8 @@ struct Order {
   }
   ~Order() {
     if (counts.empty()) return;
-    const int file = original<int (*)(const char*, int, ...)>("open")(counts.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int file =
+        original<int (*)(const char*, int, ...)>("open")(counts.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     for (int k = 0; k < calls; ++k) dprintf(file, "%s %ld\n", names[k], seen[k].load());
     close(file);
   }

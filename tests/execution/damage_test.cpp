@@ -136,9 +136,8 @@ TEST(Damage, OfTheFactsIsRefusedWithWhatToDo) {
   run.put(folder.path());
   const std::string& text = run.files.at("checkpoint.json");
   folder.write("checkpoint.json", trial::changed(text, text.find("\"seed\":") + 9));
-  EXPECT_THAT(
-      trial::message_of<InputError>([&] { execution::read_checkpoint(folder.path()); }),
-      HasSubstr("\"facts\" is not what was written; its checksum does not fit. Use a copy of the file"));
+  EXPECT_THAT(trial::message_of<InputError>([&] { execution::read_checkpoint(folder.path()); }),
+              HasSubstr("\"facts\" is not what was written; its checksum does not fit. Use a copy of the file"));
 }
 
 TEST(Damage, OfAPartIsToldWhenTheyAreMerged) {
