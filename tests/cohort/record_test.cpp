@@ -54,10 +54,18 @@ TEST(CohortRecord, ThatWasCutOffIsNone) {
     EXPECT_FALSE(record_of(text.substr(0, length))) << "first " << length << " bytes";
 }
 
-TEST(CohortRecord, WithAChangedDigitIsNone) {
+// The last digits of a number may be others of the same double.
+TEST(CohortRecord, WithAChangedDigitIsNoneOrTheSame) {
   const std::string text = to_json(full_record());
-  for (std::size_t place = 0; place + 1 < text.size(); ++place)
-    EXPECT_FALSE(record_of(trial::changed(text, place))) << trial::changed(text, place);
+  std::size_t same = 0;
+  for (std::size_t place = 0; place + 1 < text.size(); ++place) {
+    const auto record = record_of(trial::changed(text, place));
+    if (record && to_json(*record) == text)
+      ++same;
+    else
+      EXPECT_FALSE(record) << trial::changed(text, place);
+  }
+  EXPECT_LT(same, text.size() / 100);
 }
 
 TEST(CohortRecord, OfAnotherFormatIsNone) {

@@ -100,6 +100,7 @@ mode_t mode_of(int how, std::va_list& rest) {
 
 }  // namespace
 
+#pragma GCC visibility push(default)
 extern "C" {
 
 int open(const char* path, int how, ...) {

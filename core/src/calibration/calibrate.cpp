@@ -174,13 +174,14 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   Outcome outcome;
   outcome.directory = folder.path();
   try {
-    const bool resume = (options.resume || options.share) && std::filesystem::exists(folder.path() / "checkpoint.json");
+    const bool resume = options.merge || (options.resume && !std::filesystem::is_empty(folder.path())) ||
+                        (options.share && std::filesystem::exists(folder.path() / "checkpoint.json"));
     if (options.merge) execution::gather_shards(plan, folder.path(), options.noticed);
     if (options.started) options.started({plan, outcome.directory});
     std::function<void()> leave;
     if (options.abandon) leave = [&options, directory = outcome.directory] { options.abandon(directory); };
     const execution::InterruptLimit limit(std::move(leave));
-    const auto found = search(plan, outcome.directory, options, resume || options.merge);
+    const auto found = search(plan, outcome.directory, options, resume);
     outcome.write_failure = found.write_failure;
     outcome.ending = !found.write_failure.empty() ? Outcome::Ending::write_failure
                      : found.interrupted          ? Outcome::Ending::interrupted
