@@ -96,7 +96,7 @@ int merge(const GlobalOptions& global, const Session& session, const CohortOptio
   const auto found = cohort::collect(opened.cohort, opened.table, opened.pattern, session.catalogue(), results);
   if (!found.missing.empty())
     throw InputError(
-        fmt::format("{}: {} of {} specimens have no result yet, the first is '{}'. Run "
+        fmt::format("{}: {} of {} specimens have no result yet, or a damaged one; the first is '{}'. Run "
                     "`{}`, which makes what is missing",
                     results.string(), found.missing.size(), opened.table.specimens.size(),
                     opened.table.specimens[found.missing.front()].id, command(global, "", options, results)));
@@ -128,9 +128,14 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
   settings.results = results;
   settings.reports = options.reports || (!options.no_reports && opened.table.specimens.size() <= most_reports);
   settings.refusals = session.refusals();
+  std::mutex saying;
+  settings.noticed = [&saying](const std::string& sentence) {
+    const std::lock_guard lock(saying);
+    say_wrapped_warning(sentence);
+  };
   settings.interrupted = [] { return execution::InterruptWatch::interrupted(); };
   cohort::ShareOutcome outcome;
-  {
+  try {
     const execution::InterruptWatch watch;
     Stages stages(global.quiet);
     outcome = cohort::fit_share(opened.cohort, opened.table, opened.pattern, session.catalogue(), settings, share,
@@ -138,6 +143,9 @@ int fit_and_merge(const GlobalOptions& global, const CohortOptions& options) {
                                   stages.tell(fmt::format("{} of {} specimens", finished, of),
                                               static_cast<double>(finished) / static_cast<double>(of));
                                 });
+  } catch (const execution::WriteFailure& problem) {
+    say_error(fmt::format("{}. Then go on with\n  {}", problem.what(), command(global, "", options, results)));
+    return interrupted;
   }
   if (outcome.interrupted) {
     text::aside("interrupted; the specimens that are done are saved. Go on with\n  {}\n",

@@ -19,6 +19,7 @@
 #include "discovery/output/outputs.hpp"
 #include "discovery_folder.hpp"
 #include "discovery_request.hpp"
+#include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
@@ -152,7 +153,8 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found =
                          discovery::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
-                     std::filesystem::create_directories(results);
+                     if (const auto error = execution::make_folders(results))
+                       throw execution::WriteFailure(results, error.value());
                      write_discovery(results, found, experiment, session.catalogue());
                    });
 }

@@ -107,6 +107,7 @@ calibration::Options options_of(const GlobalOptions& global, const RunOptions& o
   result.threads = options.threads;
   result.progress = global.quiet ? execution::Progress::Style::none : execution::Progress::style_of_stderr();
   result.refusals = session.refusals();
+  result.noticed = [](const std::string& sentence) { say_wrapped_warning(sentence); };
   if (options.certificate)
     result.certify = [&global, &options](const std::filesystem::path& directory, const std::filesystem::path& points) {
       return certify(global, options.threads, directory, points);

@@ -54,7 +54,8 @@ nlohmann::json without_times(nlohmann::json result) {
 std::string without_times(const std::string& evaluations) {
   std::string text;
   std::istringstream stream(evaluations);
-  for (std::string line; std::getline(stream, line);) text += line.substr(0, line.rfind(',')) + '\n';
+  for (std::string line; std::getline(stream, line);)
+    text += line.substr(0, line.rfind(',', line.rfind(',') - 1)) + '\n';
   return text;
 }
 

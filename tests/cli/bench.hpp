@@ -33,7 +33,7 @@ class Bench {
 
 /// result.json without what may differ between two equal runs: seconds, date, threads.
 nlohmann::json without_times(nlohmann::json result);
-/// evaluations.csv without its last column, the time.
+/// evaluations.csv without its last columns, the time and the checksum.
 std::string without_times(const std::string& evaluations);
 
 }  // namespace tunica::trial

@@ -124,6 +124,39 @@ TEST(Resume, OfAFinishedRunRepeatsItsResult) {
   EXPECT_EQ(trial::without_times(bench.result("out")), before);
 }
 
+TEST(Resume, OfARunThatWasKilledBeforeItsFirstCheckpointBeginsAgain) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "whole"}).code, 0);
+  std::filesystem::create_directories(bench.path("cut/parts"));
+  bench.folder.write("cut/input.json", "{");
+  bench.folder.write("cut/run.log", "");
+  bench.folder.write("cut/checkpoint.json.new-0123456789abcdef", "{");
+  const std::string journal = bench.text("whole/evaluations.csv");
+  bench.folder.write("cut/evaluations.csv", journal.substr(0, journal.find('\n') + 1));
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "cut", "--resume"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(trial::without_times(bench.result("cut")), trial::without_times(bench.result("whole")));
+  // Rows without a checkpoint were paid for: nothing is taken away.
+  std::filesystem::remove(bench.path("cut/checkpoint.json"));
+  EXPECT_EQ(bench.tunica({"run", "experiment.json", "-o", "cut", "--resume"}).code, 2);
+  EXPECT_TRUE(std::filesystem::exists(bench.path("cut/evaluations.csv")));
+}
+
+TEST(Resume, SaysWhatIsDamagedAndGivesTheIdenticalResult) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  const auto before = trial::without_times(bench.result("out"));
+  std::string journal = bench.text("out/evaluations.csv");
+  char& digit = journal[journal.rfind(",ok,") - 1];
+  digit = digit == '1' ? '2' : '1';
+  bench.folder.write("out/evaluations.csv", journal);
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--resume", "--quiet"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("warning: "));
+  EXPECT_THAT(ended.err, HasSubstr("damaged_rows.csv"));
+  EXPECT_EQ(trial::without_times(bench.result("out")), before);
+}
+
 TEST(Resume, SaysWhatChanged) {
   trial::Bench bench;
   ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);

@@ -78,5 +78,18 @@ def a_killed_shard_leaves_whole_records_and_starts_again():
     expect_same(folder / "long/whole", results, "killed")
 
 
+def a_damaged_record_is_told_and_made_again():
+    tunica("cohort", "cohort.json", "-o", "damaged", "--no-reports", "--quiet")
+    record = records(folder / "damaged")[3]
+    text = record.read_text(encoding="utf-8")
+    place = text.index('"value": ') + len('"value": ')
+    record.write_text(text[:place] + str(9 - int(text[place])) + text[place + 1:], encoding="utf-8")
+    said = tunica("cohort", "merge", "cohort.json", "-o", "damaged", code=2)
+    expect("1 of 15 specimens have no result yet, or a damaged one" in said, said)
+    said = tunica("cohort", "cohort.json", "-o", "damaged", "--no-reports", "--quiet")
+    expect("record.json: its checksum does not fit" in " ".join(said.split()), said)
+    expect_same(folder / "whole", folder / "damaged", "a damaged record")
+
+
 run_cases([any_number_of_shards_in_any_order_merges_to_the_same_bytes, shards_that_begin_at_once_share_a_new_folder,
-           two_copies_of_a_shard_at_once_do_no_harm, a_killed_shard_leaves_whole_records_and_starts_again])
+           two_copies_of_a_shard_at_once_do_no_harm, a_damaged_record_is_told_and_made_again, a_killed_shard_leaves_whole_records_and_starts_again])

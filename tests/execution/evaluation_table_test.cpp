@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "execution/damage.hpp"
 #include "execution/folder.hpp"
 #include "tunica/error.hpp"
 
@@ -43,17 +44,17 @@ search::JournalEntry read(const EvaluationTable& table, std::string line, Evalua
 TEST(EvaluationTable, UnitesTheColumnsOfAllRuns) {
   EXPECT_EQ(two_runs().header(),
             "id,run,realisation,mu [kPa],kappa [1],\"c, \"\"odd\"\" "
-            "[1]\",cost.circ,cost.axial,objective,status,violation,reason,time [s]\n");
+            "[1]\",cost.circ,cost.axial,objective,status,violation,reason,time [s],checksum\n");
 }
 
 TEST(EvaluationTable, LeavesCellsEmptyThatARunDoesNotHave) {
-  EXPECT_EQ(row(two_runs(), 1, {10.5, 2}, 7, {7}, Status()), "1,neo/lm,3,10.5,,2,,7,7,ok,,,0.250000\n");
+  EXPECT_EQ(row(two_runs(), 1, {10.5, 2}, 7, {7}, Status()), trial::checked("1,neo/lm,3,10.5,,2,,7,7,ok,,,0.250000"));
 }
 
 TEST(EvaluationTable, WritesNoObjectiveForAFailedEvaluation) {
   EXPECT_EQ(
       row(two_runs(), 0, {1, 0.1}, std::nan(""), {1, 2}, Status::failed("row 3, stretch 1.2: no, \"root\"\nfound"), 8),
-      "9,gho/es,3,1,0.1,,,,,failed,,\"row 3, stretch 1.2: no, \"\"root\"\" found\",0.250000\n");
+      trial::checked("9,gho/es,3,1,0.1,,,,,failed,,\"row 3, stretch 1.2: no, \"\"root\"\" found\",0.250000"));
 }
 
 // 2000 random bit patterns of finite doubles, seed 1; any loss of a bit fails, so there is no false alarm.
@@ -99,10 +100,10 @@ TEST(EvaluationTable, RefusesLinesItCannotHaveWritten) {
   const auto message = [&](const std::string& line) {
     return trial::message_of<InputError>([&] { table.parse(line, parsed); });
   };
-  EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 13"));
-  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0"), HasSubstr("'other' is not a run"));
-  EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0"), HasSubstr("'x' is not a number"));
-  table.parse("1,gho/es,1,1,,,,,1,fine,,,0", parsed);
+  EXPECT_THAT(message("1,gho/es"), HasSubstr("2 cells where the header has 14"));
+  EXPECT_THAT(message("1,other,1,1,,,,,1,ok,,,0,"), HasSubstr("'other' is not a run"));
+  EXPECT_THAT(message("x,gho/es,1,1,,,,,1,ok,,,0,"), HasSubstr("'x' is not a number"));
+  table.parse("1,gho/es,1,1,,,,,1,fine,,,0,", parsed);
   search::JournalEntry entry;
   EXPECT_THAT(trial::message_of<InputError>([&] { table.values(parsed, entry); }), HasSubstr("'fine' is not a status"));
 }

@@ -27,6 +27,38 @@ TEST(Files, AreReplacedWholeOrNotAtAll) {
   EXPECT_THROW(execution::write_atomically(folder.path() / "missing" / "file", "text"), WriteFailure);
 }
 
+TEST(Files, AreNeverWrittenThroughALink) {
+  const trial::Folder folder;
+  const auto victim = folder.write("victim", "mine");
+  for (const char* name : {"report.html", "report.html.new"})
+    std::filesystem::create_symlink(victim, folder.path() / name);
+  execution::write_atomically(folder.path() / "report.html", "new");
+  EXPECT_EQ(trial::text_of(victim), "mine");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.path() / "report.html"));
+  EXPECT_EQ(trial::text_of(folder.path() / "report.html"), "new");
+  std::filesystem::create_symlink(victim, folder.path() / "run.log");
+  EXPECT_THAT(trial::message_of<WriteFailure>([&] { AppendFile(folder.path() / "run.log"); }),
+              HasSubstr("It is a symbolic link, which is never followed here; remove it"));
+  EXPECT_EQ(trial::text_of(victim), "mine");
+}
+
+TEST(Files, HaveTheFoldersThatAreMade) {
+  const trial::Folder folder;
+  EXPECT_FALSE(execution::make_folders(folder.path() / "a/b/c"));
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path() / "a/b/c"));
+  EXPECT_FALSE(execution::make_folders(folder.path() / "a/b/c/"));
+  folder.write("file", "");
+  EXPECT_TRUE(execution::make_folders(folder.path() / "file/d"));
+}
+
+TEST(Files, AreCutAndGrowBehindTheCut) {
+  const trial::Folder folder;
+  AppendFile file(folder.write("rows.csv", "whole\ntorn"));
+  file.cut(6);
+  file.append("row\n");
+  EXPECT_EQ(trial::text_of(folder.path() / "rows.csv"), "whole\nrow\n");
+}
+
 TEST(Files, AreWholeWhenSeveralProcessesWriteThemAtOnce) {
   const trial::Folder folder;
   const auto file = folder.write("record.json", std::string(1 << 20, '0'));

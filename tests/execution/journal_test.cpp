@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "execution/damage.hpp"
 #include "execution/folder.hpp"
 #include "execution/recovery.hpp"
 #include "tunica/error.hpp"
@@ -35,10 +36,10 @@ void record(Journal& journal, std::size_t task, std::uint64_t index, double a) {
 }
 
 std::string row(std::uint64_t id, int realisation, const std::string& a, const std::string& cost) {
-  return fmt::format("{},m/o,{},{},{},{},ok,,,0.000000\n", id, realisation, a, cost, cost);
+  return trial::checked(fmt::format("{},m/o,{},{},{},{},ok,,,0.000000", id, realisation, a, cost, cost));
 }
 
-const std::string header = "id,run,realisation,a [1],cost.t,objective,status,violation,reason,time [s]\n";
+const std::string header = "id,run,realisation,a [1],cost.t,objective,status,violation,reason,time [s],checksum\n";
 
 }  // namespace
 
@@ -73,14 +74,24 @@ TEST(Journal, HasRowsOnDiskAfterAFlush) {
 
 TEST(Journal, KeepsAWriteFailureInsteadOfThrowingIntoTheOptimiser) {
   Journaled files;
-  std::filesystem::create_symlink("/dev/full", files.main());
-  execution::Journal::Stored stored{{0, 0, 0}, 0};
-  auto journal = files.open(stored);
+  auto journal = files.open();
   record(journal, 0, 0, 1);
   EXPECT_FALSE(journal.failed());
-  journal.flush();
+  {
+    const trial::NoLargerFile limit(std::filesystem::file_size(files.main()));
+    journal.flush();
+  }
   EXPECT_TRUE(journal.failed());
-  EXPECT_THAT(journal.failure(), HasSubstr("No space left on device"));
+  EXPECT_THAT(journal.failure(), HasSubstr("File too large"));
+}
+
+TEST(Journal, IsNotWrittenThroughALink) {
+  Journaled files;
+  const auto victim = files.folder.write("victim", "mine");
+  std::filesystem::create_symlink(victim, files.main());
+  EXPECT_THAT(trial::message_of<execution::WriteFailure>([&] { files.open(); }),
+              HasSubstr("It is a symbolic link, which is never followed here; remove it"));
+  EXPECT_EQ(trial::text_of(victim), "mine");
 }
 
 TEST(Recovery, DropsATornLastLineAndGoesOnBehindIt) {
@@ -127,7 +138,8 @@ TEST(Recovery, FinishesAMoveThatWasCutShort) {
 
 TEST(Recovery, BringsBackStatusesOtherThanOk) {
   Journaled files;
-  files.folder.write("evaluations.csv", header + row(1, 1, "1", "1") + "2,m/o,1,2,,,failed,,no root,0.5\n");
+  files.folder.write("evaluations.csv",
+                     header + row(1, 1, "1", "1") + trial::checked("2,m/o,1,2,,,failed,,no root,0.5"));
   const auto recovered = files.recover();
   search::JournalEntry entry;
   ASSERT_TRUE(recovered.evaluations[0].get(1, entry));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "cache.hpp"
 #include "curve.hpp"
@@ -107,5 +109,22 @@ TEST(Cache, KeepsInMemoryAndInAFolder) {
   Cache(folder.path() / "a/b", numbers.size()).keep("key", numbers);
   EXPECT_EQ(Cache(folder.path() / "a/b", numbers.size()).find("key"), numbers);
   EXPECT_EQ(Cache({}, numbers.size()).find("key"), std::nullopt);
+  // A changed digit, or the result of another question, is none.
+  const auto file = folder.path() / "a/b/key.json";
+  const std::string text = trial::text_of(file);
+  std::filesystem::copy(file, folder.path() / "a/b/other.json");
+  EXPECT_EQ(Cache(folder.path() / "a/b", numbers.size()).find("other"), std::nullopt);
+  for (std::size_t place = 0; place < text.size(); ++place) {
+    std::string changed = text;
+    changed[place] = changed[place] == '7' ? '8' : '7';
+    folder.write("a/b/key.json", changed);
+    EXPECT_EQ(Cache(folder.path() / "a/b", numbers.size()).find("key"), std::nullopt) << changed;
+  }
+  // Nothing is written through a link that somebody has planted.
+  const auto victim = folder.write("victim", "mine");
+  std::filesystem::create_symlink(victim, folder.path() / "a/b" / fmt::format("key.{}.part", getpid()));
+  Cache(folder.path() / "a/b", numbers.size()).keep("key", numbers);
+  EXPECT_EQ(trial::text_of(victim), "mine");
+  EXPECT_EQ(trial::text_of(file), text);
   EXPECT_EQ(digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
 }

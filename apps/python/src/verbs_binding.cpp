@@ -58,6 +58,10 @@ py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigne
   options.threads = threads;
   options.refusals = loaded.refusals;
   options.told = told.function();
+  options.noticed = [](const std::string& sentence) {
+    const py::gil_scoped_acquire held;
+    py::module_::import("warnings").attr("warn")(sentence);
+  };
   if (!certify.is_none())
     options.certify = [&certify](const std::filesystem::path& folder, const std::filesystem::path& points) {
       return ask(certify, folder, points);

@@ -28,6 +28,31 @@ namespace tunica::calibration {
 
 namespace {
 
+/// What a run leaves that ends before its first checkpoint: nothing that cost an evaluation.
+bool holds_a_beginning(const std::filesystem::path& folder) {
+  return std::ranges::all_of(std::filesystem::directory_iterator(folder), [](const auto& entry) {
+    const std::string name = entry.path().filename().string();
+    if (name == "parts") return std::filesystem::is_empty(entry.path());
+    if (name != "evaluations.csv")
+      return name == "run.log" || name == "input.json" || name.starts_with("input.json.new-") ||
+             name.starts_with("checkpoint.json.new-");
+    const std::string rows = execution::read_text(entry.path());
+    return std::ranges::count(rows, '\n') <= 1;
+  });
+}
+
+void clear(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::remove_all(entry.path());
+}
+
+/// The folder of an interrupted run. One that was killed before its first checkpoint begins again.
+execution::RunDirectory folder_to_go_on(const std::optional<std::filesystem::path>& directory,
+                                        const std::string& name) {
+  auto held = execution::RunDirectory::reopen(directory, name);
+  if (holds_a_beginning(held.path())) clear(held.path());
+  return held;
+}
+
 /// The folder of a part. One that was killed before its first checkpoint begins again.
 execution::RunDirectory folder_of_part(const std::filesystem::path& directory, const execution::Share& share,
                                        const std::string& name) {
@@ -36,12 +61,9 @@ execution::RunDirectory folder_of_part(const std::filesystem::path& directory, c
         fmt::format("{}: holds a run that is not in parts, or whose parts are merged; name another folder with -o",
                     directory.string()));
   const auto folder = execution::shard_folder(directory, share);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return execution::RunDirectory::create(folder, name);  // says what is wrong
+  if (execution::make_folders(folder)) return execution::RunDirectory::create(folder, name);  // says what is wrong
   auto held = execution::RunDirectory::reopen(folder, name);
-  if (!std::filesystem::exists(folder / "checkpoint.json"))
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::remove_all(entry.path());
+  if (!std::filesystem::exists(folder / "checkpoint.json")) clear(folder);
   return held;
 }
 
@@ -50,8 +72,9 @@ execution::RunDirectory folder_of(const Options& options, const std::string& nam
   if ((options.share || options.merge) && !options.directory)
     throw InputError("parts of a run need a folder that all of them know; name it with -o");
   if (options.share) return folder_of_part(*options.directory, *options.share, name);
-  return options.resume || options.merge ? execution::RunDirectory::reopen(options.directory, name)
-                                         : execution::RunDirectory::create(options.directory, name);
+  if (options.merge) return execution::RunDirectory::reopen(options.directory, name);
+  return options.resume ? folder_to_go_on(options.directory, name)
+                        : execution::RunDirectory::create(options.directory, name);
 }
 
 execution::Execution search(const execution::Plan& plan, const std::filesystem::path& directory, const Options& options,
@@ -64,6 +87,7 @@ execution::Execution search(const execution::Plan& plan, const std::filesystem::
   settings.share = options.share.value_or(execution::Share{});
   settings.progress = options.progress;
   settings.told = options.told;
+  settings.noticed = options.noticed;
   return execution::execute(plan, settings);
 }
 
@@ -105,6 +129,24 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       [&] { comparison::analyse(plan, catalogue, directory, execution::InterruptWatch::interrupted, summary); });
 }
 
+/// From the searches to the results.
+void conclude(const execution::Plan& plan, const std::vector<execution::RunResult>& found,
+              const plugins::Catalogue& catalogue, const Options& options, Outcome& outcome) {
+  const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
+  outcome.summary = comparison::summarise(plan, found, options.refusals);
+  outcome.provenance = comparison::provenance_of(plan);
+  write_tables(plan, found, outcome.directory, outcome.summary);
+  certify(outcome.directory, options, outcome.summary);
+  analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);
+  if (execution::InterruptWatch::interrupted()) {
+    outcome.ending = Outcome::Ending::interrupted;
+    return;
+  }
+  outcome.result = outcome.directory / "result.json";
+  execution::write_atomically(outcome.result, comparison::result_json(outcome.summary, outcome.provenance));
+  outcome.report = report::write_report(outcome.directory);
+}
+
 void refuse_runs_without_data(const execution::Plan& plan) {
   for (const execution::PlannedRun& run : plan.runs)
     if (std::none_of(run.entry->tests.begin(), run.entry->tests.end(),
@@ -129,36 +171,27 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
   refuse_runs_without_data(plan);
   comparison::check_analysis(plan, catalogue);
   const auto folder = folder_of(options, experiment.name);
-  const bool resume =
-      options.share ? std::filesystem::exists(folder.path() / "checkpoint.json") : options.resume || options.merge;
-  if (options.merge) execution::gather_shards(plan, folder.path());
   Outcome outcome;
   outcome.directory = folder.path();
-  if (options.started) options.started({plan, outcome.directory});
-
-  std::function<void()> leave;
-  if (options.abandon) leave = [&options, directory = outcome.directory] { options.abandon(directory); };
-  const execution::InterruptLimit limit(std::move(leave));
-  const auto found = search(plan, outcome.directory, options, resume);
-  outcome.write_failure = found.write_failure;
-  if (!found.write_failure.empty()) outcome.ending = Outcome::Ending::write_failure;
-  if (outcome.ending == Outcome::Ending::finished && found.interrupted) outcome.ending = Outcome::Ending::interrupted;
-  if (outcome.ending == Outcome::Ending::finished && options.share) outcome.ending = Outcome::Ending::part_finished;
-  if (outcome.ending != Outcome::Ending::finished) return outcome;
-
-  const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
-  outcome.summary = comparison::summarise(plan, found.runs, options.refusals);
-  outcome.provenance = comparison::provenance_of(plan);
-  write_tables(plan, found.runs, outcome.directory, outcome.summary);
-  certify(outcome.directory, options, outcome.summary);
-  analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);
-  if (execution::InterruptWatch::interrupted()) {
-    outcome.ending = Outcome::Ending::interrupted;
-    return outcome;
+  try {
+    const bool resume = options.merge || (options.resume && !std::filesystem::is_empty(folder.path())) ||
+                        (options.share && std::filesystem::exists(folder.path() / "checkpoint.json"));
+    if (options.merge) execution::gather_shards(plan, folder.path(), options.noticed);
+    if (options.started) options.started({plan, outcome.directory});
+    std::function<void()> leave;
+    if (options.abandon) leave = [&options, directory = outcome.directory] { options.abandon(directory); };
+    const execution::InterruptLimit limit(std::move(leave));
+    const auto found = search(plan, outcome.directory, options, resume);
+    outcome.write_failure = found.write_failure;
+    outcome.ending = !found.write_failure.empty() ? Outcome::Ending::write_failure
+                     : found.interrupted          ? Outcome::Ending::interrupted
+                     : options.share              ? Outcome::Ending::part_finished
+                                                  : Outcome::Ending::finished;
+    if (outcome.ending == Outcome::Ending::finished) conclude(plan, found.runs, catalogue, options, outcome);
+  } catch (const execution::WriteFailure& problem) {
+    outcome.write_failure = problem.what();
+    outcome.ending = Outcome::Ending::write_failure;
   }
-  outcome.result = outcome.directory / "result.json";
-  execution::write_atomically(outcome.result, comparison::result_json(outcome.summary, outcome.provenance));
-  outcome.report = report::write_report(outcome.directory);
   return outcome;
 }
 

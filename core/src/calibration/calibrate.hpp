@@ -36,6 +36,7 @@ struct Options {
   unsigned threads = 1;
   execution::Progress::Style progress = execution::Progress::Style::none;
   std::function<void(double share, const std::string& text)> told = {};  ///< see execution::RunSettings
+  std::function<void(const std::string& sentence)> noticed = {};         ///< see execution::RunSettings
   std::vector<std::string> refusals = {};                                ///< of plugins, for the warnings
   /// Asks a fresh process about the best points that stand in the file of the folder.
   std::function<Certified(const std::filesystem::path& directory, const std::filesystem::path& points)> certify = {};
@@ -59,8 +60,8 @@ struct Outcome {
 };
 
 /// Plans, searches, compares, certifies, analyses; writes result.json, the tables and report.html. An interrupted run
-/// is saved and can be resumed to the identical result. Throws InputError where experiment, data or folder do not fit,
-/// execution::WriteFailure where a table cannot be written.
+/// is saved and can be resumed to the identical result, and so is one that could not write. A resumed run that ended
+/// before its first checkpoint begins again. Throws InputError where experiment, data or folder do not fit.
 Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                   const Options& options);
 

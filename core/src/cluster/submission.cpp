@@ -94,21 +94,15 @@ void store(const Submission& submission, const std::filesystem::path& results) {
 
 SubmissionLock::SubmissionLock(const std::filesystem::path& results) {
   const auto folder = queue_folder(results);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (const auto error = execution::make_folders(folder)) throw execution::WriteFailure(folder, error.value());
   const auto file = folder / "lock";
-  descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw execution::WriteFailure(file, errno);
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor_);
+  file_ = execution::AppendFile(file);
+  if (::flock(file_.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw InputError(
         fmt::format("{}: another tunica is submitting this cohort; wait for it, then look with `tunica "
                     "cohort status`",
                     file.string()));
-  }
 }
-
-SubmissionLock::~SubmissionLock() { ::close(descriptor_); }
 
 std::string shard_script(const Invocation& call, const Wishes& wishes) {
   std::string options = fmt::format(" --shard \"$SLURM_ARRAY_TASK_ID/{}\" --threads {}", wishes.shards, wishes.threads);

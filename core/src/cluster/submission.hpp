@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cluster/slurm.hpp"
+#include "execution/files.hpp"
 
 namespace tunica::cluster {
 
@@ -50,12 +51,9 @@ void store(const Submission& submission, const std::filesystem::path& results);
 class SubmissionLock {
  public:
   explicit SubmissionLock(const std::filesystem::path& results);
-  ~SubmissionLock();
-  SubmissionLock(const SubmissionLock&) = delete;
-  SubmissionLock& operator=(const SubmissionLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  execution::AppendFile file_;
 };
 
 /// How the program is called again on a node: absolute paths, no shell's cares.

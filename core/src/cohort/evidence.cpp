@@ -2,6 +2,7 @@
 #include "cohort/evidence.hpp"
 
 #include <fstream>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 
 #include "cohort_diagnosis/evidence_json.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
+#include "execution/checksum.hpp"
 #include "execution/files.hpp"
 #include "tunica/error.hpp"
 
@@ -24,12 +26,22 @@ std::string inputs_of(const Specification& cohort, const Record& record) {
   return record.inputs + (cohort.diagnosis->quick ? " quick" : " full");
 }
 
-/// The file has two lines: who it is of, which is all that most readers want, and what was found.
-Json head_of(const std::filesystem::path& file) {
+/// The file has two lines: who it is of, with the checksum of the second; and what was found.
+struct Stored {
+  Json head;
+  std::string found;
+};
+
+/// None where the file is not, to its last digit, one that this version has written.
+std::optional<Stored> stored_evidence(const std::filesystem::path& file) {
   std::ifstream stream(file);
+  Stored stored;
   std::string line;
   std::getline(stream, line);
-  return Json::parse(line, nullptr, false);
+  std::getline(stream, stored.found);
+  stored.head = Json::parse(line, nullptr, false);
+  if (!execution::intact(stored.head) || stored.head.value("found", "") != execution::checksum(stored.found)) return {};
+  return stored;
 }
 
 Json what_is_found(const Specification& cohort, const Template& pattern, const Specimen& specimen,
@@ -53,13 +65,17 @@ Json what_is_found(const Specification& cohort, const Template& pattern, const S
 bool lacks_evidence(const Specification& cohort, const Specimen& specimen, const Record& record,
                     const std::filesystem::path& results) {
   if (!cohort.diagnosis || record.outcome == Outcome::unreadable) return false;
-  const Json head = head_of(folder_of(results, specimen) / evidence_file);
-  return !head.is_object() || head.value("inputs", "") != inputs_of(cohort, record);
+  const auto stored = stored_evidence(folder_of(results, specimen) / evidence_file);
+  return !stored || stored->head.value("inputs", "") != inputs_of(cohort, record);
 }
 
 void gather_evidence(const Specification& cohort, const Template& pattern, const Specimen& specimen,
-                     const Record& record, const plugins::Catalogue& catalogue, const std::filesystem::path& results) {
-  if (!lacks_evidence(cohort, specimen, record, results)) return;
+                     const Record& record, const plugins::Catalogue& catalogue, const FitSettings& settings) {
+  if (!lacks_evidence(cohort, specimen, record, settings.results)) return;
+  const auto file = folder_of(settings.results, specimen) / evidence_file;
+  if (settings.noticed && std::filesystem::exists(file) && !stored_evidence(file))
+    settings.noticed(
+        fmt::format("{}: its checksum does not fit, or another version wrote it; it is made again", file.string()));
   Json found;
   try {
     found = what_is_found(cohort, pattern, specimen, catalogue);
@@ -68,8 +84,12 @@ void gather_evidence(const Specification& cohort, const Template& pattern, const
   } catch (const std::exception& reason) {  // InputError, BaseFitFailure, and what plugins throw
     found = {{"problem", reason.what()}};
   }
-  const Json head = {{"format", 1}, {"id", specimen.id}, {"inputs", inputs_of(cohort, record)}};
-  execution::write_atomically(folder_of(results, specimen) / evidence_file, head.dump() + "\n" + found.dump() + "\n");
+  const std::string line = found.dump();
+  const Json head = execution::sealed<Json>({{"format", 2},
+                                             {"id", specimen.id},
+                                             {"inputs", inputs_of(cohort, record)},
+                                             {"found", execution::checksum(line)}});
+  execution::write_atomically(file, head.dump() + "\n" + line + "\n");
 }
 
 CollectedEvidence collect_evidence(const SpecimenTable& table, const Collection& found,
@@ -83,12 +103,9 @@ CollectedEvidence collect_evidence(const SpecimenTable& table, const Collection&
       return;
     }
     const auto file = folder_of(results, table.specimens[k]) / evidence_file;
-    std::ifstream stream(file);
-    std::string line;
-    std::getline(stream, line);
-    std::getline(stream, line);
-    const Json json = Json::parse(line, nullptr, false);
-    if (!json.is_object()) refuse(file);
+    const auto stored = stored_evidence(file);
+    if (!stored) refuse(file);
+    const Json json = Json::parse(stored->found, nullptr, false);
     if (const auto problem = json.find("problem"); problem != json.end() && problem->is_string())
       problems[k] = *problem;
     else if (const auto evidence = json.find("evidence"); evidence != json.end())

@@ -12,9 +12,10 @@
 namespace tunica::cohort {
 
 /// Diagnoses one specimen and writes specimens/<folder>/evidence.json, or why that could not be done. Nothing happens
-/// where the file is there from the same inputs, or where the specimen cannot be read. Throws execution::WriteFailure.
+/// where the file is there, undamaged and from the same inputs, or where the specimen cannot be read. Throws
+/// execution::WriteFailure.
 void gather_evidence(const Specification& cohort, const Template& pattern, const Specimen& specimen,
-                     const Record& record, const plugins::Catalogue& catalogue, const std::filesystem::path& results);
+                     const Record& record, const plugins::Catalogue& catalogue, const FitSettings& settings);
 
 /// Whether the specimen of this record still has to be diagnosed.
 bool lacks_evidence(const Specification& cohort, const Specimen& specimen, const Record& record,

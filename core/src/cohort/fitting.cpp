@@ -114,9 +114,7 @@ void fit_into(Record& record, const experiment::Experiment& experiment, const pl
 }
 
 void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw execution::WriteFailure(folder, error.value());
+  if (const auto error = execution::make_folders(folder)) throw execution::WriteFailure(folder, error.value());
 }
 
 }  // namespace
@@ -168,9 +166,11 @@ std::optional<Record> fit(const Specification& cohort, const Template& pattern, 
   try {
     const Bound bound = bind(cohort, pattern, specimen, catalogue);
     record.inputs = bound.inputs;
-    if (auto stored = stored_record(settings.results, specimen);
-        stored && stored->inputs == record.inputs && !stored->runs.empty())
-      return stored;
+    auto stored = stored_record(settings.results, specimen);
+    if (stored && stored->inputs == record.inputs && !stored->runs.empty()) return stored;
+    if (const auto file = folder / record_file; settings.noticed && !stored && std::filesystem::exists(file))
+      settings.noticed(fmt::format(
+          "{}: its checksum does not fit, or another version wrote it; the specimen is fitted again", file.string()));
     fit_into(record, bound.experiment, catalogue, folder, settings);
   } catch (const Interrupted&) {
     return {};

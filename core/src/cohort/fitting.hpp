@@ -29,6 +29,8 @@ struct FitSettings {
   bool reports = true;            ///< a report.html for each specimen
   std::function<bool()> interrupted = {};
   std::vector<std::string> refusals = {};  ///< of plugins, for the warnings
+  /// Told, by any thread, of a stored file that is damaged and is therefore made again.
+  std::function<void(const std::string& sentence)> noticed = {};
 };
 
 std::filesystem::path folder_of(const std::filesystem::path& results, const Specimen& specimen);

@@ -3,11 +3,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "execution/checksum.hpp"
+
 namespace tunica::cohort {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr int record_format = 2;
 
 template <class Value>
 Json json_of(const std::optional<Value>& value) {
@@ -93,7 +97,7 @@ std::string to_json(const Record& record) {
   Json warnings = Json::array(), runs = Json::array();
   for (const auto& one : record.warnings) warnings.push_back({{"kind", one.kind}, {"text", one.text}});
   for (const auto& one : record.runs) runs.push_back(json_of(one));
-  const Json json = {{"format", 1},
+  const Json json = {{"format", record_format},
                      {"id", record.id},
                      {"inputs", record.inputs},
                      {"data", record.data},
@@ -102,13 +106,13 @@ std::string to_json(const Record& record) {
                      {"warnings", warnings},
                      {"runs", runs},
                      {"seconds", record.seconds}};
-  return json.dump(1) + "\n";
+  return execution::sealed(json).dump(1) + "\n";
 }
 
 std::optional<Record> record_of(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
   try {
-    if (!json.is_object() || json.at("format") != 1) return {};
+    if (!execution::intact(json) || json.at("format") != record_format) return {};
     const auto outcome = text::value_of(outcome_codes, json.at("outcome").get<std::string>());
     if (!outcome) return {};
     Record record;

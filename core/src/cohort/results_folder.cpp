@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "execution/files.hpp"
 #include "execution/run_directory.hpp"
 
 namespace tunica::cohort {
@@ -24,8 +25,7 @@ bool nothing_else_in(const std::filesystem::path& folder) {
 
 std::filesystem::path results_folder(const std::filesystem::path& requested, const std::string& name) {
   if (requested.empty()) return execution::RunDirectory::create(std::nullopt, name).path();
-  std::error_code error;
-  std::filesystem::create_directories(requested, error);
+  const std::error_code error = execution::make_folders(requested);
   // The mark is asked for last: a neighbour writes it before anything else.
   if (!error && (nothing_else_in(requested) || std::filesystem::exists(requested / mark))) return requested;
   return execution::RunDirectory::create(requested, name).path();  // says what is wrong

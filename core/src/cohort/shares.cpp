@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "cohort/evidence.hpp"
+#include "execution/first_failure.hpp"
 
 namespace tunica::cohort {
 
@@ -20,22 +21,27 @@ ShareOutcome fit_share(const Specification& cohort, const SpecimenTable& table, 
   outcome.specimens = mine.size();
   std::atomic<std::size_t> done = 0, fitted = 0;
   std::atomic<bool> interrupted = false;
+  execution::FirstFailure failure;
   const auto stopped = [&] { return settings.interrupted && settings.interrupted(); };
   tbb::parallel_for(
       std::size_t{0}, mine.size(),
       [&](std::size_t k) {
+        if (failure.any()) return;
         if (stopped()) return void(interrupted = true);
         // A search runs its own loops side by side; a thread that waits for them must not begin another specimen.
         tbb::this_task_arena::isolate([&] {
-          const auto record = fit(cohort, pattern, table.specimens[mine[k]], catalogue, settings);
-          if (!record) return void(interrupted = true);
-          if (cohort.diagnosis && stopped()) return void(interrupted = true);
-          gather_evidence(cohort, pattern, table.specimens[mine[k]], *record, catalogue, settings.results);
-          if (record->outcome == Outcome::fitted) ++fitted;
-          if (told) told(++done, mine.size());
+          failure.guard([&] {
+            const auto record = fit(cohort, pattern, table.specimens[mine[k]], catalogue, settings);
+            if (!record) return void(interrupted = true);
+            if (cohort.diagnosis && stopped()) return void(interrupted = true);
+            gather_evidence(cohort, pattern, table.specimens[mine[k]], *record, catalogue, settings);
+            if (record->outcome == Outcome::fitted) ++fitted;
+            if (told) told(++done, mine.size());
+          });
         });
       },
       tbb::simple_partitioner());
+  failure.rethrow();
   outcome.fitted = fitted;
   outcome.interrupted = interrupted;
   return outcome;

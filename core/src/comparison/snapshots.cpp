@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
+#include "execution/files.hpp"
 #include "stability/ellipticity.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
@@ -25,7 +27,20 @@ std::size_t row_number(const std::string& word, const std::string& text) {
   return row - 1;
 }
 
-void write_array(fmt::ostream& out, const std::string& name, const std::string& unit, std::size_t components,
+/// The text of a file before it is written.
+struct Text {
+  fmt::memory_buffer buffer;
+
+  template <class... Values>
+  void print(fmt::format_string<Values...> form, Values&&... values) {
+    fmt::format_to(std::back_inserter(buffer), form, std::forward<Values>(values)...);
+  }
+  void write(const std::filesystem::path& file) const {
+    execution::write_atomically(file, {buffer.data(), buffer.size()});
+  }
+};
+
+void write_array(Text& out, const std::string& name, const std::string& unit, std::size_t components,
                  const std::vector<double>& values) {
   out.print("        <DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
             text::titled(name, unit), components);
@@ -33,7 +48,7 @@ void write_array(fmt::ostream& out, const std::string& name, const std::string& 
   out.print("        </DataArray>\n");
 }
 
-void write_fields(fmt::ostream& out, const char* place, const Snapshot& snapshot, bool of_cells) {
+void write_fields(Text& out, const char* place, const Snapshot& snapshot, bool of_cells) {
   out.print("      <{}>\n", place);
   for (const auto& field : snapshot.fields)
     if (field.of_cells == of_cells) write_array(out, field.name, field.unit, field.components, field.values);
@@ -69,7 +84,7 @@ void add_ellipticity(const TestInput& input, Snapshot& snapshot) {
 void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
   constexpr int quadrilateral = 9;  // VTK_QUAD
   const std::size_t cells = snapshot.cells.size() / 4;
-  fmt::ostream out = fmt::output_file(file.string());
+  Text out;
   out.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n");
   out.print("  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
@@ -87,6 +102,7 @@ void write_grid(const std::filesystem::path& file, const Snapshot& snapshot) {
   write_fields(out, "PointData", snapshot, false);
   write_fields(out, "CellData", snapshot, true);
   out.print("    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
+  out.write(file);
 }
 
 FieldRequest field_request(const std::string& text) {
@@ -162,11 +178,12 @@ std::vector<std::filesystem::path> write_snapshots(const std::filesystem::path& 
   }
   if (collection.empty()) return files;
   files.push_back(directory / (test + ".pvd"));
-  fmt::ostream out = fmt::output_file(files.back().string());
+  Text out;
   out.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n{}  </Collection>\n</VTKFile>\n",
       collection);
+  out.write(files.back());
   return files;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/sha256.hpp"
+#include "execution/checksum.hpp"
 #include "execution/files.hpp"
 #include "tunica/error.hpp"
 #include "tunica/plugin.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 3;
+constexpr int checkpoint_format = 4;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
@@ -144,13 +145,13 @@ Facts facts_of(const Plan& plan) {
 }
 
 std::string checkpoint_entry(std::size_t task, const RealisationResult& result) {
-  return to_json(task, result).dump(-1, ' ', false, json::error_handler_t::replace);
+  return sealed(to_json(task, result)).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
                       const std::map<std::size_t, std::string>& entries) {
   std::string text = fmt::format("{{\n\"format\": {},\n\"facts\": {},\n\"finished\": [", checkpoint_format,
-                                 to_json(facts).dump(1, ' ', false, json::error_handler_t::replace));
+                                 sealed(to_json(facts)).dump(1, ' ', false, json::error_handler_t::replace));
   for (const auto& [task, entry] : entries) text.append(text.back() == '[' ? "\n" : ",\n").append(entry);
   write_atomically(checkpoint_file(directory), text + "\n]\n}\n");
 }
@@ -174,10 +175,21 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
       throw InputError(
           fmt::format("{}: format {}, this version of tunica reads {}; resume with the version that wrote it",
                       file.string(), document.at("format").dump(), checkpoint_format));
+    if (!intact(document.at("facts")))
+      throw InputError(
+          fmt::format("{}: \"facts\" is not what was written; its checksum does not fit. Use a copy of the file, "
+                      "or start anew with another -o",
+                      file.string()));
     Checkpoint checkpoint;
     checkpoint.facts = facts_from(document.at("facts"));
     for (const auto& entry : document.at("finished"))
-      checkpoint.finished.emplace_back(entry.at("task").get<std::size_t>(), from_json(entry));
+      if (intact(entry))
+        checkpoint.finished.emplace_back(entry.at("task").get<std::size_t>(), from_json(entry));
+      else
+        checkpoint.damages.push_back(
+            fmt::format("{}: entry {} of \"finished\" is not what was written; its checksum does not fit. That search "
+                        "is made again from evaluations.csv",
+                        file.string(), checkpoint.finished.size() + checkpoint.damages.size() + 1));
     return checkpoint;
   } catch (const json::exception& problem) {
     throw InputError(

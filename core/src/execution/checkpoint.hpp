@@ -28,6 +28,7 @@ struct Facts {
 struct Checkpoint {
   Facts facts;
   std::vector<std::pair<std::size_t, RealisationResult>> finished;  ///< task, result
+  std::vector<std::string> damages = {};  ///< of reading: entries that are left out, a sentence for each
 };
 
 Facts facts_of(const Plan& plan);
@@ -40,7 +41,8 @@ std::string checkpoint_entry(std::size_t task, const RealisationResult& result);
 void write_checkpoint(const std::filesystem::path& directory, const Facts& facts,
                       const std::map<std::size_t, std::string>& entries);
 
-/// Throws InputError when there is none, or it cannot be understood.
+/// Throws InputError when there is none, or it cannot be understood, or its facts are not those that were written. An
+/// entry whose checksum does not fit counts as not finished.
 Checkpoint read_checkpoint(const std::filesystem::path& directory);
 
 /// Throws InputError when something changed since the run began: what, and what to do. `input_json` is the

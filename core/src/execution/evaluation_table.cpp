@@ -9,6 +9,7 @@
 
 #include <fmt/compile.h>
 
+#include "execution/checksum.hpp"
 #include "text/csv.hpp"
 #include "tunica/error.hpp"
 
@@ -19,7 +20,7 @@ using text::csv_cell;
 namespace {
 
 constexpr std::size_t fixed_before = 3;  // id, run, realisation
-constexpr std::size_t fixed_after = 5;   // objective, status, violation, reason, time
+constexpr std::size_t fixed_after = 6;   // objective, status, violation, reason, time, checksum
 
 /// Columns of all runs, each once, in order of first appearance; and where each run finds its own among them.
 void unite(const std::vector<std::vector<std::string>>& per_run, std::vector<std::string>& columns,
@@ -96,7 +97,7 @@ std::string EvaluationTable::header() const {
   std::string line = "id,run,realisation";
   for (const auto& column : parameter_columns_) line += ',' + csv_cell(column);
   for (const auto& column : cost_columns_) line += ',' + csv_cell(column);
-  return line + ",objective,status,violation,reason,time [s]\n";
+  return line + ",objective,status,violation,reason,time [s],checksum\n";
 }
 
 void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, std::uint64_t realisation,
@@ -127,8 +128,18 @@ void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, st
   at = put(at, reason);
   // Microseconds, written as a decimal fraction: cheaper than printing a double with a precision.
   const auto micro = static_cast<std::uint64_t>(std::max(0.0, record.seconds) * 1e6);
-  at = fmt::format_to(at, FMT_COMPILE(",{}.{:06}\n"), micro / 1000000, micro % 1000000);
+  at = fmt::format_to(at, FMT_COMPILE(",{}.{:06}"), micro / 1000000, micro % 1000000);
+  const std::string_view cells(buffer.data() + before, static_cast<std::size_t>(at - buffer.data()) - before);
+  *at++ = ',';
+  at = put_checksum(at, cells);
+  *at++ = '\n';
   buffer.resize(static_cast<std::size_t>(at - buffer.data()));
+}
+
+bool EvaluationTable::intact(std::string_view line) {
+  if (line.size() <= checksum_digits) return false;
+  const std::size_t cells = line.size() - checksum_digits - 1;
+  return line[cells] == ',' && line.substr(cells + 1) == checksum(line.substr(0, cells));
 }
 
 void EvaluationTable::parse(std::string_view line, Row& row) const {

@@ -22,10 +22,12 @@ struct RunColumns {
 
 /// The layout of evaluations.csv: one file for all runs, one row an evaluation.
 ///
-///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, violation, reason, time [s]
+///   id, run, realisation, <parameter> [unit] …, cost.<test> …, objective, status, violation, reason, time [s],
+///   checksum
 ///
 /// Parameter and cost columns are the union over the runs, in order of first appearance; a cell that a run does not
-/// have is empty. id counts from 1 within a realisation; time counts from its beginning. Numbers are the shortest
+/// have is empty. id counts from 1 within a realisation; time counts from its beginning; checksum is that of
+/// the line before it (checksum.hpp). Numbers are the shortest
 /// text that reads back as the same double: the file is the journal from which a run is resumed bit for bit.
 class EvaluationTable {
  public:
@@ -43,6 +45,8 @@ class EvaluationTable {
     std::uint64_t realisation = 0, index = 0;  ///< index from 0, as in Record
     std::vector<std::string_view> cells;       ///< of the line that was parsed
   };
+  /// Whether a line is, to its last digit, one that append_row has written.
+  static bool intact(std::string_view line);
   /// Splits a line and reads which evaluation it is; throws InputError on a line that this layout cannot have
   /// written. `values` then reads the rest.
   void parse(std::string_view line, Row& row) const;

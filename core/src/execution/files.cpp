@@ -20,9 +20,16 @@ namespace {
 
 std::string describe_failure(const std::filesystem::path& file, int error) {
   const bool space = error == ENOSPC || error == EDQUOT || error == EFBIG;
-  return fmt::format(
-      "{}: cannot write: {}. {}", file.string(), std::strerror(error),
-      space ? "Free some space, or raise the limit" : "Check that the folder exists and can be written to");
+  const char* advice = space            ? "Free some space, or raise the limit"
+                       : error == ELOOP ? "It is a symbolic link, which is never followed here; remove it"
+                       : error == EIO   ? "Check the disk"
+                                        : "Check that the folder exists and can be written to";
+  return fmt::format("{}: cannot write: {}. {}", file.string(), std::strerror(error), advice);
+}
+
+/// Every file that the program makes is opened here: what stands there under its name as a link is not followed.
+int open_to_write(const std::filesystem::path& file, int how) {
+  return ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC | how, 0666);
 }
 
 void write_all(int descriptor, std::string_view text, const std::filesystem::path& file) {
@@ -36,12 +43,8 @@ void write_all(int descriptor, std::string_view text, const std::filesystem::pat
   }
 }
 
-void sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);  // some file systems cannot; the rename itself is atomic all the same
-  ::close(descriptor);
-}
+/// Some file systems cannot; a rename itself is atomic all the same.
+bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == EROFS; }
 
 /// A new file beside `file`. Its name is drawn, so that writers of the same file on several machines, whose process
 /// numbers may be equal, never share it.
@@ -50,7 +53,7 @@ std::pair<std::filesystem::path, int> open_temporary(const std::filesystem::path
   for (;;) {
     std::filesystem::path temporary = file;
     temporary += fmt::format(".new-{:08x}{:08x}", device(), device());
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int descriptor = open_to_write(temporary, O_EXCL);
     if (descriptor >= 0) return {temporary, descriptor};
     if (errno != EEXIST) throw WriteFailure(file, errno);
   }
@@ -62,18 +65,21 @@ WriteFailure::WriteFailure(const std::filesystem::path& file, int error)
     : std::runtime_error(describe_failure(file, error)) {}
 
 AppendFile::AppendFile(std::filesystem::path file) : file_(std::move(file)) {
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  std::error_code unknown;
+  listed_ = std::filesystem::exists(file_, unknown);
+  descriptor_ = open_to_write(file_, O_APPEND);
   if (descriptor_ < 0) throw WriteFailure(file_, errno);
 }
 
 AppendFile::AppendFile(AppendFile&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), listed_(other.listed_) {}
 
 AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
   if (this != &other) {
     close();
     file_ = std::move(other.file_);
     descriptor_ = std::exchange(other.descriptor_, -1);
+    listed_ = other.listed_;
   }
   return *this;
 }
@@ -83,18 +89,46 @@ AppendFile::~AppendFile() { close(); }
 void AppendFile::append(std::string_view text) { write_all(descriptor_, text, file_); }
 
 void AppendFile::sync() {
-  if (is_open() && ::fdatasync(descriptor_) != 0 && errno != EINVAL) throw WriteFailure(file_, errno);
+  if (!is_open()) return;
+  if (::fdatasync(descriptor_) != 0 && !cannot_sync(errno)) throw WriteFailure(file_, errno);
+  if (!std::exchange(listed_, true)) sync_folder(file_.parent_path());
+}
+
+void AppendFile::cut(std::uintmax_t size) {
+  int done = 0;
+  do done = ::ftruncate(descriptor_, static_cast<off_t>(size));
+  while (done != 0 && errno == EINTR);
+  if (done != 0) throw WriteFailure(file_, errno);
 }
 
 void AppendFile::close() {
   if (is_open()) ::close(std::exchange(descriptor_, -1));
 }
 
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // one that may be written to but not read
+  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error != 0 && !cannot_sync(error)) throw WriteFailure(folder, error);
+}
+
+std::error_code make_folders(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::is_directory(folder, error)) return {};
+  if (const auto parent = folder.parent_path(); !parent.empty() && parent != folder)
+    if (const auto problem = make_folders(parent)) return problem;
+  error.clear();
+  std::filesystem::create_directory(folder, error);
+  if (!error) sync_folder(folder.parent_path());
+  return error;
+}
+
 void write_atomically(const std::filesystem::path& file, std::string_view text) {
   const auto [temporary, descriptor] = open_temporary(file);
   try {
     write_all(descriptor, text, file);
-    if (::fsync(descriptor) != 0 && errno != EINVAL) throw WriteFailure(file, errno);
+    if (::fsync(descriptor) != 0 && !cannot_sync(errno)) throw WriteFailure(file, errno);
   } catch (...) {
     ::close(descriptor);
     ::unlink(temporary.c_str());

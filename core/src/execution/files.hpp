@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 /// Writing that notices when the disk is full, and files that are either old or new but never half.
 namespace tunica::execution {
@@ -16,7 +17,8 @@ class WriteFailure : public std::runtime_error {
   WriteFailure(const std::filesystem::path& file, int error);
 };
 
-/// A file that grows at its end. Every call either writes everything or throws WriteFailure. Not thread-safe.
+/// A file that grows at its end. Every call either writes everything or throws WriteFailure. Not thread-safe. A
+/// symbolic link under its name is refused: it could lead the rows into any file of the user.
 class AppendFile {
  public:
   AppendFile() = default;
@@ -27,20 +29,32 @@ class AppendFile {
   ~AppendFile();
 
   void append(std::string_view text);
-  /// Returns once the data are on the disk, so that they survive a loss of power.
+  /// Returns once the data, and the name of a new file, are on the disk, so that they survive a loss of power.
   void sync();
+  /// Leaves the first `size` bytes.
+  void cut(std::uintmax_t size);
   void close();
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
   std::filesystem::path file_;
   int descriptor_ = -1;
+  bool listed_ = false;  ///< its folder has the name for good
 };
 
 /// Replaces a file in one step: temporary file in the same folder, fsync, rename, fsync of the folder. Whoever reads
 /// it, now or after a crash, sees the old text or the new one. Any number of processes may write the same file at once;
-/// the last rename stays. One that is killed may leave a file <name>.new-<16 digits>, which nobody reads.
+/// the last rename stays. A link under the name is replaced, not followed. A writer that is killed may leave a file
+/// <name>.new-<16 digits>, which nobody reads.
 void write_atomically(const std::filesystem::path& file, std::string_view text);
+
+/// Makes a folder and those above it that are missing, so that they survive a loss of power. One that is there is no
+/// error.
+std::error_code make_folders(const std::filesystem::path& folder);
+
+/// Returns once the names in a folder are on the disk; "" is the working folder. Throws WriteFailure.
+void sync_folder(const std::filesystem::path& folder);
 
 /// The whole text of a file; throws InputError.
 std::string read_text(const std::filesystem::path& file);

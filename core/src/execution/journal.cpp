@@ -26,7 +26,10 @@ Journal::Journal(std::filesystem::path directory, const EvaluationTable& table, 
   }
   main_ = AppendFile(main_file(directory_));
   if (stored.rows.empty()) main_.append(table_.header());
-  if (tasks_.size() > 1) std::filesystem::create_directories(directory_ / "parts");
+  main_.sync();
+  if (tasks_.size() < 2) return;
+  const auto parts = directory_ / "parts";
+  if (const auto error = make_folders(parts)) throw WriteFailure(parts, error.value());
 }
 
 Journal::~Journal() {
@@ -96,8 +99,12 @@ void Journal::finish(std::size_t task) {
   sink.rows.clear();
   const std::lock_guard files_lock(files_);
   sink.finished = true;
-  sink.part.close();
-  keep_failure([&] { advance(); });
+  if (failed()) return;
+  keep_failure([&] {
+    sink.part.sync();  // before a checkpoint counts on its rows
+    sink.part.close();
+    advance();
+  });
 }
 
 /// Lets the next unfinished realisation append to evaluations.csv, after the rows of those that were ahead of it.

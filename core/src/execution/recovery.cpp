@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -35,20 +36,35 @@ bool StoredEvaluations::get(std::uint64_t index, search::JournalEntry& entry) co
 
 namespace {
 
-/// Calls `use` with every whole line and its number, and cuts off what follows the last line end.
-void read_lines(const std::filesystem::path& file, const std::function<void(const std::string&, std::size_t)>& use) {
+/// Calls `use` with every whole line and its number until it returns false: the line is damaged. Cuts off that line
+/// and all after it, and whatever follows the last line end. What was cut off because of damage is returned, and kept
+/// in `aside`: it may be all that tells what happened to the disk.
+std::string read_lines(const std::filesystem::path& file, const std::filesystem::path& aside,
+                       const std::function<bool(const std::string&, std::size_t)>& use) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError(
         fmt::format("{}: cannot be read; check its permissions, or start anew with another -o", file.string()));
   std::uintmax_t whole = 0;
-  std::string line;
+  std::string line, damaged;
   for (std::size_t number = 1; std::getline(stream, line) && !stream.eof(); ++number) {
+    if (!use(line, number)) {
+      damaged = line + '\n' + std::string(std::istreambuf_iterator<char>(stream), {});
+      break;
+    }
     whole += line.size() + 1;
-    use(line, number);
   }
   stream.close();
-  if (std::filesystem::file_size(file) > whole) std::filesystem::resize_file(file, whole);
+  if (std::filesystem::file_size(file) <= whole) return damaged;
+  if (!damaged.empty()) {
+    AppendFile kept(aside);
+    kept.append(damaged);
+    kept.sync();
+  }
+  AppendFile cut(file);
+  cut.cut(whole);
+  cut.sync();
+  return damaged;
 }
 
 class Reader {
@@ -82,6 +98,16 @@ class Reader {
     }
   }
 
+  /// Takes note of what read_lines() has cut off behind `kept` lines.
+  void note(const std::filesystem::path& file, std::size_t kept, const std::string& cut) {
+    if (cut.empty()) return;
+    const auto lines = std::count(cut.begin(), cut.end(), '\n') + (cut.back() == '\n' ? 0 : 1);
+    result_.damages.push_back(
+        fmt::format("{}:{}: the row is not what was written; its checksum does not fit. It and what follows, {} rows, "
+                    "are in damaged_rows.csv, and are evaluated again",
+                    file.string(), kept + 1, lines));
+  }
+
   Recovered& result() { return result_; }
   [[nodiscard]] std::size_t last() const { return last_; }
 
@@ -100,27 +126,38 @@ class Reader {
 Recovered recover(const std::filesystem::path& directory, const EvaluationTable& table, const std::vector<Task>& tasks,
                   const std::vector<bool>& wanted) {
   Reader reader(table, tasks, wanted);
-  const auto main = Journal::main_file(directory);
+  const auto main = Journal::main_file(directory), aside = directory / "damaged_rows.csv";
   bool has_header = false;
-  read_lines(main, [&](const std::string& line, std::size_t number) {
+  std::size_t kept = 0;
+  const std::string cut = read_lines(main, aside, [&](const std::string& line, std::size_t number) {
     if (number > 1) {
+      if (!EvaluationTable::intact(line)) return false;
       reader.take(line, main, number);
-      return;
+      kept = number;
+      return true;
     }
     if (line + '\n' != table.header())
       throw InputError(
           fmt::format("{}:1: the columns are not those of this experiment; start anew with another -o", main.string()));
     has_header = true;
+    kept = number;
+    return true;
   });
+  reader.note(main, kept, cut);
   if (!has_header) AppendFile(main).append(table.header());
   const std::size_t head = reader.last();
   for (std::size_t task = 0; task < tasks.size(); ++task) {
     const auto part = Journal::part_file(directory, task);
     if (!std::filesystem::exists(part)) continue;
     std::string missing;
-    read_lines(part, [&](const std::string& line, std::size_t number) {
+    kept = 0;
+    const std::string cut_off = read_lines(part, aside, [&](const std::string& line, std::size_t number) {
+      if (!EvaluationTable::intact(line)) return false;
       if (reader.take(line, part, number) && task <= head) missing += line + '\n';
+      kept = number;
+      return true;
     });
+    reader.note(part, kept, cut_off);
     if (task > head) continue;
     AppendFile file(main);
     file.append(missing);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "execution/journal.hpp"
@@ -26,8 +27,10 @@ class StoredEvaluations {
 };
 
 /// What the journal of a killed run holds. Reading repairs it: a torn last line is cut off, and rows that were being
-/// moved to evaluations.csv are moved to the end.
+/// moved to evaluations.csv are moved to the end. A row whose checksum does not fit is cut off with all that follow it:
+/// the searches make them again, since what stands before decides them.
 struct Recovered {
+  std::vector<std::string> damages;  ///< sentences for the user: which row, and what becomes of it
   Journal::Stored stored;
   std::vector<StoredEvaluations> evaluations;  ///< per task; empty where not wanted
 };

@@ -12,6 +12,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "execution/files.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::execution {
@@ -61,17 +62,18 @@ RunDirectory RunDirectory::create(const std::optional<std::filesystem::path>& re
           "{}: is not empty, and results are never overwritten; name another folder with -o{}", requested->string(),
           std::filesystem::exists(*requested / "checkpoint.json", error) ? ", or go on with the run in it with --resume"
                                                                          : ""));
-    std::filesystem::create_directories(*requested, error);
-    if (error) refuse(*requested, error);
+    if (const auto problem = make_folders(*requested)) refuse(*requested, problem);
     return RunDirectory(*requested);
   }
-  std::filesystem::create_directories(results, error);
-  if (error) refuse(results, error);
+  if (const auto problem = make_folders(results)) refuse(results, problem);
   const std::string folder = folder_name(name);
   for (int number = newest(folder) + 1;; ++number) {
     const auto path = results / fmt::format("{}-{}", folder, number);
-    if (std::filesystem::create_directory(path, error)) return RunDirectory(path);
+    const bool made = std::filesystem::create_directory(path, error);
     if (error) refuse(path, error);
+    if (!made) continue;
+    sync_folder(results);
+    return RunDirectory(path);
   }
 }
 
@@ -92,6 +94,9 @@ RunDirectory::RunDirectory(std::filesystem::path path) : path_(std::move(path)) 
     throw InputError(
         fmt::format("{}: cannot be written to: {}; name another folder with -o", path_.string(), std::strerror(errno)));
   lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0)
+    throw InputError(fmt::format("{}: cannot be opened: {}; check its permissions, or name another folder with -o",
+                                 path_.string(), std::strerror(errno)));
   // The lock goes with the process, so a killed run leaves none behind.
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(std::exchange(lock_, -1));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -12,13 +11,14 @@
 
 #include <fmt/format.h>
 #include <spdlog/logger.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "execution/checkpoint.hpp"
 #include "execution/files.hpp"
+#include "execution/first_failure.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/journal.hpp"
 #include "execution/realisation.hpp"
@@ -32,6 +32,22 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds heartbeat{100};  // rows are on disk after this time at the latest
 constexpr std::chrono::seconds checkpoint_interval{1};
 
+/// run.log, opened like every other file of a run.
+class LogFile : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit LogFile(const std::filesystem::path& file) : file_(file) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t text;
+    formatter_->format(message, text);
+    file_.append({text.data(), text.size()});
+  }
+  void flush_() override {}
+
+  AppendFile file_;
+};
+
 /// State of one execution; what several threads touch is under `mutex_` or in the journal and the meters.
 class Run {
  public:
@@ -42,8 +58,7 @@ class Run {
         meters_(plan.tasks.size()),
         results_(plan.tasks.size()),
         stored_(plan.tasks.size()) {
-    const auto log_file = (settings.directory / "run.log").string();
-    log_ = std::make_shared<spdlog::logger>("run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file));
+    log_ = std::make_shared<spdlog::logger>("run", std::make_shared<LogFile>(settings.directory / "run.log"));
     log_->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
     log_->set_error_handler([](const std::string&) {});  // a full disk is reported by the journal
     open();
@@ -68,6 +83,7 @@ class Run {
   std::shared_ptr<spdlog::logger> log_;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<bool> broken_ = false;  ///< an exception is on its way, or the checkpoint cannot be written
+  FirstFailure failure_;              ///< of a search
   std::string write_failure_;         ///< of the checkpoint
   std::mutex mutex_;
   Facts facts_;
@@ -88,6 +104,11 @@ void Run::open() {
     for (const auto& [task, result] : before.finished)
       if (task < wanted.size()) wanted[task] = false;
     auto recovered = recover(directory, table_, plan_.tasks, wanted);
+    for (const auto* damages : {&before.damages, &recovered.damages})
+      for (const std::string& sentence : *damages) {
+        log_->warn("{}", sentence);
+        if (settings_.noticed) settings_.noticed(sentence);
+      }
     for (auto& [task, result] : before.finished) {
       // Without all of its rows (a loss of power) a finished realisation counts as unfinished, from its beginning.
       if (task >= wanted.size() || recovered.stored.rows[task] != result.tally.evaluations) continue;
@@ -169,13 +190,9 @@ void Run::run_task(std::size_t task) {
 void Run::work() {
   for (std::size_t task = next_++; task < plan_.tasks.size() && !stopping(); task = next_++) {
     if (results_[task].finished || !settings_.share.holds(task)) continue;
-    try {
-      // Without isolation a thread that waits for its population could pick up another whole realisation.
-      tbb::this_task_arena::isolate([&] { run_task(task); });
-    } catch (...) {
-      broken_ = true;
-      throw;
-    }
+    // Without isolation a thread that waits for its population could pick up another whole realisation.
+    tbb::this_task_arena::isolate([&] { failure_.guard([&] { run_task(task); }); });
+    if (failure_.any()) broken_ = true;
   }
 }
 
@@ -192,8 +209,7 @@ Execution Run::execute() {
       if (settings_.told) settings_.told(progress.share(), progress.text(progress.seconds()));
     }
   });
-  std::exception_ptr thrown;
-  try {
+  failure_.guard([&] {
     const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, settings_.threads);
     tbb::task_arena arena(static_cast<int>(settings_.threads));
     const std::size_t workers = std::min<std::size_t>(settings_.threads, plan_.tasks.size());
@@ -201,9 +217,7 @@ Execution Run::execute() {
       tbb::parallel_for(
           std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
     });
-  } catch (...) {
-    thrown = std::current_exception();
-  }
+  });
   {
     const std::lock_guard lock(waiting);
     over = true;
@@ -212,10 +226,8 @@ Execution Run::execute() {
   pulse.join();
   progress.draw(true);
   journal_->flush();
-  if (thrown) {
-    log_->error("ended by an error; the evaluations so far are in evaluations.csv");
-    std::rethrow_exception(thrown);
-  }
+  if (failure_.any()) log_->error("ended by an error; the evaluations so far are in evaluations.csv");
+  failure_.rethrow();
   Execution execution;
   if (!broken_) save(true);
   execution.write_failure = journal_->failed() ? journal_->failure() : write_failure_;

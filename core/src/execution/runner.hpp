@@ -21,6 +21,8 @@ struct RunSettings {
   Progress::Style progress = Progress::Style::none;
   /// Told ten times a second by a thread of its own: the share of the budget that is spent, and the line of Progress.
   std::function<void(double share, const std::string& text)> told = {};
+  /// Told before the first evaluation of a resumed run what of its files was damaged, and what becomes of it.
+  std::function<void(const std::string& sentence)> noticed = {};
 };
 
 struct Execution {

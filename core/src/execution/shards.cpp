@@ -29,8 +29,10 @@ std::vector<std::filesystem::path> parts_of(const std::filesystem::path& directo
 
 /// The rows of each task, of a part that is not at work.
 std::map<std::size_t, std::string> rows_of(const std::filesystem::path& part, const EvaluationTable& table,
-                                           const std::vector<Task>& tasks) {
-  recover(part, table, tasks, std::vector<bool>(tasks.size(), false));  // mends what a kill has left
+                                           const std::vector<Task>& tasks, std::vector<std::string>& damages) {
+  // Mends what a kill has left.
+  const Recovered mended = recover(part, table, tasks, std::vector<bool>(tasks.size(), false));
+  damages.insert(damages.end(), mended.damages.begin(), mended.damages.end());
   std::map<std::size_t, std::string> rows;
   const auto add = [&](const std::filesystem::path& file, std::size_t header) {
     std::ifstream stream(file, std::ios::binary);
@@ -68,7 +70,8 @@ std::filesystem::path shard_folder(const std::filesystem::path& directory, const
   return directory / "shards" / fmt::format("{}of{}", share.part, share.of);
 }
 
-void gather_shards(const Plan& plan, const std::filesystem::path& directory) {
+void gather_shards(const Plan& plan, const std::filesystem::path& directory,
+                   const std::function<void(const std::string&)>& noticed) {
   const EvaluationTable table = plan.table();
   const Facts facts = facts_of(plan);
   const std::string& input = plan.experiment->input_json;
@@ -81,9 +84,11 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory) {
         directory.string()));
   for (const auto& part : parts) {
     const auto held = RunDirectory::reopen(part, {});  // refuses one that is still at work
-    const Checkpoint checkpoint = read_checkpoint(part);
+    Checkpoint checkpoint = read_checkpoint(part);
     refuse_changes(part, checkpoint.facts, facts, input);
-    auto own = rows_of(part, table, plan.tasks);
+    auto own = rows_of(part, table, plan.tasks, checkpoint.damages);
+    if (noticed)
+      for (const std::string& sentence : checkpoint.damages) noticed(sentence);
     for (const auto& [task, result] : checkpoint.finished) {
       if (task >= plan.tasks.size() || finished.contains(task)) continue;
       finished[task] = checkpoint_entry(task, result);
@@ -91,7 +96,7 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory) {
     }
   }
   refuse_missing(plan, directory, finished);
-  std::filesystem::create_directories(directory / "parts");
+  if (const auto error = make_folders(directory / "parts")) throw WriteFailure(directory / "parts", error.value());
   for (const auto& [task, text] : rows) write_atomically(Journal::part_file(directory, task), text);
   write_atomically(Journal::main_file(directory), table.header());
   write_atomically(directory / "input.json", input);

@@ -2,9 +2,11 @@
 #include "cache.hpp"
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <fstream>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nettle/sha2.h>
@@ -24,6 +26,27 @@ std::string digest(std::string_view text) {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
+namespace {
+
+/// False where it cannot be written. What stands there under the name, a link or what a killed process has left, is
+/// taken away; nothing is written through it.
+bool write_new(const std::filesystem::path& file, std::string_view text) {
+  ::unlink(file.c_str());
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  bool whole = true;
+  while (whole && !text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    whole = written > 0 || (written < 0 && errno == EINTR);
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  ::close(descriptor);
+  if (!whole) ::unlink(file.c_str());
+  return whole;
+}
+
+}  // namespace
+
 Cache::Cache(std::filesystem::path folder, std::size_t observables)
     : folder_(std::move(folder)), observables_(observables) {
   if (folder_.empty()) return;
@@ -42,11 +65,13 @@ std::optional<Numbers> Cache::find(const std::string& key) const {
   if (!stream) return std::nullopt;
   const auto document = nlohmann::json::parse(stream, nullptr, false);
   try {
-    auto numbers = document.get<Numbers>();
+    const auto& kept = document.at("numbers");
+    if (document.at("sha256") != digest(key + kept.dump())) return std::nullopt;
+    auto numbers = kept.get<Numbers>();
     if (numbers.size() != observables_) return std::nullopt;
     return kept_.emplace(key, std::move(numbers)).first->second;
   } catch (const nlohmann::json::exception&) {
-    return std::nullopt;  // a file that is no result is written anew
+    return std::nullopt;  // a file that is no result, or is damaged, is written anew
   }
 }
 
@@ -56,9 +81,10 @@ void Cache::keep(const std::string& key, const Numbers& numbers) {
   if (folder_.empty()) return;
   // Under another name first, so that no reader finds half a file. What cannot be written is only computed again.
   const std::filesystem::path partial = folder_ / fmt::format("{}.{}.part", key, getpid());
-  std::ofstream(partial) << nlohmann::json(numbers).dump();
+  const nlohmann::json list(numbers);
   std::error_code error;
-  std::filesystem::rename(partial, file(key), error);
+  if (write_new(partial, nlohmann::json{{"numbers", list}, {"sha256", digest(key + list.dump())}}.dump()))
+    std::filesystem::rename(partial, file(key), error);
 }
 
 }  // namespace tunica::external
