@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "data/nearest.hpp"
+#include "text/escaped.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 
@@ -24,10 +25,7 @@ void say(const char* word, const char* colour, const std::string& text) {
   const bool colours = text::Terminal::of(STDERR_FILENO).colours;
   const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
   // What stands in files is quoted, and must not reach the terminal as commands to it.
-  std::string quoted = text;
-  for (char& c : quoted)
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
-  fmt::print(stderr, "{}: {}\n", shown, quoted);
+  fmt::print(stderr, "{}: {}\n", shown, text::message(text));
 }
 
 /// "tunica plugin new" for what was being parsed when it went wrong.

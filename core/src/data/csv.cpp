@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -225,24 +223,6 @@ void read_header(Cutter& cutter, const TableLayout& layout, Csv& csv) {
 }
 
 }  // namespace
-
-std::string read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(fmt::format(
-        "{}: there is no such file. Check its name; paths in an experiment file are relative to it.", file.string()));
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(fmt::format("{}: this is not a regular file. Name a text file.", file.string()));
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (stream) bytes << stream.rdbuf();
-  // An empty file sets failbit on `bytes`, which is no error here.
-  if (!stream.is_open() || stream.bad())
-    throw InputError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
-  return std::move(bytes).str();
-}
 
 Csv parse_csv(const std::filesystem::path& file, std::string_view text, const TableLayout& layout) {
   refuse_encodings(file, text);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/read_bytes.hpp"
 #include "data/rig_request.hpp"
 
 namespace tunica::data {
@@ -44,9 +45,6 @@ struct Csv {
   /// The number in a cell. Throws InputError on text, an empty cell, NaN, infinity.
   [[nodiscard]] double number(const Row& row, std::size_t column, char decimal) const;
 };
-
-/// The bytes of a file. Throws InputError saying why it cannot be read.
-std::string read_bytes(const std::filesystem::path& file);
 
 /// Throws InputError on an empty file, a file without rows, a file without header (unless the layout names columns by
 /// position), an open quote, surplus fields.
