@@ -6,6 +6,7 @@
 
 #include "describe.hpp"
 #include "plugins/guarded.hpp"
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -170,7 +171,7 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
 }
 
 void print_json(const json& document) {
-  fmt::print("{}\n", document.dump(2, ' ', false, json::error_handler_t::replace));
+  fmt::print("{}\n", text::plain_json(document.dump(2, ' ', false, json::error_handler_t::replace)));
 }
 
 }  // namespace tunica::app

@@ -18,6 +18,7 @@
 #include "diagnosis/output/outputs.hpp"
 #include "diagnosis_folder.hpp"
 #include "discovery/output/outputs.hpp"
+#include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
@@ -118,7 +119,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found = diagnosed(experiment, request_of(experiment, session, options),
                                                   session.catalogue(), !options.no_discovery);
-                     std::filesystem::create_directories(results);
+                     execution::make_folder(results);
                      write_diagnosis(results, found, experiment, session.catalogue());
                    });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -97,6 +99,13 @@ int main(int argc, char** argv) {
     return plugin_refused;
   } catch (const tunica::execution::WriteFailure& problem) {
     say_error(problem.what());
+    return invalid_input;
+  } catch (const std::filesystem::filesystem_error& problem) {
+    say_error(fmt::format("{}: {}; check the path, its permissions and the free space", problem.path1().string(),
+                          problem.code().message()));
+    return invalid_input;
+  } catch (const std::bad_alloc&) {
+    say_error("there is not enough memory for this; take fewer realisations, draws, rows or threads");
     return invalid_input;
   } catch (const std::exception& problem) {
     say_error(fmt::format("internal: {}; this is a fault of tunica, please report it with the files that caused it",

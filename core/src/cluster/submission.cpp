@@ -89,7 +89,8 @@ void store(const Submission& submission, const std::filesystem::path& results) {
                                        {"merge_memory", wishes.merge_memory},
                                        {"partition", wishes.partition},
                                        {"jobs", jobs}};
-  execution::write_atomically(jobs_file(results), json.dump(1) + "\n");
+  execution::write_atomically(jobs_file(results),
+                              json.dump(1, ' ', false, decltype(json)::error_handler_t::replace) + "\n");
 }
 
 SubmissionLock::SubmissionLock(const std::filesystem::path& results) {

@@ -102,7 +102,7 @@ std::string to_json(const Record& record) {
                      {"warnings", warnings},
                      {"runs", runs},
                      {"seconds", record.seconds}};
-  return json.dump(1) + "\n";
+  return json.dump(1, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 std::optional<Record> record_of(const std::string& text) {

@@ -304,6 +304,20 @@ std::size_t Csv::column(std::string_view name) const {
                                suggestion(name, names)));
 }
 
+void Csv::require_utf8(bool cells) const {
+  const auto check = [this](std::size_t line, std::size_t column, const std::string& text) {
+    if (!text::is_utf8(text))
+      throw InputError(
+          fmt::format("{}, line {}, column {}: found '{}', which is not UTF-8. Save the file as UTF-8 text.",
+                      file.string(), line, column + 1, excerpt(text)));
+  };
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    check(header_line, k, columns[k].text + columns[k].unit.value_or(""));
+  if (!cells) return;
+  for (const Row& row : rows)
+    for (std::size_t k = 0; k < row.cells.size(); ++k) check(row.line, k, row.cells[k]);
+}
+
 std::string Csv::place(std::size_t line, std::size_t column) const {
   return fmt::format("{}, line {}, column {} ('{}')", file.string(), line, column + 1, excerpt(columns[column].name));
 }

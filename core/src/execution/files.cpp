@@ -109,6 +109,12 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
   sync_folder(file.parent_path());
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw WriteFailure(folder, error.value());
+}
+
 std::string read_text(const std::filesystem::path& file) { return data::read_bytes(file, largest_text); }
 
 }  // namespace tunica::execution

@@ -42,6 +42,9 @@ class AppendFile {
 /// the last rename stays. One that is killed may leave a file <name>.new-<16 digits>, which nobody reads.
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 
+/// A folder that may be there already; throws WriteFailure.
+void make_folder(const std::filesystem::path& folder);
+
 /// The whole text of a file; throws InputError.
 std::string read_text(const std::filesystem::path& file);
 

@@ -26,7 +26,7 @@ Journal::Journal(std::filesystem::path directory, const EvaluationTable& table, 
   }
   main_ = AppendFile(main_file(directory_));
   if (stored.rows.empty()) main_.append(table_.header());
-  if (tasks_.size() > 1) std::filesystem::create_directories(directory_ / "parts");
+  if (tasks_.size() > 1) make_folder(directory_ / "parts");
 }
 
 Journal::~Journal() {

@@ -2,6 +2,7 @@
 #include "execution/runner.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -43,7 +44,11 @@ class Run {
         results_(plan.tasks.size()),
         stored_(plan.tasks.size()) {
     const auto log_file = (settings.directory / "run.log").string();
-    log_ = std::make_shared<spdlog::logger>("run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file));
+    try {
+      log_ = std::make_shared<spdlog::logger>("run", std::make_shared<spdlog::sinks::basic_file_sink_mt>(log_file));
+    } catch (const spdlog::spdlog_ex&) {
+      throw WriteFailure(log_file, errno);
+    }
     log_->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
     log_->set_error_handler([](const std::string&) {});  // a full disk is reported by the journal
     open();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -38,6 +39,10 @@ std::filesystem::path read_file_name(const Node& node, const std::filesystem::pa
   std::filesystem::path file = (folder / name).lexically_normal();
   std::error_code error;
   if (!name.empty() && std::filesystem::is_regular_file(file, error)) return file;
+  if (!name.empty() && std::filesystem::exists(file, error))
+    node.fail(fmt::format("the data file '{}' is {}", excerpt(name),
+                          std::filesystem::is_directory(file, error) ? "a folder" : "no regular file"),
+              "Name a file that holds a table as text.");
   std::vector<std::string> present;
   std::filesystem::directory_iterator entries(file.parent_path().empty() ? "." : file.parent_path(), error), end;
   for (; !error && entries != end && present.size() < 1000; entries.increment(error))
@@ -93,6 +98,9 @@ data::Noise read_noise_of(const Node& node, const Observable& channel) {
   if (noise.relative < 0)
     node.child_or_self("relative")
         .fail(fmt::format("the relative noise is {}", noise.relative), "A standard deviation is not negative.");
+  if (!std::isfinite(noise.absolute) || !std::isfinite(noise.relative))
+    node.fail(fmt::format("the noise of '{}' is infinite", channel.name),
+              "Give a finite standard deviation; \"weight\": 0 leaves a channel out of the fit.");
   if (!(noise.absolute > 0 || noise.relative > 0))
     node.fail(fmt::format("the noise of '{}' is zero", channel.name),
               "Give \"absolute\" or \"relative\" greater than zero, or leave \"noise\" out to have it estimated.");

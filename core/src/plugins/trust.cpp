@@ -59,17 +59,18 @@ std::string distrust(const fs::path& path, std::string_view who, std::string_vie
         "{} belongs to the user {}, who could {}; expected one that belongs to you or to root; take a copy of your "
         "own{}",
         who, user_name(status.st_uid), harm, otherwise);
+  const std::string_view kind = S_ISDIR(status.st_mode) ? "folder" : "file";
   if (sticky_is_fine && (status.st_mode & S_ISVTX) != 0) return {};
   if ((status.st_mode & S_IWOTH) != 0)
     return fmt::format(
-        "{} can be written by every user, so that any of them could {}; expected one writable by its owner only; run: "
+        "{} can be written by every user, so that any of them could {}; expected a {} writable by its owner only; run: "
         "chmod o-w '{}'{}",
-        who, harm, path.string(), otherwise);
+        who, harm, kind, path.string(), otherwise);
   if ((status.st_mode & S_IWGRP) != 0 && !is_private_group(status.st_uid, status.st_gid))
     return fmt::format(
-        "{} can be written by its group, so that any member could {}; expected one writable by its owner only; run: "
+        "{} can be written by its group, so that any member could {}; expected a {} writable by its owner only; run: "
         "chmod g-w '{}'{}",
-        who, harm, path.string(), otherwise);
+        who, harm, kind, path.string(), otherwise);
   return {};
 }
 
