@@ -101,8 +101,8 @@ int main(int argc, char** argv) {
     say_error(problem.what());
     return invalid_input;
   } catch (const std::filesystem::filesystem_error& problem) {
-    say_error(fmt::format("{}: {}; check the path, its permissions and the free space", problem.path1().string(),
-                          problem.code().message()));
+    say_error(fmt::format("the system refused {}: {}; check the path, its permissions and the free space",
+                          problem.path1().string(), problem.code().message()));
     return invalid_input;
   } catch (const std::bad_alloc&) {
     say_error("there is not enough memory for this; take fewer realisations, draws, rows or threads");

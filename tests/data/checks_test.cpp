@@ -55,8 +55,8 @@ TEST(Checks, WarnOfRowsThatLieOnAStraightLine) {
   for (int row = 0; row < 8; ++row) text += fmt::format("{},{}\n", 1 + 0.05 * row, 12.5 * row);
   EXPECT_EQ(only_warning(text),
             "strip.csv, line 1, column 2 ('stress'): the 8 rows lie on a straight line over 'stretch' to the last "
-            "digit, as no measurement does. Were they interpolated or computed? There is no scatter that a noise "
-            "could be estimated from");
+            "digit, as no measurement does. Were they interpolated or computed? There is no scatter to "
+            "estimate a noise from; state it");
   EXPECT_TRUE(read_strip(text + "1.4,100.01\n").warnings.empty()) << "one digit of one row";
 }
 

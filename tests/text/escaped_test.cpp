@@ -63,7 +63,7 @@ TEST(PlainJson, EscapesWhatTheLibraryWritesRaw) {
 }
 
 TEST(Wrapping, ShowsEscapedWhatIsNotPlain) {
-  EXPECT_EQ(hanging("a\033: ", "b\u202E c\nd"), "a\\x1b: b\\u202e c\n        d");
+  EXPECT_EQ(hanging("a\033: ", "b\u202E c\nd"), "a\\x1b: b\\u202e c\n       d");
   EXPECT_EQ(pad("\033", 6), "\\x1b  ");
   EXPECT_EQ(pad_left("\xFF", 6), "  \\xff");
 }

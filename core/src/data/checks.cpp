@@ -62,7 +62,7 @@ void check_straight(const Series& series, const Series::Column& abscissa, const 
     if (!(std::abs(y[row] - y.front() - rise * ((x[row] - x.front()) / run)) <= rounding * std::abs(rise))) return;
   warnings.push_back(fmt::format(
       "{}: the {} rows lie on a straight line over '{}' to the last digit, as no measurement does. Were they "
-      "interpolated or computed? There is no scatter that a noise could be estimated from",
+      "interpolated or computed? There is no scatter to estimate a noise from; state it",
       series.header_place(channel), y.size(), abscissa.name));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -98,9 +97,6 @@ data::Noise read_noise_of(const Node& node, const Observable& channel) {
   if (noise.relative < 0)
     node.child_or_self("relative")
         .fail(fmt::format("the relative noise is {}", noise.relative), "A standard deviation is not negative.");
-  if (!std::isfinite(noise.absolute) || !std::isfinite(noise.relative))
-    node.fail(fmt::format("the noise of '{}' is infinite", channel.name),
-              "Give a finite standard deviation; \"weight\": 0 leaves a channel out of the fit.");
   if (!(noise.absolute > 0 || noise.relative > 0))
     node.fail(fmt::format("the noise of '{}' is zero", channel.name),
               "Give \"absolute\" or \"relative\" greater than zero, or leave \"noise\" out to have it estimated.");
