@@ -43,7 +43,7 @@ TEST(MemoryNeed, IsRefusedWithItsFigureBeforeTheStart) {
   const auto need = execution::memory_need(laboratory.plan(), 1);
   EXPECT_NO_THROW(execution::refuse_excess(need, 4 * GiB));
   const std::string message = trial::message_of<InputError>([&] { execution::refuse_excess(need, 0.1 * GiB); });
-  EXPECT_THAT(message, HasSubstr("the experiment needs about 410 MiB of memory, most of it for 100000 realisations ("));
+  EXPECT_THAT(message, HasSubstr("the experiment needs about 982 MiB of memory, most of it for 100000 realisations ("));
   EXPECT_THAT(message, HasSubstr("and this process may have 102 MiB; lower \"realisations\" of the runs"));
 }
 
