@@ -62,8 +62,8 @@ RETURNS = ("core/src/plugins/", "core/src/execution/files", "apps/tunica/session
 
 # A clause that begins so tells what to do or what is expected.
 DO = ("Add Allow Bind Check Choose Close Correct Define Enlarge Expected Fill Finish Fit Fix Free Give Hold Impose "
-      "Install Keep Leave Let Link List Look Make Map Mend Mount Move Name Narrow Pass Put Raise Rebuild Remove "
-      "Rename Resume Run Save Say See Select Set Share Start State Strike Swap Take Use Wait Widen Write").split()
+      "Install Keep Leave Let Link List Look Lower Make Map Mend Mount Move Name Narrow Pass Put Raise Rebuild Remove "
+      "Rename Resume Run Save Say See Select Set Share Shorten Start State Strike Swap Take Use Wait Widen Write").split()
 EXPECT = ["0 leaves it", "A fixed parameter is", "A map has", "A stage is", "A standard deviation is", "A stretch is",
           "About four", "At most", "Did you mean", "Difference the whole", "It applies", "It must", "JSON has",
           "Keys look", "Paths are", "Quantities with", "Radii are", "Relative names", "Rows are", "Rows must",

@@ -111,7 +111,7 @@ void add_cohort_cluster(CLI::App& cohort, GlobalOptions& global, Action& action)
   submit->add_flag("--slurm", options->slurm, "The queue: Slurm, a job array and a merge that waits for it")
       ->required();
   submit->add_option("--shards", options->shards, "Number of shards; without it each takes about 20 minutes")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 100000))
       ->type_name("N");
   submit
       ->add_option("--pilot", options->pilot, "Specimens that are fitted here to measure time and memory; 3 without it")

@@ -7,6 +7,7 @@
 #include "answer.hpp"
 #include "describe.hpp"
 #include "plugins/guarded.hpp"
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -170,6 +171,8 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
   return document;
 }
 
-void print_json(const json& document) { answer("{}\n", document.dump(2, ' ', false, json::error_handler_t::replace)); }
+void print_json(const json& document) {
+  answer("{}\n", text::plain_json(document.dump(2, ' ', false, json::error_handler_t::replace)));
+}
 
 }  // namespace tunica::app

@@ -122,8 +122,7 @@ int diagnose_batch(const GlobalOptions& global, const DiagnoseOptions& options) 
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found = diagnosed(experiment, request_of(experiment, session, options),
                                                   session.catalogue(), !options.no_discovery);
-                     if (const auto error = execution::make_folders(results))
-                       throw execution::WriteFailure(results, error.value());
+                     execution::make_folder(results);
                      write_diagnosis(results, found, experiment, session.catalogue());
                    });
 }

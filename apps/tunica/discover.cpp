@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 #include "answer.hpp"
 #include "batch.hpp"
 #include "cohort/discovery_study.hpp"
+#include "data/read_bytes.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "discovery/output/outputs.hpp"
 #include "discovery_folder.hpp"
@@ -105,8 +105,7 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
 
 /// Whether the file describes a cohort: it names specimens and the experiment of each.
 bool is_cohort(const std::string& file) {
-  std::ifstream stream(file);
-  const auto json = nlohmann::json::parse(stream, nullptr, false, true);
+  const auto json = nlohmann::json::parse(data::read_bytes(file), nullptr, false, true);
   return json.is_object() && json.contains("specimens") && json.contains("experiment");
 }
 
@@ -153,8 +152,7 @@ int discover_batch(const GlobalOptions& global, const DiscoverOptions& options) 
                      const auto experiment = session.read(of_case / "experiment.json");
                      const auto found =
                          discovery::discover(experiment, request_of(experiment, options.wishes), session.catalogue());
-                     if (const auto error = execution::make_folders(results))
-                       throw execution::WriteFailure(results, error.value());
+                     execution::make_folder(results);
                      write_discovery(results, found, experiment, session.catalogue());
                    });
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -126,6 +128,13 @@ int contained(int argc, char** argv) {
   } catch (const plugins::PluginFailure& problem) {
     say_error(fmt::format("{}. Take the plugin out, or report this to its author", problem.what()));
     return internal_error;
+  } catch (const std::filesystem::filesystem_error& problem) {
+    say_error(fmt::format("the system refused {}: {}; check the path, its permissions and the free space",
+                          problem.path1().string(), problem.code().message()));
+    return invalid_input;
+  } catch (const std::bad_alloc&) {
+    say_error("there is not enough memory for this; take fewer realisations, draws, rows or threads");
+    return invalid_input;
   } catch (const std::exception& problem) {
     return fault(problem.what());
   } catch (...) {

@@ -12,6 +12,7 @@
 
 #include "data/nearest.hpp"
 #include "text/aside.hpp"
+#include "text/escaped.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 
@@ -25,10 +26,7 @@ void say(const char* word, const char* colour, const std::string& text) {
   const bool colours = text::Terminal::of(STDERR_FILENO).colours;
   const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
   // What stands in files is quoted, and must not reach the terminal as commands to it.
-  std::string quoted = text;
-  for (char& c : quoted)
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\n') || c == 0x7f) c = '?';
-  text::aside("{}: {}\n", shown, quoted);
+  text::aside("{}: {}\n", shown, text::message(text));
 }
 
 /// "tunica plugin new" for what was being parsed when it went wrong.

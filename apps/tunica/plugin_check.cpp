@@ -16,6 +16,7 @@
 #include "messages.hpp"
 #include "plugin.hpp"
 #include "plugins/loader.hpp"
+#include "text/escaped.hpp"
 #include "text/lists.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
@@ -155,7 +156,7 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
   if (asked.as_json) {
     json all{{"plugin", plugin}, {"file", asked.file}, {"seed", asked.seed}, {"passed", failed == 0}};
     for (const Finding& one : findings) all["findings"].push_back(as_json(one));
-    answer("{}\n", all.dump(2));
+    answer("{}\n", text::plain_json(all.dump(2, ' ', false, json::error_handler_t::replace)));
     return failed == 0 ? done : not_converged;
   }
   const std::string checked = fmt::format("{} of {} held", findings.size() - failed - skipped, findings.size()) +

@@ -75,7 +75,7 @@ int begin_plugin(const GlobalOptions& global, const New& wanted) {
   if (fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder)))
     throw InputError(
         fmt::format("{} exists and is not empty; nothing was written; name another folder with -o", folder.string()));
-  if (const auto error = execution::make_folders(folder)) throw execution::WriteFailure(folder, error.value());
+  execution::make_folder(folder);
   answer("{}: a {} that builds and passes as it stands\n", folder.string(), wanted.kind);
   for (const TemplateFile& file : template_files()) {
     if (file.kind != wanted.kind) continue;

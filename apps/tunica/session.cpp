@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "answer.hpp"
+#include "data/read_bytes.hpp"
 #include "messages.hpp"
 #include "tunica/error.hpp"
 
@@ -21,17 +21,26 @@ std::string describe(const plugins::RefusedPlugin& refusal) {
   return fmt::format("plugin {} was refused: {}", refusal.file.string(), refusal.reason);
 }
 
+/// Nothing where it cannot be read, which was said before.
+std::string text_of(const std::filesystem::path& file) {
+  try {
+    return data::read_bytes(file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 /// Every text under a key "type" in the file, as far as it can be read.
 std::set<std::string> types_named_in(const std::filesystem::path& file) {
   std::set<std::string> types;
-  std::ifstream stream(file);
-  const auto document = nlohmann::json::parse(stream, nullptr, false, true);
-  const auto collect = [&](const auto& self, const nlohmann::json& value) -> void {
+  const auto document = nlohmann::json::parse(text_of(file), nullptr, false, true);
+  constexpr int deepest = 64;  // nested deeper it is no experiment
+  const auto collect = [&](const auto& self, const nlohmann::json& value, int depth) -> void {
     if (value.is_object() && value.contains("type") && value["type"].is_string()) types.insert(value["type"]);
-    if (value.is_structured())
-      for (const auto& child : value) self(self, child);
+    if (value.is_structured() && depth < deepest)
+      for (const auto& child : value) self(self, child, depth + 1);
   };
-  if (!document.is_discarded()) collect(collect, document);
+  if (!document.is_discarded()) collect(collect, document, 0);
   return types;
 }
 

@@ -30,13 +30,13 @@ TEST(InvalidInput, MistypedParameter) {
 TEST(InvalidInput, ControlCharactersOfAFileDoNotReachTheTerminal) {
   trial::Bench bench;
   bench.experiment["models"]["g\033[31m"] = {{"type", "gho"}};
-  EXPECT_THAT(refused(bench), AllOf(HasSubstr("the model name 'g?[31m'"), HasSubstr("/models/g?[31m, line"),
+  EXPECT_THAT(refused(bench), AllOf(HasSubstr("the model name 'g\\x1b[31m'"), HasSubstr("/models/g\\x1b[31m, line"),
                                     ::testing::Not(HasSubstr("\033"))));
   bench.experiment["models"].erase("g\033[31m");
   bench.experiment["name"] = "a\033[31mb\a";
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   EXPECT_EQ(ended.code, 0);
-  EXPECT_THAT(ended.out, AllOf(HasSubstr("a?[31mb?, seed 7"), ::testing::Not(HasSubstr("\033"))));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("a\\x1b[31mb\\x07, seed 7"), ::testing::Not(HasSubstr("\033"))));
   EXPECT_THAT(ended.err, ::testing::Not(HasSubstr("\033")));
 }
 

@@ -91,5 +91,5 @@ TEST(Simulate, RefusesWhatItCannotUse) {
   EXPECT_THAT(message("gho", "wrong.json"), AllOf(HasSubstr("wrong.json: muu"), HasSubstr("Did you mean 'mu'?")));
   EXPECT_THAT(message("gho", "fixed.json"), HasSubstr("holds it fixed at 0.1"));
   EXPECT_THAT(message("gho", "list.json"), HasSubstr("expected an object {name: value}"));
-  EXPECT_THAT(message("gho", "nowhere.json"), HasSubstr("nowhere.json: cannot be read"));
+  EXPECT_THAT(message("gho", "nowhere.json"), HasSubstr("nowhere.json: there is no such file"));
 }

@@ -133,6 +133,33 @@ TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {
   EXPECT_EQ(std::count_if(summary.warnings.begin(), summary.warnings.end(), same), 1);
 }
 
+TEST(Summary, SaysFirstThatAMisfitIsOutOfAllScale) {
+  Summarised made;
+  made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();
+  made.laboratory.bench.experiment.tests.front().data.noise = {{"y", {1e-14, 0, 0}}};
+  made.plan.emplace(made.laboratory.plan());
+  made.results[0].realisations = {made.realisation(1, {9, 1, 3})};
+  const auto summary = made.summarise();
+  EXPECT_EQ(summary.warnings.at(0).kind, execution::WarningKind::misfit_out_of_scale);
+  EXPECT_THAT(summary.warnings.at(0).text(),
+              HasSubstr("m/walk: NOT A FIT: 'y' of test 'curve' lies 7e+14 times its noise away on average, so that "
+                        "objective and intervals mean nothing: σ is 1e-14"));
+}
+
+TEST(Summary, SaysFirstThatThereIsNoMisfitAtAll) {
+  Summarised made;
+  made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();
+  made.plan.emplace(made.laboratory.plan());
+  made.results[0].realisations = {made.realisation(1, {2, 1, 3})};
+  EXPECT_EQ(made.summarise().warnings.at(0).kind, execution::WarningKind::no_misfit);
+  EXPECT_THAT(made.summarise().warnings.at(0).sentence, HasSubstr("The model repeats the data to the last digit"));
+  made.laboratory.bench.experiment.tests.front().data.noise = {{"y", {1e200, 0, 0}}};
+  made.plan.emplace(made.laboratory.plan());
+  made.results[0].realisations = {made.realisation(1, {9, 1, 3})};
+  EXPECT_THAT(made.summarise().warnings.at(0).sentence,
+              HasSubstr("The noise of 'y' of test 'curve' hides every deviation: σ is 1e+200"));
+}
+
 TEST(Summary, WarnsOfEqualCoursesBesideAnOptimiserThatCrashed) {
   Summarised made;
   execution::RealisationResult crashed = made.realisation(3, {2, 1, 3});

@@ -27,6 +27,11 @@ TEST(Isolated, PassesAVerdictOnAsItIs) {
   EXPECT_EQ(found.note, given.note);
 }
 
+TEST(Isolated, PassesFiguresOnThatAreBarelyOnes) {
+  for (const double figure : {1e-310, 5e-324, -1e-310, std::numeric_limits<double>::max()})
+    EXPECT_EQ(isolated([&] { return Verdict{"a with b", figure, figure}; }, 60).worst, figure);
+}
+
 TEST(Isolated, TurnsAnExceptionIntoACounterExample) {
   EXPECT_EQ(isolated([]() -> Verdict { throw std::runtime_error("no"); }, 60).counter_example, "no");
   EXPECT_THAT(isolated([]() -> Verdict { throw 7; }, 60).counter_example, HasSubstr("no std::exception"));

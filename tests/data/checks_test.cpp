@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "data/strip.hpp"
@@ -47,6 +48,16 @@ TEST(Checks, TellPercentFromAFraction) {
             std::string::npos);
   EXPECT_NE(only_warning("stretch,stress [kPa]\n5,0\n10,900\n").find("every stretch is above 2 and none is near 1"),
             std::string::npos);
+}
+
+TEST(Checks, WarnOfRowsThatLieOnAStraightLine) {
+  std::string text = "stretch [1],stress [kPa]\n";
+  for (int row = 0; row < 8; ++row) text += fmt::format("{},{}\n", 1 + 0.05 * row, 12.5 * row);
+  EXPECT_EQ(only_warning(text),
+            "strip.csv, line 1, column 2 ('stress'): the 8 rows lie on a straight line over 'stretch' to the last "
+            "digit, as no measurement does. Were they interpolated or computed? There is no scatter to "
+            "estimate a noise from; state it");
+  EXPECT_TRUE(read_strip(text + "1.4,100.01\n").warnings.empty()) << "one digit of one row";
 }
 
 TEST(Checks, WarnOfTensionThatPushes) {

@@ -110,5 +110,14 @@ TEST(Files, SayThatTheDiskIsFullAndWhatToDo) {
 
 TEST(Files, SayWhichFileCannotBeRead) {
   const auto message = trial::message_of<InputError>([] { execution::read_text("/nowhere/result.json"); });
-  EXPECT_THAT(message, HasSubstr("/nowhere/result.json: cannot be read: No such file"));
+  EXPECT_THAT(message, HasSubstr("/nowhere/result.json: there is no such file. Check its name"));
+}
+
+TEST(Files, SayWhichFolderCannotBeMade) {
+  const trial::Folder folder;
+  execution::make_folder(folder.path() / "a" / "b");
+  execution::make_folder(folder.path() / "a" / "b");
+  const auto below = folder.write("file", "") / "below";
+  EXPECT_THAT(trial::message_of<WriteFailure>([&] { execution::make_folder(below); }),
+              HasSubstr(below.string() + ": cannot write: Not a directory"));
 }

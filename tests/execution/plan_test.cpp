@@ -52,6 +52,20 @@ TEST(Plan, RefusesAnOptimiserThatNeedsResidualsWhereThereAreNone) {
   EXPECT_THAT(refusal(laboratory), HasSubstr("no row is left to fit"));
 }
 
+TEST(Plan, RefusesWeightsThatAreAllZero) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk");
+  laboratory.bench.experiment.tests.front().weights = {0};
+  EXPECT_THAT(refusal(laboratory), HasSubstr("run m/walk: every row that could be fitted has the weight 0"));
+}
+
+TEST(Plan, RefusesAnInfiniteNoise) {
+  trial::Laboratory laboratory;
+  laboratory.add_run("walk");
+  laboratory.bench.experiment.tests.front().data.noise = {{"y", {0, 1e308, 0}}};
+  EXPECT_THAT(refusal(laboratory), HasSubstr("the stated noise gives σ = ∞ in row 0; lower noise.absolute"));
+}
+
 TEST(Plan, RefusesConstraintsForAnOptimiserThatDoesNotMeetThem) {
   trial::Laboratory laboratory;
   laboratory.bench.model().type = "bordered";

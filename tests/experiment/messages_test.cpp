@@ -61,8 +61,9 @@ TEST_F(Messages, NameWrongTypes) {
   expect_within(refusal(R"("seed": 7)", R"("seed": "7")"),
                 "found the text '7' where a whole number from 0 is expected");
   expect_within(refusal(R"("name": "lamb-aorta")", R"("name": null)"), "found null where a name is expected (/name");
-  expect_within(refusal(R"("stall": 500)", R"("stall": 0)"),
-                "found the number 0 where a whole number of evaluations from 1 is expected (/stop/stall");
+  expect_within(
+      refusal(R"("stall": 500)", R"("stall": 0)"),
+      "found the number 0 where a whole number of evaluations from 1 to 1000000000000 is expected (/stop/stall");
   expect_within(refusal(R"("parents": 30)", R"("parents": 1.5)"),
                 "found the number 1.5 where the option 'parents', a whole number, is expected");
   expect_within(refusal(R"("parents": 30)", R"("parents": 0)"),

@@ -15,7 +15,7 @@ TEST(Wrapping, CountsColumnsNotBytes) {
 TEST(Wrapping, CutsOffWhatIsTooLong) {
   EXPECT_EQ(shortened("λμν", 3), "λμν");
   EXPECT_EQ(shortened("λμνξ", 3), "λμ…");
-  EXPECT_EQ(shortened("a\033[31mb\r", 20), "a?[31mb?");
+  EXPECT_EQ(shortened("a\033[31mb\r", 20), "a\\x1b[31mb\\r");
   EXPECT_EQ(shortened("ab", 0), "");
 }
 

@@ -5,6 +5,7 @@
 #include "diagnosis/evidence/base_fit.hpp"
 #include "execution/files.hpp"
 #include "plugins/guarded.hpp"
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::python {
@@ -15,7 +16,7 @@ namespace {
 void translate(std::exception_ptr thrown) {
   const auto raise = [](const char* name, const char* message) {
     const auto type = py::module_::import("tunica.errors").attr(name);
-    PyErr_SetString(type.ptr(), message);
+    PyErr_SetString(type.ptr(), text::message(message).c_str());  // bytes that are not UTF-8 would raise another
   };
   try {
     if (thrown) std::rethrow_exception(thrown);

@@ -47,6 +47,9 @@ NoiseModel stated(const data::Channel& channel, const std::vector<std::size_t>& 
   for (const std::size_t row : rows) {
     const double y = noise.level.empty() ? channel.values[row] : noise.level[row];
     model.sd.push_back(std::hypot(noise.absolute, noise.relative * y) / std::sqrt(replicates));
+    if (!std::isfinite(model.sd.back()))
+      throw InputError(fmt::format("{}: the stated noise gives σ = ∞ in row {}; lower noise.absolute or noise.relative",
+                                   where, row));
     if (model.sd.back() > 0) smallest = std::min(smallest, model.sd.back());
   }
   if (!std::isfinite(smallest)) {

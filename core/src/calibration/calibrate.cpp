@@ -18,6 +18,7 @@
 #include "comparison/wall_tables.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
+#include "execution/memory_need.hpp"
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "execution/shards.hpp"
@@ -169,6 +170,7 @@ Outcome calibrate(const experiment::Experiment& experiment, const plugins::Catal
                   const Options& options) {
   const auto plan = execution::make_plan(experiment, catalogue);
   refuse_runs_without_data(plan);
+  execution::refuse_excess(execution::memory_need(plan, options.threads), execution::memory_limit());
   comparison::check_analysis(plan, catalogue);
   const auto folder = folder_of(options, experiment.name);
   Outcome outcome;

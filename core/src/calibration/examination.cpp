@@ -9,6 +9,7 @@
 
 #include "comparison/ranking.hpp"
 #include "comparison/uncertainty.hpp"
+#include "execution/memory_need.hpp"
 #include "plugins/guarded.hpp"
 #include "uncertainty/identifiability.hpp"
 
@@ -109,6 +110,7 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
                     {},
                     paths_of(experiment, catalogue),
                     understood_of(experiment, catalogue)};
+  execution::refuse_excess(execution::memory_need(found.plan, 1), execution::memory_limit());
   comparison::check_analysis(found.plan, catalogue);
   auto& warnings = found.warnings;
   warnings = found.plan.warnings;

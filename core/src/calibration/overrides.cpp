@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/overrides.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "experiment/limits.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::calibration {
 
@@ -20,6 +24,10 @@ void apply(const Overrides& overrides, experiment::Experiment& experiment) {
         analysis.all_profiles ? nlohmann::ordered_json("all") : nlohmann::ordered_json(analysis.profiles);
   }
   if (overrides.bootstrap_draws) {
+    using namespace experiment::limits;
+    if (*overrides.bootstrap_draws < least_draws || *overrides.bootstrap_draws > draws)
+      throw InputError(fmt::format("the bootstrap is to draw {} data sets; expected a number from {} to {}",
+                                   *overrides.bootstrap_draws, least_draws, draws));
     analysis.bootstrap_draws = *overrides.bootstrap_draws;
     input["analysis"]["bootstrap"]["draws"] = *overrides.bootstrap_draws;
   }

@@ -89,12 +89,13 @@ void store(const Submission& submission, const std::filesystem::path& results) {
                                        {"merge_memory", wishes.merge_memory},
                                        {"partition", wishes.partition},
                                        {"jobs", jobs}};
-  execution::write_atomically(jobs_file(results), json.dump(1) + "\n");
+  execution::write_atomically(jobs_file(results),
+                              json.dump(1, ' ', false, decltype(json)::error_handler_t::replace) + "\n");
 }
 
 SubmissionLock::SubmissionLock(const std::filesystem::path& results) {
   const auto folder = queue_folder(results);
-  if (const auto error = execution::make_folders(folder)) throw execution::WriteFailure(folder, error.value());
+  execution::make_folder(folder);
   const auto file = folder / "lock";
   file_ = execution::AppendFile(file);
   if (::flock(file_.descriptor(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)

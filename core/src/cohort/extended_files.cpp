@@ -45,7 +45,7 @@ Json template_json(const Specification& cohort) {
 std::string experiment_text(const Specification& cohort, Json experiment) {
   move_data(experiment, cohort.experiment.parent_path());
   experiment.erase("$schema");
-  return experiment.dump(2) + "\n";
+  return experiment.dump(2, ' ', false, decltype(experiment)::error_handler_t::replace) + "\n";
 }
 
 std::string cohort_text(const Specification& cohort) {
@@ -62,7 +62,7 @@ std::string cohort_text(const Specification& cohort) {
     if (names_a_file(pointer)) pattern = moved(pattern, folder);
   json.erase("diagnosis");
   json.erase("$schema");
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tunica::cohort

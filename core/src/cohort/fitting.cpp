@@ -114,7 +114,7 @@ void fit_into(Record& record, const experiment::Experiment& experiment, const pl
 }
 
 void make_folder(const std::filesystem::path& folder) {
-  if (const auto error = execution::make_folders(folder)) throw execution::WriteFailure(folder, error.value());
+  execution::make_folder(folder);
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ std::string to_json(const Record& record) {
                      {"warnings", warnings},
                      {"runs", runs},
                      {"seconds", record.seconds}};
-  return execution::sealed(json).dump(1) + "\n";
+  const auto whole = execution::sealed(json);
+  return whole.dump(1, ' ', false, decltype(whole)::error_handler_t::replace) + "\n";
 }
 
 std::optional<Record> record_of(const std::string& text) {

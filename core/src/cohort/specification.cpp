@@ -6,6 +6,7 @@
 #include "data/csv.hpp"
 #include "experiment/json_document.hpp"
 #include "experiment/json_node.hpp"
+#include "experiment/limits.hpp"
 
 namespace tunica::cohort {
 
@@ -96,7 +97,8 @@ void read_population(const Node& node, Specification& cohort) {
   node.allow_only({"spread", "noise", "permutations"}, "population");
   if (const auto spread = node.find("spread")) cohort.spread = coded(*spread, spread_codes, "structure of spreads");
   if (const auto noise = node.find("noise")) cohort.noise = coded(*noise, noise_pool_codes, "source of noise");
-  if (const auto count = node.find("permutations")) cohort.permutations = count->count("a whole number from 99", 99);
+  if (const auto count = node.find("permutations"))
+    cohort.permutations = count->count("a whole number", 99, experiment::limits::permutations);
 }
 
 /// true, false, or an object.
@@ -120,7 +122,7 @@ void read_diagnosis(const Node& node, Specification& cohort) {
 Specification read_specification(const std::filesystem::path& file) {
   Specification cohort;
   cohort.file = file;
-  cohort.text = data::read_bytes(file);
+  cohort.text = data::read_bytes(file, experiment::limits::file_bytes);
   const JsonDocument document(file, cohort.text);
   const Node root(document);
   root.expect_object("a cohort, { \"format\": 1, … },");
@@ -137,7 +139,7 @@ Specification read_specification(const std::filesystem::path& file) {
   cohort.name = file.stem().string();
   if (const auto node = root.find("$schema")) node->text("the name of a schema");
   if (const auto node = root.find("name")) cohort.name = node->text("a name");
-  if (const auto node = root.find("seed")) cohort.seed = node->count("a whole number from 0");
+  if (const auto node = root.find("seed")) cohort.seed = node->count("a whole number", 0);
   const Node experiment = root.require("experiment", "the cohort file");
   cohort.experiment = file.parent_path() / experiment.text("the file name of an experiment");
   read_table(root.require("specimens", "the cohort file"), cohort);

@@ -90,6 +90,7 @@ SpecimenTable read_specimens(const Specification& cohort) {
   data::TableLayout layout;
   layout.row_names = cohort.id_column;
   const data::Csv csv = data::parse_csv(cohort.table, data::read_bytes(cohort.table), layout);
+  csv.require_utf8(true);
   SpecimenTable table{cohort.table, csv.columns, 0, {}, {}};
   if (!cohort.id_column.empty()) table.id = table.column(cohort.id_column, cohort.table_place);
   const std::size_t id = table.id;

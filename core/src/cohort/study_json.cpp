@@ -155,7 +155,7 @@ std::string study_json(const Specification& cohort, const SpecimenTable& table, 
                         {"seed", cohort.seed},
                         {"cohort_sha256", data::sha256(cohort.text)},
                         {"inputs_sha256", data::sha256(inputs)}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, decltype(json)::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tunica::cohort

@@ -116,12 +116,36 @@ void add_quality(const assembly::Assembly& assembly, const execution::Realisatio
     auto& own = kind == assembly::NoiseKind::stated ? summary.misfit : summary.misfit_estimated;
     if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
   }
+  add_deviation(assembly, predictions, summary);
   for (auto& channel : assembly::quality(assembly, predictions)) {
     if (channel.fitted)
       summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
     if (channel.held_out)
       summary.quality.push_back(
           {channel.test, channel.observable, channel.unit, true, *channel.held_out, channel.over});
+  }
+}
+
+/// Of the fitted channels that count, the one that the predictions are farthest from.
+void add_deviation(const assembly::Assembly& assembly, const std::vector<double>& predictions, RunSummary& summary) {
+  for (const auto& view : assembly.layout().channels) {
+    const std::vector<double>& sd = view.sigma.rows.sd;
+    if (!(view.weight > 0) || sd.empty()) continue;
+    Deviation one{view.test, view.observable, view.unit};
+    const auto rows = static_cast<double>(sd.size());
+    for (std::size_t i = 0, k = 0; i < view.count; ++i) {
+      if (!view.fitted[i]) continue;
+      const double error = std::abs(predictions[view.offset + i] - view.measured[i]);
+      one.mean += error / sd[k++] / rows;
+      one.share += error / rows;
+      one.largest = std::max(one.largest, std::abs(view.measured[i]));
+    }
+    std::vector<double> sorted = sd;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    one.sd = *middle;
+    if (one.largest > 0) one.share /= one.largest;
+    if (!summary.deviation || one.mean > summary.deviation->mean) summary.deviation = std::move(one);
   }
 }
 

@@ -48,8 +48,8 @@ double value_of(const json& value, const std::string& unit, const std::string& w
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", where, problem.what()));
   }
-  throw InputError(
-      fmt::format("{}: found {}, expected a number or a quantity such as \"10.4 kPa\"", where, value.dump()));
+  throw InputError(fmt::format("{}: found {}, expected a number or a quantity such as \"10.4 kPa\"", where,
+                               value.is_structured() ? value.type_name() : data::excerpt(value.dump())));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::filesystem::path write_record(const std::filesystem::path& directory, const
       curves.push_back(
           {{"test", table.test}, {"column", curve.column}, {"over", curve.over}, {"prescribed", table.prescribed}});
   auto file = directory / "simulation.json";
-  execution::write_atomically(file, record.dump(2) + '\n');
+  execution::write_atomically(file, record.dump(2, ' ', false, decltype(record)::error_handler_t::replace) + '\n');
   return file;
 }
 

@@ -157,11 +157,13 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
     if (std::none_of(all.begin(), all.end(), same)) all.push_back(warning);
   };
   const auto own = warnings_of(plan, summary.runs);
-  const auto contradicted = [](const execution::Warning& warning) {
-    return warning.kind == execution::WarningKind::noise_contradicted;
+  const auto first = [](const execution::Warning& warning) {
+    return warning.kind == execution::WarningKind::misfit_out_of_scale ||
+           warning.kind == execution::WarningKind::no_misfit ||
+           warning.kind == execution::WarningKind::noise_contradicted;
   };
   for (const auto& warning : own)
-    if (contradicted(warning)) add(warning);
+    if (first(warning)) add(warning);
   for (const auto& warning : mismatches) add(warning);
   for (const auto& warning : own) add(warning);
   for (const auto& refusal : refusals) add({execution::WarningKind::plugin_refused, refusal});

@@ -71,6 +71,14 @@ struct NoiseOf {
   double sd = 0;  ///< median over the fitted rows
 };
 
+/// How far a channel is from its data, in units of their noise.
+struct Deviation {
+  std::string test, channel, unit;
+  double mean = 0;             ///< ⟨|e|/σ⟩ over the fitted rows
+  double sd = 0, largest = 0;  ///< median σ; largest |measured|
+  double share = 0;            ///< ⟨|e|⟩ of the largest |measured|
+};
+
 /// Covariance of the parameters that the data fix, row after row; empty = none.
 struct ParameterCovariance {
   struct Of {
@@ -97,6 +105,7 @@ struct RunSummary {
   std::vector<Quality> quality;
   /// How far the best point misses the data: against stated noise, and against noise that is estimated from the data.
   std::optional<assembly::Misfit> misfit, misfit_estimated;
+  std::optional<Deviation> deviation;  ///< of the channel that is worst; none where no row counts
   std::vector<NoiseOf> noise;
   std::vector<std::string> notes;  ///< sentences that worry nobody
   /// Of all predictions of the best point, by Layout::channels: half width of the 95 % interval that the noise of

@@ -27,6 +27,37 @@ void warn_of_contradicted_noise(const execution::Plan& plan, const RunSummary& r
        run.label});
 }
 
+/// A misfit that no measurement has says that data, units or noise are not what they are taken for.
+void warn_of_scale(const RunSummary& run, Warnings& warnings) {
+  constexpr double most = 1000, least = 1e-9;  // mean deviation in units of the noise
+  constexpr double same = 1e-9;                // of the largest value: equal but for rounding
+  if (!run.deviation) return;
+  const Deviation& worst = *run.deviation;
+  const std::string unit = text::unit_suffix(worst.unit);
+  const std::string scales =
+      fmt::format("σ is {:.3g}{}, and the measured values reach {:.3g}{}", worst.sd, unit, worst.largest, unit);
+  if (!(worst.mean <= most))
+    warnings.push_back(
+        {WarningKind::misfit_out_of_scale,
+         fmt::format("NOT A FIT: '{}' of test '{}' lies {:.2g} times its noise away on average, so that objective and "
+                     "intervals mean nothing: {}. Correct the unit or the noise, or take a model that can follow",
+                     worst.channel, worst.test, worst.mean, scales),
+         run.label,
+         {worst.test, worst.channel}});
+  else if (worst.mean < least)
+    warnings.push_back(
+        {WarningKind::no_misfit,
+         fmt::format("NO MISFIT: the objective is {:.2g}, so that it ranks nothing and fixes no interval. {}",
+                     run.objective,
+                     worst.share < same ? "The model repeats the data to the last digit, as it does with data that it "
+                                          "has made itself. Take measured data"
+                                        : fmt::format("The noise of '{}' of test '{}' hides every deviation: {}. "
+                                                      "Correct the unit or the noise",
+                                                      worst.channel, worst.test, scales)),
+         run.label,
+         {worst.test, worst.channel}});
+}
+
 void warn_of_missing_result(const RunSummary& run, const std::string& reasons, Warnings& warnings) {
   const std::string why = run.evaluations == 0 ? std::string("nothing was evaluated")
                                                : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons);
@@ -175,6 +206,7 @@ void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run,
 
 std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
   Warnings warnings;
+  for (const auto& run : runs) warn_of_scale(run, warnings);
   for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
   for (const auto& run : runs)
     if (!run.has_result) warn_of_missing_result(run, reasons_text(run), warnings);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -25,7 +26,8 @@ namespace {
 
 // Infinity, which an error may be, is no number in JSON.
 nlohmann::json number(double value) { return fmt::format("{:.17g}", value); }
-double number(const nlohmann::json& text) { return std::stod(text.get<std::string>()); }
+// std::stod throws where a number is subnormal.
+double number(const nlohmann::json& text) { return std::strtod(text.get_ref<const std::string&>().c_str(), nullptr); }
 
 std::string to_text(const Verdict& verdict) {
   return nlohmann::json{verdict.compared,        number(verdict.worst), number(verdict.tolerance),
@@ -110,7 +112,11 @@ Verdict isolated(const std::function<Verdict()>& check, double seconds) {
         "", fmt::format("the process was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status))));
   if (text.empty())
     return broken("", fmt::format("the process ended with exit code {} amid the check", WEXITSTATUS(status)));
-  return from_text(text);
+  try {
+    return from_text(text);
+  } catch (const nlohmann::json::exception&) {
+    return broken("", "the process of the check answered with something else than its figures");
+  }
 }
 
 }  // namespace tunica::conformance

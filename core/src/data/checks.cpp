@@ -48,6 +48,24 @@ void check_stretch(const Series& series, const Series::Column& column, std::vect
                     series.place(0, column)));
 }
 
+/// Rows of a measurement scatter, if only by the last digit of the device; these do not.
+void check_straight(const Series& series, const Series::Column& abscissa, const Series::Column& channel,
+                    std::vector<std::string>& warnings) {
+  constexpr std::size_t fewest = 6;
+  constexpr double rounding = 1e-12;  // of the range
+  const std::vector<double>&x = abscissa.values, &y = channel.values;
+  const auto number = [](double value) { return std::isfinite(value); };
+  if (y.size() < fewest || !std::all_of(x.begin(), x.end(), number) || !std::all_of(y.begin(), y.end(), number)) return;
+  const double run = x.back() - x.front(), rise = y.back() - y.front();
+  if (run == 0 || rise == 0) return;
+  for (std::size_t row = 0; row < y.size(); ++row)
+    if (!(std::abs(y[row] - y.front() - rise * ((x[row] - x.front()) / run)) <= rounding * std::abs(rise))) return;
+  warnings.push_back(fmt::format(
+      "{}: the {} rows lie on a straight line over '{}' to the last digit, as no measurement does. Were they "
+      "interpolated or computed? There is no scatter to estimate a noise from; state it",
+      series.header_place(channel), y.size(), abscissa.name));
+}
+
 /// Signs of stress and stretch that do not go together: tension pulls.
 void check_sign(const Series& series, const Series::Column& stretch, const Series::Column& stress,
                 std::vector<std::string>& warnings) {
@@ -122,7 +140,12 @@ void check_duplicates(const Series& series, std::vector<std::string>& warnings) 
 }  // namespace
 
 void check_series(const Series& series, std::vector<std::string>& warnings) {
-  const Series::Column* stretch = nullptr;
+  const Series::Column *stretch = nullptr, *abscissa = nullptr;
+  for (const Series::Column& column : series.columns)
+    if (column.observable->role == Role::abscissa && abscissa == nullptr) abscissa = &column;
+  for (const Series::Column& column : series.columns)
+    if (abscissa != nullptr && column.observable->role == Role::channel)
+      check_straight(series, *abscissa, column, warnings);
   for (const Series::Column& column : series.columns) {
     if (column.observable->kind == Kind::stretch) check_stretch(series, column, warnings);
     if (column.observable->kind == Kind::stretch && column.observable->role == Role::abscissa && stretch == nullptr)

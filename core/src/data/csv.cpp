@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -226,24 +224,6 @@ void read_header(Cutter& cutter, const TableLayout& layout, Csv& csv) {
 
 }  // namespace
 
-std::string read_bytes(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(fmt::format(
-        "{}: there is no such file. Check its name; paths in an experiment file are relative to it.", file.string()));
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(fmt::format("{}: this is a folder. Name a file in it.", file.string()));
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(fmt::format("{}: this is not a regular file. Name a text file.", file.string()));
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (stream) bytes << stream.rdbuf();
-  // An empty file sets failbit on `bytes`, which is no error here.
-  if (!stream.is_open() || stream.bad())
-    throw InputError(fmt::format("{}: the file cannot be read. Check its permissions.", file.string()));
-  return std::move(bytes).str();
-}
-
 Csv parse_csv(const std::filesystem::path& file, std::string_view text, const TableLayout& layout) {
   refuse_encodings(file, text);
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -322,6 +302,20 @@ std::size_t Csv::column(std::string_view name) const {
   for (const Column& column : columns) names.push_back(excerpt(column.name));
   throw InputError(fmt::format("{}, line {}: there is no column '{}'. {}", file.string(), header_line, excerpt(name),
                                suggestion(name, names)));
+}
+
+void Csv::require_utf8(bool cells) const {
+  const auto check = [this](std::size_t line, std::size_t column, const std::string& text) {
+    if (!text::is_utf8(text))
+      throw InputError(
+          fmt::format("{}, line {}, column {}: found '{}', which is not UTF-8. Save the file as UTF-8 text.",
+                      file.string(), line, column + 1, excerpt(text)));
+  };
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    check(header_line, k, columns[k].text + columns[k].unit.value_or(""));
+  if (!cells) return;
+  for (const Row& row : rows)
+    for (std::size_t k = 0; k < row.cells.size(); ++k) check(row.line, k, row.cells[k]);
 }
 
 std::string Csv::place(std::size_t line, std::size_t column) const {

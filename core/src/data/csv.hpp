@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/read_bytes.hpp"
 #include "data/rig_request.hpp"
 
 namespace tunica::data {
@@ -43,10 +44,9 @@ struct Csv {
   [[nodiscard]] char decimal_mark(const std::vector<std::size_t>& of_columns) const;
   /// The number in a cell. Throws InputError on text, an empty cell, NaN, infinity.
   [[nodiscard]] double number(const Row& row, std::size_t column, char decimal) const;
+  /// Whoever writes names of the header, or cells, into JSON asks first; throws InputError.
+  void require_utf8(bool cells) const;
 };
-
-/// The bytes of a file. Throws InputError saying why it cannot be read.
-std::string read_bytes(const std::filesystem::path& file);
 
 /// Throws InputError on an empty file, a file without rows, a file without header (unless the layout names columns by
 /// position), an open quote, surplus fields.

@@ -10,7 +10,8 @@
 namespace tunica::data {
 namespace {
 
-constexpr std::size_t longest = 80;  // names longer than this are no typing errors of ours
+constexpr std::size_t longest = 80;       // names longer than this are no typing errors of ours
+constexpr std::size_t most_listed = 100;  // names in a message
 
 bool equal_but_for_case(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -41,6 +42,7 @@ std::string nearest(std::string_view found, const std::vector<std::string>& know
   std::string best;
   std::size_t best_distance = 5;  // two steps and a case
   for (const std::string& name : known) {
+    if (name.size() > 2 * longest) continue;
     const std::size_t d = distance(found, name);
     if (d < best_distance && d <= std::max(found.size(), name.size())) {
       best = name;
@@ -56,19 +58,12 @@ std::string nearest(std::string_view found, const std::vector<std::string>& know
 
 std::string suggestion(std::string_view found, const std::vector<std::string>& known) {
   const std::string near = nearest(found, known);
-  std::string text = near.empty() ? "" : fmt::format("Did you mean '{}'? ", near);
-  return text + (known.empty() ? "None is known." : fmt::format("Known: {}.", fmt::join(known, ", ")));
-}
-
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t limit = 60;
-  std::size_t end = std::min(text.size(), limit);
-  if (end < text.size())
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0u) == 0x80u) --end;
-  std::string shown(text.substr(0, end));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return end < text.size() ? shown + "…" : shown;
+  std::string text = near.empty() ? "" : fmt::format("Did you mean '{}'? ", text::escaped(near));
+  if (known.empty()) return text + "None is known.";
+  std::vector<std::string> listed;
+  for (std::size_t k = 0; k < std::min(known.size(), most_listed); ++k) listed.push_back(excerpt(known[k], longest));
+  if (known.size() > most_listed) listed.push_back(fmt::format("and {} more", known.size() - most_listed));
+  return text + fmt::format("Known: {}.", fmt::join(listed, ", "));
 }
 
 }  // namespace tunica::data

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/escaped.hpp"
+
 namespace tunica::data {
 
 /// The known name that `found` was probably meant to be, or "" when none is near. Distance: optimal string alignment
@@ -12,11 +14,10 @@ namespace tunica::data {
 /// and at most half the length.
 std::string nearest(std::string_view found, const std::vector<std::string>& known);
 
-/// "Did you mean 'kappa'? Known: mu, kappa, k1." – without the question when nothing is near.
+/// "Did you mean 'kappa'? Known: mu, kappa, k1." – without the question when nothing is near, and at most the first
+/// hundred names.
 std::string suggestion(std::string_view found, const std::vector<std::string>& known);
 
-/// Text from a file as a message shows it: cut after 60 bytes (never within a UTF-8 character), control characters
-/// as '?'.
-std::string excerpt(std::string_view text);
+using text::excerpt;
 
 }  // namespace tunica::data

@@ -3,8 +3,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <utility>
 
@@ -12,11 +10,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "tunica/error.hpp"
+#include "data/read_bytes.hpp"
 
 namespace tunica::execution {
 
 namespace {
+
+constexpr std::size_t largest_text = std::size_t{4} << 30;  // checkpoints of long runs are large
 
 std::string describe_failure(const std::filesystem::path& file, int error) {
   const bool space = error == ENOSPC || error == EDQUOT || error == EFBIG;
@@ -143,12 +143,10 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
   sync_folder(file.parent_path());
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw InputError(
-        fmt::format("{}: cannot be read: {}; check its name and permissions", file.string(), std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(stream), {}};
+void make_folder(const std::filesystem::path& folder) {
+  if (const auto error = make_folders(folder)) throw WriteFailure(folder, error.value());
 }
+
+std::string read_text(const std::filesystem::path& file) { return data::read_bytes(file, largest_text); }
 
 }  // namespace tunica::execution

@@ -55,6 +55,8 @@ std::error_code make_folders(const std::filesystem::path& folder);
 
 /// Returns once the names in a folder are on the disk; "" is the working folder. Throws WriteFailure.
 void sync_folder(const std::filesystem::path& folder);
+/// A folder that may be there already; throws WriteFailure.
+void make_folder(const std::filesystem::path& folder);
 
 /// The whole text of a file; throws InputError.
 std::string read_text(const std::filesystem::path& file);

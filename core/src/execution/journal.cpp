@@ -27,9 +27,7 @@ Journal::Journal(std::filesystem::path directory, const EvaluationTable& table, 
   main_ = AppendFile(main_file(directory_));
   if (stored.rows.empty()) main_.append(table_.header());
   main_.sync();
-  if (tasks_.size() < 2) return;
-  const auto parts = directory_ / "parts";
-  if (const auto error = make_folders(parts)) throw WriteFailure(parts, error.value());
+  if (tasks_.size() > 1) make_folder(directory_ / "parts");
 }
 
 Journal::~Journal() {

@@ -73,6 +73,13 @@ bool is_measured(const assembly::Layout& layout) {
   });
 }
 
+/// Whether a row counts in the objective.
+bool is_weighed(const assembly::Layout& layout) {
+  return std::any_of(layout.channels.begin(), layout.channels.end(), [](const auto& channel) {
+    return channel.weight > 0 && std::find(channel.fitted.begin(), channel.fitted.end(), true) != channel.fitted.end();
+  });
+}
+
 /// What cannot work is refused before the first evaluation; what is only wasteful is a warning.
 void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   if (run.assembly->layout().parameters.empty())
@@ -108,6 +115,11 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
   if (run.assembly->layout().blocks.empty() && is_measured(run.assembly->layout()))
     throw InputError(fmt::format(
         "run {}: no row is left to fit: every row is held out. Set hold_out to false in a test", run.label));
+  if (is_measured(run.assembly->layout()) && !is_weighed(run.assembly->layout()))
+    throw InputError(fmt::format(
+        "run {}: every row that could be fitted has the weight 0, so that there is nothing to fit; set \"weight\" "
+        "above 0 in a test",
+        run.label));
   if (!random && !run.entry->random_start && run.entry->realisations > 1)
     warnings.push_back({WarningKind::equal_realisations,
                         fmt::format("the optimiser uses no random numbers, so its {} realisations are all the same",

@@ -2,6 +2,7 @@
 #include "execution/runner.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <map>

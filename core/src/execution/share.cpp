@@ -9,6 +9,12 @@
 
 namespace tunica::execution {
 
+namespace {
+
+constexpr std::size_t most_parts = 100000;
+
+}  // namespace
+
 Share parse_share(const std::string& text) {
   Share share{0, 0};
   const std::size_t slash = text.find('/');
@@ -18,9 +24,10 @@ Share parse_share(const std::string& text) {
     return error == std::errc() && stopped == end;
   };
   if (slash == std::string::npos || !number(0, slash, share.part) || !number(slash + 1, text.size(), share.of) ||
-      share.part < 1 || share.part > share.of)
+      share.part < 1 || share.part > share.of || share.of > most_parts)
     throw InputError(
-        fmt::format("--shard {}: expected k/N with 1 ≤ k ≤ N, for example 2/7 for the second of seven parts", text));
+        fmt::format("--shard {}: expected k/N with 1 ≤ k ≤ N ≤ {}, for example 2/7 for the second of seven parts", text,
+                    most_parts));
   return share;
 }
 

@@ -11,6 +11,8 @@ namespace tunica::execution {
 
 /// What a warning is about. Scripts and the report decide by it, so that the sentences may change.
 enum class WarningKind {
+  misfit_out_of_scale,
+  no_misfit,
   noise_contradicted,
   no_result,
   no_feasible_point,
@@ -42,8 +44,10 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 29> warning_codes{
-    {{WarningKind::noise_contradicted, "noise_contradicted"},
+inline constexpr text::Codes<WarningKind, 31> warning_codes{
+    {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
+     {WarningKind::no_misfit, "no_misfit"},
+     {WarningKind::noise_contradicted, "noise_contradicted"},
      {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
      {WarningKind::not_repeatable, "not_repeatable"},

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "data/csv.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/parse.hpp"
 #include "experiment/reader.hpp"
 #include "tunica/error.hpp"
@@ -54,7 +55,7 @@ std::string Experiment::model_name(const RunEntry& run) const {
 }
 
 Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
-  return parse_experiment(data::read_bytes(file), file, catalogue);
+  return parse_experiment(data::read_bytes(file, limits::file_bytes), file, catalogue);
 }
 
 Experiment parse_experiment(std::string text, const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
@@ -74,7 +75,7 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   experiment.name = file.stem().string();
   if (const auto node = root.find("$schema")) node->text("the name of a schema");
   if (const auto node = root.find("name")) experiment.name = node->text("a name");
-  if (const auto node = root.find("seed")) experiment.seed = node->count("a whole number from 0");
+  if (const auto node = root.find("seed")) experiment.seed = node->count("a whole number", 0);
   std::vector<SharedParameter> shared;
   const Node models = root.require("models", "the experiment file");
   for (const auto& [name, entry] : models.members("an object with one entry per model"))

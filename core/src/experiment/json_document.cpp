@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/limits.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
 
@@ -47,7 +48,7 @@ class Scanner {
   [[noreturn]] void fail(std::size_t offset, std::string_view what, std::string_view help,
                          std::string_view pointer = {}) const {
     const auto [line, column] = place_of(text_, offset);
-    throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", file_.string(), what, pointer,
+    throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", file_.string(), what, excerpt(pointer, 300),
                                  pointer.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help));
   }
 
@@ -106,6 +107,11 @@ class Scanner {
              : at_ >= text_.size() ? unclosed(opened, '}')
                                    : "Keys look like \"name\": …");
       const std::string key = string();
+      if (key.size() > limits::key_bytes)
+        fail(key_at,
+             fmt::format("the key '{}' has {} bytes, and at most {} are allowed", excerpt(key), key.size(),
+                         limits::key_bytes),
+             "Shorten it.");
       const std::string child = child_pointer(pointer, key);
       if (const auto first = where_.find(child); first != where_.end())
         fail(key_at, fmt::format("the key '{}' appears twice in the same object", excerpt(key)),
@@ -195,6 +201,15 @@ class Scanner {
 
 JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)) {
+  if (text_.size() > limits::file_bytes)
+    throw InputError(fmt::format("{}: the JSON text has {} MiB; expected at most {}. Put numbers into data files.",
+                                 file_.string(), (text_.size() >> 20) + 1, limits::file_bytes >> 20));
+  std::error_code error;
+  if (!text::is_utf8(std::filesystem::absolute(file_, error).string()))
+    throw InputError(
+        fmt::format("{}: the name of the file, or of a folder above it, is not UTF-8, so that no result could name it. "
+                    "Rename it, or move the file.",
+                    file_.string()));
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
   Scanner(file_, text_, where_).scan();
   try {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "data/units.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
 
@@ -32,17 +33,20 @@ std::string described(const Json& value) {
   }
 }
 
+std::string shown_pointer(const std::string& pointer) { return excerpt(pointer, 300); }
+
 }  // namespace
 
 std::string Node::place() const {
   const auto [line, column] = document_->place(pointer_);
-  return fmt::format("{} ({}, line {}, column {})", document_->file().string(), pointer_, line, column);
+  return fmt::format("{} ({}, line {}, column {})", document_->file().string(), shown_pointer(pointer_), line, column);
 }
 
 void Node::fail(std::string_view what, std::string_view help) const {
   const auto [line, column] = document_->place(pointer_);
-  throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", document_->file().string(), what, pointer_,
-                               pointer_.empty() ? "" : ", ", line, column, help.empty() ? "" : " ", help));
+  throw InputError(fmt::format("{}: {} ({}{}line {}, column {}).{}{}", document_->file().string(), what,
+                               shown_pointer(pointer_), pointer_.empty() ? "" : ", ", line, column,
+                               help.empty() ? "" : " ", help));
 }
 
 void Node::fail_expected(std::string_view expected) const {
@@ -68,10 +72,18 @@ Node Node::require(const std::string& key, std::string_view owner) const {
   fail(fmt::format("the key '{}' is missing in {}", key, owner), "Add it.");
 }
 
+void Node::refuse_many() const {
+  if (size() > limits::entries)
+    fail(fmt::format("{} has {} entries, and at most {} are allowed", is_array() ? "the list" : "the object", size(),
+                     limits::entries),
+         "Take out what is not needed, or use several files.");
+}
+
 Node Node::element(std::size_t i) const { return {*document_, value_->at(i), fmt::format("{}/{}", pointer_, i)}; }
 
 std::vector<Node> Node::elements(std::string_view expected) const {
   if (!is_array()) fail_expected(expected);
+  refuse_many();
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < value_->size(); ++i) nodes.push_back(element(i));
   return nodes;
@@ -79,6 +91,7 @@ std::vector<Node> Node::elements(std::string_view expected) const {
 
 std::vector<std::pair<std::string, Node>> Node::members(std::string_view expected) const {
   if (!is_object()) fail_expected(expected);
+  refuse_many();
   std::vector<std::pair<std::string, Node>> nodes;
   for (const auto& [key, value] : value_->items())
     nodes.emplace_back(key, Node(*document_, value, child_pointer(pointer_, key)));
@@ -113,21 +126,26 @@ double Node::number(std::string_view expected) const {
 std::int64_t Node::integer(std::string_view expected) const {
   if (value_->is_number_integer() && !value_->is_number_unsigned()) return value_->get<std::int64_t>();
   constexpr std::uint64_t largest = std::numeric_limits<std::int64_t>::max();
-  return static_cast<std::int64_t>(std::min(count(expected), largest));
+  const auto value = whole();
+  if (!value) fail_expected(expected);
+  return static_cast<std::int64_t>(std::min(*value, largest));
 }
 
-std::uint64_t Node::count(std::string_view expected, std::uint64_t at_least) const {
+std::optional<std::uint64_t> Node::whole() const {
   constexpr double exact = 9007199254740992.0;  // 2^53: 6e4 is a fine way to write 60000
-  std::uint64_t value = 0;
-  if (value_->is_number_unsigned())
-    value = value_->get<std::uint64_t>();
-  else if (value_->is_number_float() && value_->get<double>() >= 0 && value_->get<double>() <= exact &&
-           value_->get<double>() == std::floor(value_->get<double>()))
-    value = static_cast<std::uint64_t>(value_->get<double>());
-  else
-    fail_expected(expected);
-  if (value < at_least) fail_expected(expected);
-  return value;
+  if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
+  if (!value_->is_number_float()) return std::nullopt;
+  const auto value = value_->get<double>();
+  if (!(value >= 0 && value <= exact && value == std::floor(value))) return std::nullopt;
+  return static_cast<std::uint64_t>(value);
+}
+
+std::uint64_t Node::count(std::string_view what, std::uint64_t at_least, std::uint64_t at_most) const {
+  const auto value = whole();
+  if (value && *value >= at_least && *value <= at_most) return *value;
+  const bool bounded = at_most < std::numeric_limits<std::uint64_t>::max();
+  fail_expected(bounded ? fmt::format("{} from {} to {}", what, at_least, at_most)
+                        : fmt::format("{} from {}", what, at_least));
 }
 
 double Node::quantity(std::string_view base_unit, std::string_view expected) const {
@@ -158,7 +176,8 @@ void Node::check_name(const std::string& name, std::string_view noun) const {
   if (name.find('.') != std::string::npos)
     fail(fmt::format("the {} name '{}' contains a dot", noun, excerpt(name)),
          "Dots join the parts of parameter names, as in viscoelasticity.tau; use '_' or '-' instead.");
-  if (name.empty() || name.size() > 100 || name.front() == '-' || !std::all_of(name.begin(), name.end(), usual))
+  if (name.empty() || name.size() > 100 || name.front() == '-' || !std::all_of(name.begin(), name.end(), usual) ||
+      !text::is_plain(name))
     fail(fmt::format("the {} name '{}' cannot be part of file and parameter names", noun, excerpt(name)),
          "Use letters, digits, '_' and '-', not '-' first.");
 }

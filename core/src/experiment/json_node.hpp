@@ -39,8 +39,9 @@ class Node {
   [[nodiscard]] Node require(const std::string& key, std::string_view owner) const;
   [[nodiscard]] Node child_or_self(const std::string& key) const { return find(key).value_or(*this); }
   [[nodiscard]] Node element(std::size_t i) const;
-  [[nodiscard]] std::vector<Node> elements(std::string_view expected) const;                         ///< of an array
-  [[nodiscard]] std::vector<std::pair<std::string, Node>> members(std::string_view expected) const;  ///< of an object
+  /// Of an array, and of an object; refused where there are more than limits::entries.
+  [[nodiscard]] std::vector<Node> elements(std::string_view expected) const;
+  [[nodiscard]] std::vector<std::pair<std::string, Node>> members(std::string_view expected) const;
 
   void expect_object(std::string_view expected) const;
   /// An object with no other keys than these.
@@ -51,7 +52,9 @@ class Node {
   bool flag(std::string_view expected) const;
   [[nodiscard]] double number(std::string_view expected) const;
   [[nodiscard]] std::int64_t integer(std::string_view expected) const;  ///< what is too large becomes the largest
-  [[nodiscard]] std::uint64_t count(std::string_view expected, std::uint64_t at_least = 0) const;
+  /// A whole number within a range; `what` is "a whole number of draws", to which messages add the range.
+  [[nodiscard]] std::uint64_t count(std::string_view what, std::uint64_t at_least,
+                                    std::uint64_t at_most = std::numeric_limits<std::uint64_t>::max()) const;
   /// A number in the base unit, or text with a unit that converts to it.
   [[nodiscard]] double quantity(std::string_view base_unit, std::string_view expected) const;
   /// One of the names; an unknown one is answered with the nearest.
@@ -60,6 +63,9 @@ class Node {
   void check_name(const std::string& name, std::string_view noun) const;
 
  private:
+  [[nodiscard]] std::optional<std::uint64_t> whole() const;
+  void refuse_many() const;
+
   Node(const JsonDocument& document, const Json& value, std::string pointer)
       : document_(&document), value_(&value), pointer_(std::move(pointer)) {}
 

@@ -38,6 +38,10 @@ std::filesystem::path read_file_name(const Node& node, const std::filesystem::pa
   std::filesystem::path file = (folder / name).lexically_normal();
   std::error_code error;
   if (!name.empty() && std::filesystem::is_regular_file(file, error)) return file;
+  if (!name.empty() && std::filesystem::exists(file, error))
+    node.fail(fmt::format("the data file '{}' is {}", excerpt(name),
+                          std::filesystem::is_directory(file, error) ? "a folder" : "no regular file"),
+              "Name a file that holds a table as text.");
   std::vector<std::string> present;
   std::filesystem::directory_iterator entries(file.parent_path().empty() ? "." : file.parent_path(), error), end;
   for (; !error && entries != end && present.size() < 1000; entries.increment(error))

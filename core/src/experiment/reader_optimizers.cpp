@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/limits.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 #include "plugins/guarded.hpp"
@@ -43,7 +44,7 @@ Stop read_stop(const Node& node, std::uint64_t default_evaluations) {
   Stop stop;
   stop.max_evaluations = default_evaluations;
   if (const auto child = node.find("max_evaluations"))
-    stop.max_evaluations = child->count("a whole number of evaluations from 1", 1);
+    stop.max_evaluations = child->count("a whole number of evaluations", 1, limits::evaluations);
   if (const auto child = node.find("max_time")) {
     stop.max_time = child->quantity("s", "a time");
     if (!(*stop.max_time > 0))
@@ -51,7 +52,8 @@ Stop read_stop(const Node& node, std::uint64_t default_evaluations) {
   }
   if (const auto child = node.find("target"))
     stop.target = child->number("the objective that is good enough, a number,");
-  if (const auto child = node.find("stall")) stop.stall = child->count("a whole number of evaluations from 1", 1);
+  if (const auto child = node.find("stall"))
+    stop.stall = child->count("a whole number of evaluations", 1, limits::evaluations);
   return stop;
 }
 
@@ -117,8 +119,8 @@ void read_analysis(const Node& node, Experiment& experiment) {
   if (const auto bootstrap = node.find("bootstrap")) {
     bootstrap->expect_object("an object, {\"draws\": 200},");
     bootstrap->allow_only({"draws"}, "\"bootstrap\"");
-    analysis.bootstrap_draws =
-        bootstrap->require("draws", "\"bootstrap\"").count("a whole number of draws from 40", 40);
+    analysis.bootstrap_draws = bootstrap->require("draws", "\"bootstrap\"")
+                                   .count("a whole number of draws", limits::least_draws, limits::draws);
   }
   if (const auto optimizer = node.find("optimizer")) {
     analysis.optimizer = optimizer->one_of(entry_names(experiment.optimizers), "optimizer");
@@ -142,7 +144,7 @@ void read_analysis(const Node& node, Experiment& experiment) {
       if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
     }
     if (const auto points = stability->find("points"))
-      analysis.map_points = points->count("a whole number of points along each parameter from 2", 2);
+      analysis.map_points = points->count("a whole number of points along each parameter", 2, limits::map_points);
   }
 }
 

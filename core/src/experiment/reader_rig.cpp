@@ -7,6 +7,7 @@
 #include "data/quantities.hpp"
 #include "data/units.hpp"
 #include "experiment/enum_names.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 #include "tunica/error.hpp"
@@ -44,7 +45,8 @@ void read_delimiters(const Node& block, data::TableLayout& layout) {
 }
 
 void read_layout(const Node& block, data::DataRequest& data) {
-  if (const auto node = block.find("skip_lines")) data.layout.skip_lines = node->count("a number of lines");
+  if (const auto node = block.find("skip_lines"))
+    data.layout.skip_lines = node->count("a number of lines", 0, limits::lines);
   read_delimiters(block, data.layout);
   if (const auto node = block.find("units"))
     for (const auto& [column, unit] : node->members("an object of column names and units")) {
@@ -122,7 +124,7 @@ void require_sizes(const Node& block, std::string_view owner, const std::vector<
 data::CycleChoice read_cycle(const Node& node) {
   data::CycleChoice choice;
   const auto number = [](const Node& at) {
-    return static_cast<std::size_t>(at.count("the number of a cycle, from 1", 1));
+    return static_cast<std::size_t>(at.count("the number of a cycle", 1, limits::lines));
   };
   if (node.is_text() && node.text("") == "last")
     choice.last = true;
@@ -158,7 +160,7 @@ const std::vector<std::string>& rig_keys() {
 }
 
 std::string read_column_name(const Node& node) {
-  if (node.is_number()) return fmt::format("#{}", node.count("the number of a column, from 1", 1));
+  if (node.is_number()) return fmt::format("#{}", node.count("the number of a column", 1, limits::lines));
   const std::string& name = node.text("the name of a column, or its number");
   if (name.empty()) node.fail_expected("the name of a column, or its number");
   return name;
@@ -193,10 +195,8 @@ void read_rig_keys(const Node& block, const std::vector<Observable>& observables
       node->fail("\"cycles_from\" names a column of cycles, and no \"cycle\" is chosen",
                  "Add \"cycle\": \"last\", \"all\", a number or a list.");
   }
-  if (const auto node = block.find("resample")) {
-    data.resample = static_cast<std::size_t>(node->count("a number of points, from 5", 5));
-    if (*data.resample > 100000) node->fail_expected("at most 100000 points");
-  }
+  if (const auto node = block.find("resample"))
+    data.resample = static_cast<std::size_t>(node->count("a number of points", 5, limits::resampled));
   if (const auto node = block.find("branch"))
     data.branch = text::value_of(data::branch_names, node->one_of(names_in(data::branch_names), "branch")).value();
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "experiment/enum_names.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/suggest.hpp"
 
@@ -49,7 +50,7 @@ void read_transverse_stability(const Node& entry, ConstraintEntry& constraint) {
                   "Expected two stretches [from, to], 0 < from < to.");
   }
   if (const auto points = entry.find("points"))
-    constraint.points = points->count("a whole number of stretches from 2", 2);
+    constraint.points = points->count("a whole number of stretches", 2, limits::stability_points);
   if (const auto directions = entry.find("directions")) {
     static const std::vector<std::string> names = {"circumferential", "axial"};
     constraint.directions = {false, false};
@@ -155,13 +156,14 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
                std::vector<SharedParameter>& shared, Experiment& experiment) {
   const auto entries = node.elements("a list of runs, [ {\"model\": …, \"optimizer\": …}, … ],");
   if (entries.empty()) node.fail("no run is given", "Give at least one: {\"model\": …, \"optimizer\": …}.");
+  std::uint64_t all_realisations = 0;
   for (const Node& entry : entries) {
     entry.allow_only({"model", "optimizer", "realisations", "initial", "tests", "objective", "constraints", "stop"},
                      "a run");
     RunEntry run;
     run.optimizer = entry.require("optimizer", "a run").one_of(entry_names(experiment.optimizers), "optimizer");
     if (const auto child = entry.find("realisations"))
-      run.realisations = child->count("a whole number of realisations from 1", 1);
+      run.realisations = child->count("a whole number of realisations", 1, limits::realisations);
     const auto tests = entry.find("tests"), objective = entry.find("objective"),
                constraints = entry.find("constraints"), stop = entry.find("stop"), initial = entry.find("initial");
     run.random_start = initial ? read_initial(*initial) : defaults.random_start;
@@ -179,6 +181,11 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
     if (measured && !any([](const TestEntry& test) { return test.measured && !test.hold_out.all; }))
       entry.fail("every test of the run is held out, so there is nothing to fit",
                  "Set \"hold_out\" to false in at least one.");
+    all_realisations += run.realisations;
+    if (all_realisations > limits::all_realisations)
+      entry.fail(fmt::format("with this run there are {} realisations, and an experiment has at most {}",
+                             all_realisations, limits::all_realisations),
+                 "Lower \"realisations\", or use several experiments.");
     experiment.runs.push_back(std::move(run));
   }
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
 #include <nlohmann/json.hpp>
 
 #include "experiment/enum_names.hpp"
 #include "experiment/experiment.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/reader.hpp"
 #include "experiment/schema_parts.hpp"
 
@@ -13,11 +16,13 @@ Json text_schema(std::string_view description) { return {{"description", descrip
 Json choice_schema(std::string_view description, const std::vector<std::string>& names) {
   return {{"description", description}, {"enum", names}};
 }
-Json count_schema(std::string_view description, int at_least) {
-  return {{"description", description}, {"type", "integer"}, {"minimum", at_least}};
+Json count_schema(std::string_view description, std::uint64_t at_least, std::optional<std::uint64_t> at_most = {}) {
+  Json schema = {{"description", description}, {"type", "integer"}, {"minimum", at_least}};
+  if (at_most) schema["maximum"] = *at_most;
+  return schema;
 }
 Json list_schema(std::string_view description, Json items) {
-  return {{"description", description}, {"type", "array"}, {"items", std::move(items)}};
+  return {{"description", description}, {"type", "array"}, {"items", std::move(items)}, {"maxItems", limits::entries}};
 }
 
 // What users name; dots join the parts of parameter names.
@@ -29,6 +34,7 @@ Json named_entries(std::string_view description, Json entry) {
   Json schema = {{"description", description},
                  {"type", "object"},
                  {"minProperties", 1},
+                 {"maxProperties", limits::entries},
                  {"additionalProperties", std::move(entry)}};
   schema["propertyNames"]["pattern"] = name_pattern;
   return schema;
@@ -91,12 +97,12 @@ void define_data(Json& definitions) {
 }
 
 void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
-  definitions["stop"] =
-      object_schema("When a search ends; means the same for every optimizer.",
-                    {{"max_evaluations", count_schema("Evaluations of the objective (default 60000).", 1)},
-                     {"max_time", quantity_schema("Time [s], for example \"10 min\"; gives up determinism.")},
-                     {"target", {{"description", "An objective that is good enough."}, {"type", "number"}}},
-                     {"stall", count_schema("Evaluations without improvement.", 1)}});
+  definitions["stop"] = object_schema(
+      "When a search ends; means the same for every optimizer.",
+      {{"max_evaluations", count_schema("Evaluations of the objective (default 60000).", 1, limits::evaluations)},
+       {"max_time", quantity_schema("Time [s], for example \"10 min\"; gives up determinism.")},
+       {"target", {{"description", "An objective that is good enough."}, {"type", "number"}}},
+       {"stall", count_schema("Evaluations without improvement.", 1, limits::evaluations)}});
   Json stage = object_schema("A stage with its own stop.",
                              {{"optimizer", text_schema("Name of another optimizer.")}, {"stop", reference("stop")}},
                              {"optimizer"});
@@ -134,7 +140,8 @@ void define_search(Json& definitions, const plugins::Catalogue& catalogue) {
                      {{"type", {{"const", "transverse_stability"}}},
                       {"h", std::move(h)},
                       {"range", std::move(range)},
-                      {"points", count_schema("Evenly spaced stretches in place of every measured one.", 2)},
+                      {"points", count_schema("Evenly spaced stretches in place of every measured one.", 2,
+                                              limits::stability_points)},
                       {"directions", std::move(directions)}},
                      {"type"}),
        object_schema("The inequalities that the model declares between its parameters.",
@@ -152,16 +159,17 @@ Json run_schema() {
   Json tests = {{"description", "The tests of this run: names, or tests of its own (default: all)."}};
   tests["anyOf"] =
       Json::array({list_schema("Names.", {{"type", "string"}}), named_entries("Tests of its own.", reference("test"))});
-  return object_schema("One calibration: a model, fitted by an optimizer.",
-                       {{"model", text_schema("Name of a model; left out where every test names its own in layers.")},
-                        {"optimizer", text_schema("Name of an optimizer.")},
-                        {"realisations", count_schema("Repetitions with other seeds (default 1).", 1)},
-                        {"initial", initial_schema()},
-                        {"tests", std::move(tests)},
-                        {"objective", reference("objective")},
-                        {"constraints", reference("constraints")},
-                        {"stop", reference("stop")}},
-                       {"optimizer"});
+  return object_schema(
+      "One calibration: a model, fitted by an optimizer.",
+      {{"model", text_schema("Name of a model; left out where every test names its own in layers.")},
+       {"optimizer", text_schema("Name of an optimizer.")},
+       {"realisations", count_schema("Repetitions with other seeds (default 1).", 1, limits::realisations)},
+       {"initial", initial_schema()},
+       {"tests", std::move(tests)},
+       {"objective", reference("objective")},
+       {"constraints", reference("constraints")},
+       {"stop", reference("stop")}},
+      {"optimizer"});
 }
 
 Json analysis_schema() {
@@ -175,17 +183,18 @@ Json analysis_schema() {
       "Uncertainty of every run's best point, beyond the intervals that are always given.",
       {{"profiles", std::move(profiles)},
        {"bootstrap",
-        object_schema("Residual bootstrap.", {{"draws", count_schema("Data sets to draw.", 40)}}, {"draws"})},
+        object_schema("Residual bootstrap.",
+                      {{"draws", count_schema("Data sets to draw.", limits::least_draws, limits::draws)}}, {"draws"})},
        {"optimizer", text_schema("Name of an optimizer for the refits (default: ceres_lm from the best point).")},
-       {"stability",
-        object_schema("Stability of the best points beyond what is always judged.",
-                      {{"to",
-                        {{"description", "Judge to this stretch instead of the largest measured one."},
-                         {"type", "number"},
-                         {"exclusiveMinimum", 1},
-                         {"maximum", 100}}},
-                       {"map", std::move(map)},
-                       {"points", count_schema("Points of the map along each parameter (default 41).", 2)}})}});
+       {"stability", object_schema("Stability of the best points beyond what is always judged.",
+                                   {{"to",
+                                     {{"description", "Judge to this stretch instead of the largest measured one."},
+                                      {"type", "number"},
+                                      {"exclusiveMinimum", 1},
+                                      {"maximum", 100}}},
+                                    {"map", std::move(map)},
+                                    {"points", count_schema("Points of the map along each parameter (default 41).", 2,
+                                                            limits::map_points)}})}});
 }
 
 Json diagnosis_schema() {
@@ -280,7 +289,7 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
                     "s, deg) or text with a unit, as in \"3.71 mm\".",
                     std::move(properties), {"format", "models", "tests", "optimizers", "runs"}));
   schema["definitions"] = std::move(definitions);
-  return schema.dump(2) + "\n";
+  return schema.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tunica::experiment

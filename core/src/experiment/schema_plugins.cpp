@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "experiment/limits.hpp"
 #include "experiment/schema_parts.hpp"
 #include "plugins/guarded.hpp"
 
@@ -78,7 +79,8 @@ std::vector<Parameter> possible_parameters(const ModelInCatalogue& entry) {
 Json mechanism_list(const std::vector<std::string>& types) {
   return {{"description", "Mechanisms to include, in any order."},
           {"type", "array"},
-          {"items", by_type("mechanism", types, "One mechanism.")}};
+          {"items", by_type("mechanism", types, "One mechanism.")},
+          {"maxItems", limits::entries}};
 }
 
 Json layers_schema() {
@@ -89,7 +91,8 @@ Json layers_schema() {
   return {{"description", "Layers of the wall from inside; without them the model of the run fills it."},
           {"type", "array"},
           {"items", std::move(layer)},
-          {"minItems", 1}};
+          {"minItems", 1},
+          {"maxItems", limits::entries}};
 }
 
 Json data_schema(const TestFactory& factory) {
@@ -98,7 +101,8 @@ Json data_schema(const TestFactory& factory) {
   properties["files"] = {{"description", "Replicates: same abscissae, else interpolated."},
                          {"type", "array"},
                          {"items", {{"type", "string"}}},
-                         {"minItems", 1}};
+                         {"minItems", 1},
+                         {"maxItems", limits::entries}};
   properties["columns"] = columns_schema(factory.observables);
   for (const char* name : {"stress_measure", "rows", "where", "order", "time_from"}) properties[name] = reference(name);
   add_rig_properties(properties, factory.observables);

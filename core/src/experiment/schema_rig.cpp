@@ -4,6 +4,7 @@
 
 #include "data/quantities.hpp"
 #include "experiment/enum_names.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/schema_parts.hpp"
 
 /// The keys of a "data" block for files as a testing machine writes them.
@@ -11,7 +12,11 @@ namespace tunica::experiment {
 namespace {
 
 Json column_schema(std::string_view description) {
-  return {{"description", description}, {"type", {"string", "integer"}}, {"minLength", 1}, {"minimum", 1}};
+  return {{"description", description},
+          {"type", {"string", "integer"}},
+          {"minLength", 1},
+          {"minimum", 1},
+          {"maximum", limits::lines}};
 }
 
 Json sizes_schema() {
@@ -26,15 +31,17 @@ Json sizes_schema() {
 }  // namespace
 
 void define_rig_keys(Json& definitions) {
-  definitions["skip_lines"] = {
-      {"description", "Lines before the header of the table (default: found)."}, {"type", "integer"}, {"minimum", 0}};
+  definitions["skip_lines"] = {{"description", "Lines before the header of the table (default: found)."},
+                               {"type", "integer"},
+                               {"minimum", 0},
+                               {"maximum", limits::lines}};
   definitions["delimiter"] = {{"description", "What stands between cells (default: found)."},
                               {"enum", {",", ";", "tab", "space"}}};
   definitions["decimal"] = {{"description", "The decimal mark (default: found)."}, {"enum", {".", ","}}};
   definitions["units"] = {{"description", "Column → unit, where the header has none or a wrong one."},
                           {"type", "object"},
                           {"additionalProperties", {{"type", "string"}}}};
-  Json number = {{"type", "integer"}, {"minimum", 1}};
+  Json number = {{"type", "integer"}, {"minimum", 1}, {"maximum", limits::lines}};
   definitions["cycle"] = {{"description", "Cycles to use, counted from 1; \"all\" are the history of loading."}};
   definitions["cycle"]["anyOf"] =
       Json::array({{{"enum", {"last", "all"}}}, number, {{"type", "array"}, {"items", number}, {"minItems", 1}}});
@@ -43,7 +50,8 @@ void define_rig_keys(Json& definitions) {
   definitions["resample"] = {
       {"description", "Points in place of each branch, by local regression; the scatter becomes the noise."},
       {"type", "integer"},
-      {"minimum", 5}};
+      {"minimum", 5},
+      {"maximum", limits::resampled}};
   definitions["branch"] = {{"description", "Only the loading, or the unloading, of the cycles (default both)."},
                            {"enum", names_in(data::branch_names)}};
   definitions["preload"] = quantity_schema(

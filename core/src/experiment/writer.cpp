@@ -250,7 +250,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);
   if (experiment.discovery) json["discovery"] = to_json(*experiment.discovery);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace tunica::experiment

@@ -142,6 +142,7 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
 
 LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
   if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
+  if (const std::string reason = refuse_truncated(file); !reason.empty()) throw LoadError(reason);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
     throw LoadError(

@@ -9,17 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "plugins/elf_extent.hpp"
+#include "plugins/trust.hpp"
+
 namespace tunica::plugins {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view rebuild = "rebuild the plugin with the headers and the compiler of this tunica";
-
-bool writable_by_others(const fs::path& path) {
-  std::error_code error;
-  const fs::perms permissions = fs::status(path, error).permissions();
-  return !error && (permissions & fs::perms::others_write) != fs::perms::none;
-}
 
 /// "eigen 3.4.0; alignment 16" → {eigen: 3.4.0, alignment: 16}, in the order of the text.
 std::vector<std::pair<std::string, std::string>> fields_of(std::string_view fingerprint) {
@@ -73,23 +70,16 @@ std::string refuse_file(const fs::path& file, bool allow_world_writable) {
   if (!fs::exists(status)) return "no such file; expected a plugin (a shared library); check the path";
   if (!fs::is_regular_file(status)) return "found something other than a regular file; expected a shared library";
   if (allow_world_writable) return {};
-  if (writable_by_others(file)) {
-    return fmt::format(
-        "the file can be written by every user, so that any of them could run code as you; expected a "
-        "file writable by its owner only; run: chmod o-w '{}' (or pass --allow-world-writable-plugins)",
-        file.string());
-  }
-  const fs::path real = fs::canonical(file, error);
-  for (const fs::path& folder : {fs::absolute(file).parent_path(), real.parent_path()}) {
-    if (writable_by_others(folder)) {
-      return fmt::format(
-          "its folder can be written by every user, so that any of them could replace it; expected a "
-          "folder writable by its owner only; run: chmod o-w '{}' (or pass "
-          "--allow-world-writable-plugins)",
-          folder.string());
-    }
-  }
-  return {};
+  return distrust(file);
+}
+
+std::string refuse_truncated(const fs::path& file) {
+  const ElfExtent extent = elf_extent(file);
+  if (!extent.elf || extent.complete()) return {};
+  return fmt::format(
+      "the file is cut short: it has {} bytes, and its headers speak of {}; expected a whole shared library; copy or "
+      "build it again",
+      extent.found, extent.needed);
 }
 
 std::string refuse_header(const PluginHeader* header) {

@@ -10,9 +10,11 @@
 /// and what to do.
 namespace tunica::plugins {
 
-/// The file exists, is a regular file, and neither it nor the folders it lies in (as given, and after symbolic
-/// links) can be written by others: whoever can write there could run code as the user.
+/// The file exists, is a regular file, and no other user can change it, see trust.hpp.
 std::string refuse_file(const std::filesystem::path& file, bool allow_world_writable);
+
+/// An ELF file has all the bytes that its headers speak of; to map one that has not would end the process.
+std::string refuse_truncated(const std::filesystem::path& file);
 
 /// The fields of the header in the order in which they may be read: the size says whether the rest is there, the API
 /// number what the rest means, the fingerprint whether C++ objects can cross.

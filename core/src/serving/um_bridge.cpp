@@ -32,6 +32,11 @@ std::vector<std::string> names() {
   return found;
 }
 
+/// Lists by their kind: they may be nested so deeply that writing them would exhaust the stack.
+std::string shown(const Json& value) {
+  return value.is_structured() ? fmt::format("an {}", value.type_name()) : data::excerpt(value.dump());
+}
+
 const Json& member(const Json& request, const char* key) {
   const auto found = request.find(key);
   if (found == request.end()) throw Refusal("InvalidInput", fmt::format("the request has no \"{}\"", key));
@@ -43,16 +48,15 @@ Function function_of(const Json& request) {
   for (const Function function : functions)
     if (name == name_of(function)) return function;
   throw Refusal("ModelNotFound",
-                fmt::format("there is no model {}. {}", name.dump(),
+                fmt::format("there is no model {}. {}", shown(name),
                             data::suggestion(name.is_string() ? name.get<std::string>() : "", names())));
 }
 
 std::vector<double> numbers(const Json& list, std::size_t count, const std::string& what) {
   const bool all = list.is_array() && std::ranges::all_of(list, [](const Json& value) { return value.is_number(); });
   if (!all || list.size() != count)
-    throw Refusal("InvalidInput",
-                  fmt::format("{} is a list of {} numbers; found {}", what, count,
-                              all ? fmt::format("{} numbers", list.size()) : list.dump().substr(0, 60)));
+    throw Refusal("InvalidInput", fmt::format("{} is a list of {} numbers; found {}", what, count,
+                                              all ? fmt::format("{} numbers", list.size()) : shown(list)));
   return list.get<std::vector<double>>();
 }
 
@@ -66,7 +70,7 @@ std::vector<double> parameters(const Json& request, const ServedRun& run) {
 std::size_t index(const Json& request, const char* key, std::size_t count) {
   const Json& value = member(request, key);
   if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::size_t>() >= count)
-    throw Refusal("InvalidInput", fmt::format("\"{}\" is a whole number below {}; found {}", key, count, value.dump()));
+    throw Refusal("InvalidInput", fmt::format("\"{}\" is a whole number below {}; found {}", key, count, shown(value)));
   return value.get<std::size_t>();
 }
 
@@ -132,14 +136,15 @@ Json response(const ServedRun& run, std::string_view path, const std::string& bo
 }
 
 Answer error(int status, const std::string& type, const std::string& message) {
-  return {status, Json{{"error", {{"type", type}, {"message", message}}}}.dump()};
+  return {status,
+          Json{{"error", {{"type", type}, {"message", message}}}}.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
 }  // namespace
 
 Answer answer(const ServedRun& run, std::string_view path, const std::string& body) {
   try {
-    return {200, response(run, path, body).dump()};
+    return {200, response(run, path, body).dump(-1, ' ', false, Json::error_handler_t::replace)};
   } catch (const Refusal& problem) {
     return error(400, problem.type, problem.what());
   } catch (const InputError& problem) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "text/escaped.hpp"
+
 namespace tunica::text {
 
 namespace {
@@ -16,19 +18,19 @@ std::size_t columns(std::string_view text) {
 }
 
 std::string pad(std::string_view text, std::size_t width) {
-  const std::size_t used = columns(text);
-  return std::string(text) + std::string(used < width ? width - used : 0, ' ');
+  const std::string shown = escaped(text, "\n");
+  const std::size_t used = columns(shown);
+  return shown + std::string(used < width ? width - used : 0, ' ');
 }
 
 std::string pad_left(std::string_view text, std::size_t width) {
-  const std::size_t used = columns(text);
-  return std::string(used < width ? width - used : 0, ' ') + std::string(text);
+  const std::string shown = escaped(text, "\n");
+  const std::size_t used = columns(shown);
+  return std::string(used < width ? width - used : 0, ' ') + shown;
 }
 
 std::string shortened(std::string_view text, std::size_t width) {
-  std::string shown(text);
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  const std::string shown = escaped(text);
   if (columns(shown) <= width) return shown;
   if (width == 0) return {};
   std::size_t end = 0, used = 0;
@@ -38,6 +40,9 @@ std::string shortened(std::string_view text, std::size_t width) {
 }
 
 std::string hanging(std::string_view lead, std::string_view text, std::size_t width) {
+  std::string shown_lead, shown;
+  if (!is_plain(lead)) lead = shown_lead = escaped(lead, "\n");
+  if (!is_plain(text)) text = shown = escaped(text, "\n");
   constexpr std::size_t short_enough = 20;
   const std::size_t margin = std::min(lead.find_first_not_of(' '), lead.size());
   if (columns(lead) > std::max(width / 2, short_enough) && margin < lead.size() &&

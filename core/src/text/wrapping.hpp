@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// Text for a terminal of 80 columns.
+/// Text for a terminal of 80 columns. What is not plain (escaped.hpp) is shown escaped, so that text of files and
+/// plugins moves no cursor and colours no screen.
 namespace tunica::text {
 
 /// Columns that UTF-8 text takes: one a code point, which is right for the letters, Greek and signs we print.
@@ -14,8 +15,7 @@ std::size_t columns(std::string_view text);
 std::string pad(std::string_view text, std::size_t width);
 std::string pad_left(std::string_view text, std::size_t width);
 
-/// At most so many columns, the end of what is longer as "…"; control characters, which could move the cursor or
-/// colour the screen, as '?'.
+/// At most so many columns, the end of what is longer as "…".
 std::string shortened(std::string_view text, std::size_t width);
 
 /// `text` after `lead`, wrapped to `width` columns, further lines indented to where the text began. A lead that takes

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<Option> declared() {
   std::vector<Option> options{
-      Option::integer("population", 0, {0, 1e7},
+      Option::integer("population", 0, {0, 1e6},
                       "Points a generation, λ; the better half are the parents. 0 means 4 + 3 ln n for n parameters.")};
   const std::vector<Option> common = es::search_options(0.3);
   options.insert(options.end(), common.begin(), common.end());

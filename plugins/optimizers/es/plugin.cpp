@@ -12,7 +12,7 @@ namespace {
 std::vector<Option> declared() {
   std::vector<Option> options{
       Option::integer("parents", 10, {1, 1e6}, "Number of parents, μ."),
-      Option::integer("offspring", 40, {1, 1e7}, "Number of offspring a generation, λ."),
+      Option::integer("offspring", 40, {1, 1e6}, "Number of offspring a generation, λ."),
       Option::choice("selection", {"plus", "comma"}, "plus",
                      "Who the next parents are: the best of parents and offspring (plus, elitist) or the best of the "
                      "offspring (comma)."),

@@ -118,8 +118,10 @@ Found read_result(const ResultPlace& place, const std::filesystem::path& folder)
   const auto words = [&](const std::string& what) {
     return fmt::format("'{}', where '{}' is to be found, {}", place.file, place.observable, what);
   };
-  std::ifstream stream(folder / place.file);
-  if (!stream) return words("was not written");
+  std::error_code error;
+  std::ifstream stream;
+  if (std::filesystem::is_regular_file(folder / place.file, error)) stream.open(folder / place.file);
+  if (!stream.is_open()) return words("was not written");
   Found found = place.kind == ResultPlace::Kind::column    ? column_of(stream, place)
                 : place.kind == ResultPlace::Kind::pointer ? pointed_at(stream, place)
                                                            : matches_of(stream, place);

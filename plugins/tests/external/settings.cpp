@@ -22,8 +22,11 @@ using Json = nlohmann::json;
 Json json_of(const Options& options, const char* name) { return Json::parse(options.text(name)); }
 
 std::string read_file(const fs::path& file, const std::string& what) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || fs::is_directory(file))
+  std::error_code error;
+  const bool regular = fs::is_regular_file(file, error);  // to open a pipe would wait for its other end
+  std::ifstream stream;
+  if (regular) stream.open(file, std::ios::binary);
+  if (!regular || !stream)
     throw InputError(
         fmt::format("{} names '{}', which cannot be read; correct the name, which begins at the folder of "
                     "the experiment file",

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "execution/memory_need.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "tunica/error.hpp"
+
+namespace tunica::execution {
+
+namespace {
+
+// Measured: 10 kB a realisation with es and one parameter. It has a result, its improvements, a meter, an entry of the
+// checkpoint (in memory, and once more while it is written) and a row of the tables.
+constexpr double realisation_bytes = 10000, realisation_parameter_bytes = 100;
+constexpr double draw_bytes = 300, number_bytes = sizeof(double);
+constexpr double copies = 4;  // of predictions and derivatives, in evaluator, optimiser and linear algebra
+
+std::string size_text(double bytes) {
+  constexpr double GiB = 1024.0 * 1024 * 1024;
+  return bytes < GiB ? fmt::format("{:.0f} MiB", bytes / (1024 * 1024)) : fmt::format("{:.3g} GiB", bytes / GiB);
+}
+
+/// "max" where the group has no limit of its own.
+double limit_in(const char* file) {
+  std::ifstream stream(file);
+  double value = 0;
+  return stream >> value && value > 0 ? value : std::numeric_limits<double>::infinity();
+}
+
+double limit_of(int resource) {
+  rlimit limit{};
+  const bool known = ::getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
+  return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur)
+                                                  : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<MemoryShare> memory_need(const Plan& plan, unsigned threads) {
+  double realisations = 0, of_realisations = 0, of_draws = 0, numbers = 0, rows = 0;
+  const auto draws = static_cast<double>(plan.experiment->analysis.bootstrap_draws);
+  for (const auto& run : plan.runs) {
+    const assembly::Layout& layout = run.assembly->layout();
+    const auto free = static_cast<double>(layout.parameters.size());
+    const auto count = static_cast<double>(run.entry->realisations);
+    realisations += count;
+    of_realisations += count * (realisation_bytes + realisation_parameter_bytes * free);
+    of_draws += draws * (draw_bytes + number_bytes * free);
+    rows = std::max(rows, static_cast<double>(layout.prediction_count));
+    numbers = std::max(numbers, static_cast<double>(layout.prediction_count) * (free + 1));
+  }
+  return {{of_realisations, fmt::format("{:.0f} realisations", realisations), "lower \"realisations\" of the runs"},
+          {of_draws, fmt::format("{:.0f} draws of the bootstrap", draws), "lower \"draws\" of the bootstrap"},
+          {numbers * number_bytes * copies * threads, fmt::format("{:.0f} rows in {} threads", rows, threads),
+           "use fewer threads (-j), or fewer rows (\"rows\", \"resample\")"}};
+}
+
+double memory_limit() {
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return std::min({machine, limit_in("/sys/fs/cgroup/memory.max"),
+                   limit_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"), limit_of(RLIMIT_AS),
+                   limit_of(RLIMIT_DATA)});
+}
+
+void refuse_excess(const std::vector<MemoryShare>& need, double limit) {
+  double sum = 0;
+  for (const MemoryShare& share : need) sum += share.bytes;
+  if (!(sum > limit)) return;
+  const auto& most = *std::max_element(need.begin(), need.end(),
+                                       [](const auto& one, const auto& other) { return one.bytes < other.bytes; });
+  throw InputError(
+      fmt::format("the experiment needs about {} of memory, most of it for {} ({}), and this process may "
+                  "have {}; {}",
+                  size_text(sum), most.what, size_text(most.bytes), size_text(limit), most.remedy));
+}
+
+}  // namespace tunica::execution

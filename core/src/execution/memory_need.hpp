@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "execution/plan.hpp"
+
+/// Whether an experiment fits into the machine, asked before the first evaluation.
+namespace tunica::execution {
+
+/// What one part of an experiment takes.
+struct MemoryShare {
+  double bytes = 0;
+  std::string what, remedy;  ///< "1000000 realisations"; "Lower \"realisations\""
+};
+
+/// A rough estimate, right within a factor of about two: results and checkpoint of every realisation, draws of the
+/// bootstrap, predictions and their derivatives in each thread.
+std::vector<MemoryShare> memory_need(const Plan& plan, unsigned threads);
+
+/// Bytes that a process may have: of the machine, of its control group, of its own limits.
+double memory_limit();
+
+/// Throws InputError with both figures where the sum does not fit.
+void refuse_excess(const std::vector<MemoryShare>& need, double limit);
+
+}  // namespace tunica::execution

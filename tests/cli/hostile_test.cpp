@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Input that somebody made to do harm, or that nobody thought of: one message, exit code 2, and in time.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include "cli/bench.hpp"
+
+using namespace tunica;
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace {
+
+/// Exit code 2, nothing on stdout, no folder, and a message of a size that a person reads.
+std::string refused(const trial::Bench& bench) {
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 2) << ended.err.substr(0, 1000);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_LT(ended.err.size(), 1000u);
+  EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+  return ended.err;
+}
+
+/// Neither ESC, nor C1, nor a mark of direction, nor a byte that is not UTF-8 (JSON has none of these either).
+void expect_harmless(const std::string& text) {
+  for (const char* harm : {"\033", "\u009b", "\u202e", "\xFF"})
+    EXPECT_THAT(text, Not(HasSubstr(harm))) << text.substr(0, 2000);
+}
+
+}  // namespace
+
+TEST(HostileInput, CountsThatNoMachineHolds) {
+  trial::Bench bench;
+  bench.experiment["runs"][0]["realisations"] = 1000000000;
+  EXPECT_THAT(refused(bench), HasSubstr("a whole number of realisations from 1 to 100000 is expected"));
+  bench.experiment["runs"][0].erase("realisations");
+  bench.experiment["constraints"] = {{{"type", "transverse_stability"}, {"points", 1000000000000}}};
+  EXPECT_THAT(refused(bench), HasSubstr("a whole number of stretches from 2 to 10000 is expected"));
+  bench.experiment.erase("constraints");
+  bench.experiment["analysis"]["bootstrap"]["draws"] = 1000000000;
+  EXPECT_THAT(refused(bench), HasSubstr("a whole number of draws from 40 to 1000000 is expected"));
+}
+
+TEST(HostileInput, CountsOnTheCommandLine) {
+  const trial::Bench bench;
+  for (const auto& [option, value] :
+       {std::pair{"--bootstrap", "1000000000"}, std::pair{"-j", "1000000000"}, std::pair{"--shard", "1/1000000000"}}) {
+    const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", option, value});
+    EXPECT_EQ(ended.code, 2) << option;
+    EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+  }
+}
+
+TEST(HostileInput, AHugeKeyAndAHugeValueAreQuotedInShort) {
+  trial::Bench bench;
+  bench.experiment[std::string(10'000'000, 'k')] = 1;
+  EXPECT_THAT(refused(bench), HasSubstr("has 10000000 bytes, and at most 1000 are allowed"));
+  bench.experiment.erase(std::string(10'000'000, 'k'));
+  bench.experiment["objective"]["type"] = std::string(10'000'000, 'v');
+  EXPECT_THAT(refused(bench), HasSubstr("unknown objective 'vvvv"));
+}
+
+TEST(HostileInput, TextOfFilesActsOnNoTerminal) {
+  trial::Bench bench;
+  bench.experiment["models"]["neo\u202e"] = {{"type", "neo_hooke"}};
+  const std::string error = refused(bench);
+  EXPECT_THAT(error, HasSubstr("'neo\\u202e'"));
+  expect_harmless(error);
+  bench.experiment["models"].erase("neo\u202e");
+  bench.folder.write("circ.csv", "stretch [1],str\xFF\033[2J\u009b\u202e\n1.1,1\n");
+  const std::string columns = refused(bench);
+  EXPECT_THAT(columns, HasSubstr("str\\xff\\x1b[2J\\u009b\\u202e"));
+  expect_harmless(columns);
+}
+
+TEST(HostileInput, JsonIsValidAndHarmlessWhateverTheNames) {
+  trial::Bench bench;
+  bench.experiment["name"] = "a\u202eb\u009b\033c";
+  bench.folder.write("axial.csv", "\xFF\033\u202e,stretch [1],stress [kPa]\nx,1.1,10\nx,1.2,21\nx,1.3,33\n");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"check", "experiment.json", "--json"}, {"run", "experiment.json", "-o", "out"}}) {
+    const auto ended = bench.tunica(words);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    expect_harmless(ended.out);
+    expect_harmless(ended.err);
+    if (words.front() == "check") EXPECT_FALSE(nlohmann::json::parse(ended.out, nullptr, false).is_discarded());
+  }
+  EXPECT_EQ(bench.result("out")["name"], "a\u202eb\u009b\033c") << "files hold the name as it is";
+}
+
+TEST(HostileInput, SpecialFilesNeverMakeItWait) {
+  trial::Bench bench;
+  ASSERT_EQ(::mkfifo(bench.path("pipe").c_str(), 0600), 0);
+  for (const char* file : {"pipe", "/dev/zero"}) {
+    bench.experiment["tests"]["circ"]["data"]["file"] = file;
+    EXPECT_THAT(refused(bench), HasSubstr("is no regular file"));
+  }
+  bench.experiment["tests"]["circ"]["data"]["file"] = "/proc/kmsg";
+  EXPECT_THAT(refused(bench), AnyOf(HasSubstr("/proc/kmsg: this is not a regular file"),
+                                    HasSubstr("/proc/kmsg: the file cannot be read")));  // where only root may
+  for (const char* verb : {"run", "check", "discover"}) {
+    const auto ended = trial::tunica({verb, "pipe"}, bench.folder.path());
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("pipe: this is not a regular file"));
+  }
+}
+
+TEST(HostileInput, AFolderWhoseNameIsNotUtf8) {
+  const trial::Bench bench;
+  const auto folder = bench.path("d\xFF");
+  std::filesystem::create_directory(folder);
+  bench.save();
+  for (const char* file : {"experiment.json", "circ.csv", "axial.csv"})
+    std::filesystem::copy(bench.path(file), folder / file);
+  for (const char* verb : {"run", "check"}) {
+    const auto ended = trial::tunica({verb, "experiment.json"}, folder);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("the name of the file, or of a folder above it, is not UTF-8"),
+                                 Not(HasSubstr("fault of tunica"))));
+    expect_harmless(ended.err);
+  }
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "d\xFF/out"});
+  EXPECT_EQ(ended.code, 0) << "results go anywhere";
+  expect_harmless(ended.out);
+}
+
+TEST(HostileInput, DataThatFixNothing) {
+  trial::Bench bench;
+  bench.experiment["tests"]["circ"]["weight"] = bench.experiment["tests"]["axial"]["weight"] = 0;
+  EXPECT_THAT(refused(bench), HasSubstr("every row that could be fitted has the weight 0"));
+  bench.experiment["tests"]["circ"].erase("weight");
+  bench.experiment["tests"]["circ"]["data"]["noise"] = {{"relative", 1e308}};
+  EXPECT_THAT(refused(bench), HasSubstr("the stated noise gives σ = ∞"));
+  bench.experiment["tests"]["circ"]["data"]["noise"] = {{"absolute", 1e-14}};
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_LT(ended.out.find("NOT A FIT: 'stress' of test"), 200u) << "before everything else";
+}
+
+TEST(HostileInput, ATruncatedPluginInAFolderIsOneWarning) {
+  const trial::Bench bench;
+  const auto folder = bench.path("plugins");
+  std::filesystem::create_directory(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+  const auto plugin = folder / "good.so";
+  std::filesystem::copy(TUNICA_BAD_PLUGIN_DIR "/good.so", plugin);
+  std::filesystem::permissions(plugin, std::filesystem::perms::owner_all);
+  std::filesystem::resize_file(plugin, std::filesystem::file_size(plugin) / 2);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"list", "models"}, {"check", "experiment.json"}}) {
+    auto all = words;
+    all.insert(all.begin(), {"--plugin-path", "plugins"});
+    const auto ended = bench.tunica(all);
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("good.so was refused: the file is cut short"));
+  }
+}
