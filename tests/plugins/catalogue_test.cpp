@@ -140,7 +140,7 @@ TEST(Catalogue, RefusesParametersThatBeginOutsideTheirBounds) {
   Catalogue catalogue;
   Catalogue::Registration stage;
   MechanismFactory drift = mechanism("drift", tunica::Stage::test);
-  drift.wrap_test = [](std::unique_ptr<Test> base, const Options&) { return base; };
+  drift.wrap_test = [](std::unique_ptr<tunica::Test> base, const Options&) { return base; };
   drift.parameters = {{"amplitude", "1", 2, -1, 1, Scale::linear, "", ""}};
   stage.add(std::move(drift));
   EXPECT_EQ(refusal(catalogue, std::move(stage), "x 1"),

@@ -49,7 +49,9 @@ WrappedModel around_model(const Entry& entry, const std::function<std::unique_pt
                           const std::vector<double>& parameters, const Choices& choices) {
   std::string last;
   for (const Options& options : guesses(entry.factory.options, nullptr, choices)) try {
-      return {entry.factory, make(), plugins::wrap(entry, make(), options), parameters};
+      MechanismFactory mechanism = entry.factory;
+      mechanism.parameters = mechanism.parameters_with(options);
+      return {std::move(mechanism), make(), plugins::wrap(entry, make(), options), parameters};
     } catch (const InputError& problem) {
       last = problem.what();
     }
@@ -106,9 +108,11 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Check
   for (const Options& options : guesses(mechanism.options, &bare.test->rows(), choices)) try {
       on.with = plugins::wrap(
           entry, bare.from ? plugins::create(factory, bare.from->setup()) : composed_test(bare.name, context), options);
+      on.mechanism.parameters = mechanism.parameters_with(options);
       on.amplitude = bare.own.size();
       on.own.push_back(mechanism.null);
-      for (std::size_t k = 1; k < mechanism.parameters.size(); ++k) on.own.push_back(mechanism.parameters[k].initial);
+      for (std::size_t k = 1; k < on.mechanism.parameters.size(); ++k)
+        on.own.push_back(on.mechanism.parameters[k].initial);
       return on;
     } catch (const InputError& problem) {
       last = problem.what();

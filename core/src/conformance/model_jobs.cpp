@@ -34,6 +34,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
     if (option.kind == Option::Kind::choice) seen.insert({option.name, plausible.text(option.name)});
   std::vector<std::string> missed;
   std::size_t made = 0;
+  const std::size_t place = jobs.size();
   const std::string what = "each word that an option may have with what is made with it";
   for (const Choices& choices : all) {
     // In a process of its own first: what a wrong factory does is not known yet.
@@ -58,12 +59,14 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
     for (const std::string& word : option.choices)
       if (!seen.contains({option.name, word})) missed.push_back(fmt::format("{} = {}", option.name, word));
   head.with.clear();
-  add(jobs, head, choices_property, [=]() -> Verdict {
+  Jobs about;
+  add(about, head, choices_property, [=]() -> Verdict {
     if (!missed.empty())
       return not_checked(what,
                          fmt::format("it refuses {} with the defaults of the other options", fmt::join(missed, ", ")));
     return {.compared = what, .note = fmt::format("{} other combinations", made)};
   });
+  jobs.insert(jobs.begin() + static_cast<std::ptrdiff_t>(place), std::move(about.front()));
 }
 
 /// What an optimiser promises whatever its options; how well it finds optima is another matter.
