@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What is installed, in two components: runtime (bin/tunica, plugins) and development (headers, CMake, pkg-config). The
+# What is installed, in two components: runtime (bin/tunica, plugins, pages, examples) and development (headers, CMake, pkg-config). The
 # rules of the program and the plugins stand with their targets. Every path is relative: the tree may be moved.
 include(CMakePackageConfigHelpers)
 file(STRINGS ${PROJECT_SOURCE_DIR}/core/include/tunica/plugin.hpp line REGEX "#define TUNICA_PLUGIN_API [0-9]+")
@@ -28,6 +28,13 @@ foreach(folder man/man1 bash-completion/completions zsh/site-functions)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/share/${folder}/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/${folder} COMPONENT runtime)
 endforeach()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+# The pages, the examples and the schemas, in the places that they have here: links between them go on to work.
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime
+        PATTERN "examples/CMakeLists.txt" EXCLUDE PATTERN "run_example.cmake" EXCLUDE PATTERN "__pycache__" EXCLUDE
+        PATTERN "build" EXCLUDE PATTERN "results" EXCLUDE PATTERN "out" EXCLUDE)
+install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime FILES_MATCHING PATTERN "*.json")
 
 # What a user runs, without tests and benchmarks: ./bootstrap run builds no more.
 get_property(plugins GLOBAL PROPERTY TUNICA_PLUGINS)

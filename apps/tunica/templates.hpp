@@ -17,4 +17,8 @@ struct TemplateFile {
 
 std::span<const TemplateFile> template_files();
 
+/// The sources of the built-in plugins that `plugin new --like` copies: those that need no more than the SDK and what
+/// Debian has. `example` is the type.
+std::span<const TemplateFile> built_in_files();
+
 }  // namespace tunica::app

@@ -84,6 +84,115 @@ TEST(WrongModel, ThatThrowsIsNamedWithWhatItThrows) {
   EXPECT_THAT(ended.out, HasSubstr("seven points are too many"));
 }
 
+/// What the check says of one property of a thing.
+std::string words(const std::string& plugin, const std::string& name, const std::string& property) {
+  const auto all = nlohmann::json::parse(check(wrong(plugin), {"--only", name, "--json"}).out);
+  for (const auto& one : all["findings"])
+    if (one["name"] == name && one["property"] == property && one["outcome"] == "FAILED") return one["counter_example"];
+  return "it did not fail";
+}
+
+TEST(WrongModel, ThatWritesOneNumberPastTheEndIsToldWhereAndHowMany) {
+  EXPECT_EQ(words("wrong_memory", "past_the_end", "writes_its_outputs_and_nothing_else"),
+            "the model writes 1 number past the end of the output 'stress', which has 6: keep to the size of the span");
+}
+
+TEST(WrongModel, ThatAddsALittleBeforeTheBeginningIsToldWhereAndHowMany) {
+  EXPECT_EQ(words("wrong_memory", "before_the_beginning", "writes_its_outputs_and_nothing_else"),
+            "the model writes 2 numbers before the beginning of the output 'stress_dp', which has 1152: keep to the "
+            "size of the span");
+}
+
+TEST(WrongModel, ThatWritesNothingAndReturnsOkFails) {
+  EXPECT_EQ(words("wrong_memory", "silent", "writes_its_outputs_and_nothing_else"),
+            "the model never writes its output 'energy', and returns ok: 1 of 1 numbers are as they were before the "
+            "call");
+}
+
+TEST(WrongModel, ThatLeavesOneNumberUnwrittenIsToldWhich) {
+  EXPECT_EQ(words("wrong_memory", "short_of_one", "writes_its_outputs_and_nothing_else"),
+            "the model leaves 1 of 7 numbers of its output 'energy' unwritten, and returns ok; the first is number 7");
+}
+
+TEST(WrongModel, ThatAddsToItsOutputIsTold) {
+  EXPECT_EQ(words("wrong_memory", "adding", "writes_its_outputs_and_nothing_else"),
+            "the model computes 1 of 1 numbers of its output 'energy' from what was there before the call; outputs are "
+            "to be assigned, not added to");
+}
+
+TEST(WrongModel, ThatChangesItsInputIsToldWhich) {
+  EXPECT_EQ(words("wrong_memory", "tidying", "writes_its_outputs_and_nothing_else"),
+            "the model writes to its input 'C': 1 of 786 numbers changed");
+}
+
+TEST(WrongModel, ThatNeverWritesItsStateIsToldSo) {
+  EXPECT_EQ(words("wrong_state", "state_unwritten", "writes_its_outputs_and_nothing_else"),
+            "the model never writes its output 'state', and returns ok: 2 of 2 numbers are as they were before the "
+            "call");
+}
+
+TEST(WrongModel, ThatWritesHalfItsStateIsToldHowMuch) {
+  EXPECT_EQ(words("wrong_state", "state_half", "writes_its_outputs_and_nothing_else"),
+            "the model leaves 1 of 2 numbers of its output 'state' unwritten, and returns ok; the first is number 2");
+}
+
+TEST(WrongModel, WhoseStateIsNoNumberAfterALongStepIsNamed) {
+  EXPECT_THAT(words("wrong_state", "state_no_number", "history_stands_still_without_time"),
+              HasSubstr("number 2 of 2 of the state is nan after a step of 1 s"));
+}
+
+TEST(WrongModel, WhoseTangentForgetsTheOldStateIsNamed) {
+  EXPECT_EQ(failed("wrong_state", "history_tangent"), Names{"history_tangent_is_the_derivative_of_the_step"});
+}
+
+TEST(WrongModel, ThatIsInOrderButForItsNeighboursIsNotNamed) {
+  EXPECT_THAT(failed("wrong_state", "state_right"), IsEmpty());
+}
+
+TEST(WrongModel, ThatIsRightWithTheDefaultAloneIsNamedWithTheChoice) {
+  const auto all = nlohmann::json::parse(check(wrong("wrong_choices"), {"--only", "wrong_choice", "--json"}).out);
+  for (const auto& one : all["findings"])
+    EXPECT_EQ(one["outcome"] == "FAILED",
+              one["property"] == "stress_is_the_gradient_of_the_energy" && one["with"] == "with energy = half")
+        << one;
+}
+
+TEST(WrongOptimizer, ThatIsRightWithTheDefaultAloneIsNamedWithTheChoice) {
+  const auto all = nlohmann::json::parse(
+      check(wrong("wrong_choices"), {"--only", "repeats_itself_with_the_same_seed", "--json"}).out);
+  Names refused;
+  for (const auto& one : all["findings"])
+    if (one["outcome"] == "FAILED") refused.insert(one["with"]);
+  EXPECT_EQ(refused, Names{"with seed = own"});
+}
+
+TEST(WrongTest, ThatWritesNothingAndReturnsOkFails) {
+  EXPECT_THAT(words("wrong_answers", "shear_silent", "writes_its_outputs_and_nothing_else"),
+              HasSubstr("the test never writes its output 'values', and returns ok: 6 of 6 numbers"));
+}
+
+TEST(WrongTest, ThatWritesOneNumberPastTheEndIsToldWhereAndHowMany) {
+  EXPECT_THAT(words("wrong_answers", "shear_past_the_end", "writes_its_outputs_and_nothing_else"),
+              HasSubstr("the test writes 1 number past the end of the output 'jacobian', which has 30"));
+}
+
+TEST(WrongTest, ThatPredictsNoNumbersFailsThoughNoRowsSuitIt) {
+  EXPECT_THAT(words("wrong_answers", "shear_no_number", "predictions_are_numbers"),
+              HasSubstr("channel shear_stress is nan under the status ok"));
+}
+
+TEST(WrongTest, ThatThrowsWhileRowsAreLookedForFails) {
+  EXPECT_EQ(words("wrong_answers", "shear_throwing", "predictions_are_numbers"), "nobody catches this");
+}
+
+TEST(WrongTest, WhoseJacobianRemembersTheCallBeforeIsNamed) {
+  EXPECT_THAT(failed("wrong_answers", "shear_leaking_jacobian"), Contains("predictions_repeat_themselves"));
+}
+
+TEST(WrongTest, ThatIsInOrderButForItsNeighboursIsNotNamed) {
+  EXPECT_THAT(failed("wrong_answers", "shear_right"), IsEmpty());
+}
+
 TEST(WrongOptimizer, ThatLeavesTheBoxIsNamed) {
   EXPECT_THAT(failed("wrong_optimizers", "boundless"), Contains("keeps_the_bounds"));
 }

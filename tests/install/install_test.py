@@ -17,6 +17,7 @@ ask.add_argument("--source", type=pathlib.Path, required=True)
 ask.add_argument("--work", type=pathlib.Path, required=True)
 ask.add_argument("--launcher", help="compiler launcher, for example ccache")
 ask.add_argument("--python", help="the Python that the package was built for")
+ask.add_argument("--all", action="store_true", help="part like: every plugin that can be copied; takes minutes")
 ask.add_argument("part")
 told = ask.parse_args()
 prefix = told.work / "moved/tunica"
@@ -89,6 +90,73 @@ def new(kind):
     passes(folder, name)
 
 
+def documents():
+    """The folder of the pages: README.md, docs, examples, schemas."""
+    return next(prefix.glob("share/doc/*/README.md")).parent
+
+
+def pages():
+    """Pages and examples are there, links between them lead somewhere, and an example runs as it was installed."""
+    here = documents()
+    shown = [here / "README.md", *here.glob("docs/**/*.md"), *here.glob("examples/**/*.md")]
+    expect(len(shown) > 40, f"only {len(shown)} pages in {here}")
+    for name in ("docs", "examples", "schemas"):
+        kept = {"docs": "*.md", "examples": "*.json", "schemas": "*.json"}[name]
+        for path in (told.source / name).rglob(kept):
+            if not {"build", "results", "out"} & {*path.parts}:
+                expect((here / path.relative_to(told.source)).exists(), f"{path} was not installed")
+    for page in shown:
+        for link in re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text()):
+            target = (page.parent / link).resolve()
+            expect(target.is_relative_to(here.resolve()), f"{page}: {link} leads out of the pages")
+            if target.relative_to(here.resolve()).parts[:1] in [("docs",), ("examples",), ("schemas",)]:
+                expect(target.exists(), f"{page}: {link} leads nowhere")
+    folder = fresh("pages")
+    run(program, "run", here / "examples/treloar/experiment.json", "-o", folder / "out")
+    expect((folder / "out/result.json").exists(), "the example has no result")
+
+
+def like():
+    """A copy of a built-in plugin of each kind that can be copied: it builds, passes and answers to its own name."""
+    copies = [("model", "gho"), ("test", "simple_shear"), ("optimizer", "es")]
+    if told.all:
+        copies = [(kind, name) for kind, names in copied().items() for name in names]
+    for kind, name in copies:
+        mine = f"my_{name}_2"
+        folder = fresh(f"like_{name}") / mine
+        print(run(program, "plugin", "new", kind, mine, "--like", name, cwd=folder.parent))
+        for path in folder.iterdir():
+            if path.suffix in (".cpp", ".hpp"):
+                expect(not re.search(rf'"{name}"', path.read_text()), f"{path} still names {name}")
+        build(folder)
+        passes(folder, mine)
+        shown = run(program, "--plugin-path", folder / f"build/{mine}.so", "describe", mine)
+        expect(f"plugin {mine} 1.0.0" in shown, f"{mine} is not described: {shown}")
+
+
+def copied():
+    """What can be copied, as the refusals list it."""
+    kinds = {}
+    for kind in ("model", "test", "optimizer"):
+        shown = re.sub(r"\s+", " ", run(program, "plugin", "new", kind, "mine", "--like", "external", code=2, cwd=fresh("copied")))
+        kinds[kind] = re.search(r"take one of ([a-z0-9_, ]+)", shown)[1].strip().split(", ")
+    return kinds
+
+
+def like_refuses():
+    folder = fresh("like_refuses")
+    for words, message in [(("model", "mine", "--like", "composed"), "--like composed: it cannot be copied, since"),
+                           (("model", "mine", "--like", "composed"), "as model take one of arruda_boyce, four_fibre"),
+                           (("optimizer", "mine", "--like", "nlopt"), "as optimizer take one of es"),
+                           (("model", "mine", "--like", "uniaxial"), "write `tunica plugin new test NAME --like uniaxial`"),
+                           (("model", "mine", "--like", "ghp"), "there is no such model to copy. Did you mean 'gho'"),
+                           (("mechanism", "mine", "--like", "fibre_dispersion"), "a mechanism cannot be copied; leave --like out"),
+                           (("model", "gho", "--like", "hgo"), "'gho' is provided by a loaded plugin")]:
+        shown = run(program, "plugin", "new", *words, code=2, cwd=folder)
+        expect(message in re.sub(r"\s+", " ", shown), f"{words}: {shown}")
+    expect(not [*folder.iterdir()], "something was written")
+
+
 def new_refuses():
     folder = fresh("new_refuses")
     for words, message in [(("modle", "mine"), "there is no kind of plugin called 'modle'. Did you mean 'model'"),
@@ -103,7 +171,7 @@ def new_refuses():
 
 def example(name):
     folder = fresh(f"examples/{name}")
-    shutil.copytree(told.source / "examples/plugins" / name, folder, dirs_exist_ok=True)
+    shutil.copytree(documents() / "examples/plugins" / name, folder, dirs_exist_ok=True)  # as it was installed
     build(folder)
     passes(folder, name)
 
@@ -202,7 +270,7 @@ def refusals():
              (compiled("longer", change=[("const char* version;", "const char* version;\n  const char* licence;"),
                                          ("plugin_version, ", 'plugin_version, "", ')]),
               "bytes; expected")]
-    texts = {"missing_symbol": "exports no symbol", "no_name": "has no name", "null_header": "null pointer",
+    texts = {"default_outside_bounds": "outside its own bounds", "missing_symbol": "exports no symbol", "no_name": "has no name", "null_header": "null pointer",
              "no_register_function": "no register function", "non_standard_throw": "threw something",
              "other_fingerprint": "binary interface differs", "other_struct_size": "bytes; expected",
              "throwing_registration": "registration of plugin", "undefined_symbol": "needs the symbol",
@@ -225,6 +293,7 @@ def refusals():
 parts = {"prefix": install, "new_refuses": new_refuses, "pkg_config": pkg_config, "shelves": shelves,
          "beside_built_ins": beside_built_ins, "refusals": refusals}
 parts["python"] = python
+parts.update({"pages": pages, "like": like, "like_refuses": like_refuses})
 parts.update({f"new_{kind}": lambda kind=kind: new(kind) for kind in ("model", "test", "optimizer", "mechanism")})
 parts.update({name: lambda name=name: example(name) for name in examples})
 parts[told.part]()

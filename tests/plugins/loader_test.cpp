@@ -48,7 +48,7 @@ TEST(Loader, LoadsTheGoodOnesOfAFolderFullOfBadOnes) {
   EXPECT_THAT(names(report.loaded), ElementsAre("good"));
   std::map<std::string, std::string> reasons;
   for (const RefusedPlugin& refusal : report.refused) reasons[refusal.file.filename()] = refusal.reason;
-  EXPECT_EQ(reasons.size(), 12u) << "each with a reason";
+  EXPECT_EQ(reasons.size(), 13u) << "each with a reason";
   EXPECT_THAT(reasons.at("a_text.so"), HasSubstr("not a shared library"));
   EXPECT_EQ(reasons.at("zz_duplicate_name.so"),
             "plugin 'duplicate_name 0.1.0': the optimiser 'does_nothing' is already provided by plugin 'good 1.2.3', "

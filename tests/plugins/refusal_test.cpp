@@ -88,6 +88,12 @@ TEST(Refusal, RegistrationThatThrowsANumber) {
       "to return normally; nothing of the plugin was taken");
 }
 
+TEST(Refusal, DefaultOutsideItsOwnBounds) {
+  EXPECT_EQ(reason_for_bad("default_outside_bounds"),
+            "plugin 'default_outside_bounds 0.1.0': the optimiser 'too_many_starts': the option 'starts' has the "
+            "default 20, outside its own bounds; expected 10 or less; correct the declaration");
+}
+
 TEST(Refusal, UndefinedSymbolIsNamed) {
   EXPECT_EQ(reason_for_bad("undefined_symbol"),
             "it needs the symbol 'nobody_defines_this', which neither it nor a library it is linked with defines; link "

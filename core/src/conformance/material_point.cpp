@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "conformance/handout.hpp"
+
 namespace tunica::conformance {
 
 Tensor to_tensor(const Matrix& C) { return {C(0, 0), C(1, 1), C(2, 2), C(0, 1), C(1, 2), C(2, 0)}; }
@@ -30,17 +32,26 @@ bool Evaluated::finite() const {
   const auto all = [](const auto& values) {
     return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   };
-  return std::isfinite(energy) && all(stress) && all(tangent) && all(stress_dp);
+  return std::isfinite(energy) && all(stress) && all(tangent) && all(stress_dp) && all(state);
 }
 
 Evaluated evaluate(const Model& model, const Tensor& C, std::span<const double> parameters) {
-  Evaluated out;
   const ModelDescription& description = model.describe();
-  if (description.parameter_derivatives) out.stress_dp.resize(6 * parameters.size());
-  std::vector<double> state(description.history_size);
-  const Status status =
-      model.evaluate({1, C, parameters, {}, {}}, {{&out.energy, 1}, out.stress, out.tangent, out.stress_dp, state});
+  Handout handout("the model");
+  const MaterialPoints points{1, handout.input("C", C), handout.input("parameters", parameters), {}, {}};
+  const std::size_t derivatives = description.parameter_derivatives ? 6 * parameters.size() : 0;
+  const MaterialResponse response{handout.output("energy", 1), handout.output("stress", 6),
+                                  handout.output("tangent", 36), handout.output("stress_dp", derivatives),
+                                  handout.output("state", description.history_size)};
+  const Status status = model.evaluate(points, response);
+  handout.verify(status.ok());
   if (!status.ok()) throw std::runtime_error("the model answers '" + status.reason() + "'");
+  Evaluated out;
+  out.energy = response.energy[0];
+  std::copy(response.stress.begin(), response.stress.end(), out.stress.begin());
+  std::copy(response.tangent.begin(), response.tangent.end(), out.tangent.begin());
+  out.stress_dp.assign(response.stress_dp.begin(), response.stress_dp.end());
+  out.state.assign(response.state.begin(), response.state.end());
   return out;
 }
 

@@ -31,11 +31,12 @@ struct Evaluated {
   Tensor stress{};
   std::array<double, 36> tangent{};
   std::vector<double> stress_dp;
+  std::vector<double> state;  ///< the new one
 
   [[nodiscard]] bool finite() const;
 };
 /// One point, everything the model offers; history models at equilibrium from rest. Throws std::runtime_error where the
-/// model answers with another status than ok.
+/// model answers with another status than ok, and MemoryFault (handout.hpp) for writes elsewhere or left out.
 Evaluated evaluate(const Model& model, const Tensor& C, std::span<const double> parameters);
 
 /// Seeded states and parameters: C = FᵀF with F = 1 + entries up to ±0.25, parameters inside their bounds, away from

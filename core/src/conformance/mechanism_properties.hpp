@@ -28,7 +28,7 @@ inline double next_to_the_null(const MechanismFactory& mechanism) {
 
 /// A model inside a mechanism, and the bare one.
 struct WrappedModel {
-  const MechanismFactory& mechanism;
+  MechanismFactory mechanism;  ///< its parameters those of the options in question
   std::shared_ptr<const Model> bare, with;
   std::vector<double> base;  ///< parameters of the bare one
 
@@ -38,7 +38,7 @@ struct WrappedModel {
 
 /// A test inside a mechanism, and the bare one; of a mechanism that stands for a parameter of the test twice the same.
 struct WrappedTest {
-  const MechanismFactory& mechanism;
+  MechanismFactory mechanism;
   std::shared_ptr<const Test> bare, with;
   std::size_t amplitude = 0;     ///< its number among the parameters of `with`
   std::vector<double> bare_own;  ///< parameters of `bare` where nothing is wrong

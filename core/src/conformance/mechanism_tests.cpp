@@ -17,15 +17,11 @@ namespace {
 
 using Side = MechanismFactory::Side;
 
-struct Prediction {
-  Values values, jacobian;
-};
 Prediction predict(const WrappedTest& on, const Test& test, const Values& own, bool jacobian) {
-  const std::size_t size = test.rows().channels.size() * test.rows().count;
-  Prediction p{Values(size), Values(jacobian ? size * (on.material.parameters.size() + own.size()) : 0)};
-  const Status status = test.predict({*on.material.model, on.material.parameters, own}, {p.values, p.jacobian, {}, {}});
-  if (!status.ok()) throw std::runtime_error("the test answers '" + status.reason() + "'");
-  return p;
+  Prediction found =
+      conformance::predict(test, {*on.material.model, on.material.parameters, own}, {.jacobian = jacobian});
+  if (!found.status.ok()) throw std::runtime_error("the test answers '" + found.status.reason() + "'");
+  return found;
 }
 
 double plausible(const WrappedTest& on) { return on.mechanism.plausible_max - on.mechanism.null; }

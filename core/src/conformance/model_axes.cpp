@@ -2,10 +2,10 @@
 // The fast path of models, along principal axes, against their tensors.
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "conformance/axes_answers.hpp"
 #include "conformance/differences.hpp"
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
@@ -15,22 +15,6 @@ namespace {
 
 constexpr int axes_draws = 20;
 constexpr double axes_tolerance = 1e-12;
-
-struct OnAxes {
-  double energy = 0;
-  std::array<double, 3> gradient{};
-  std::array<double, 6> hessian{};
-  std::vector<double> gradient_dp;
-};
-OnAxes evaluate_axes(const Model& model, const Point& point, bool parameter_derivatives) {
-  OnAxes out;
-  if (parameter_derivatives) out.gradient_dp.resize(3 * point.p.size());
-  const std::array c{point.C[0], point.C[1], point.C[2]};
-  const Status status =
-      model.evaluate_axes({1, c, point.p}, {{&out.energy, 1}, out.gradient, out.hessian, out.gradient_dp});
-  if (!status.ok()) throw std::runtime_error("evaluate_axes answers '" + status.reason() + "'");
-  return out;
-}
 
 }  // namespace
 
@@ -43,14 +27,15 @@ Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed) {
   for (int draw = 0; draw < axes_draws; ++draw) {
     const Point point = sampler.diagonal_point(model);
     const Evaluated tensor = evaluate(model, point.C, point.p);
-    const OnAxes axes = evaluate_axes(model, point, false);
+    const AxesAnswers axes =
+        axes_answers(model, std::span(point.C).first(3), point.p, {.gradient_dp = false, .energy_dp = false});
     const auto see = [&](const std::string& what, double one, double other, double scale) {
       meter.see(std::abs(one - other) / scale, [&] {
         return fmt::format("{} is {:.15g} from evaluate_axes, {:.15g} from evaluate,", what, one, other) +
                where(model, point);
       });
     };
-    see("W", axes.energy, tensor.energy, std::max(std::abs(tensor.energy), 1e-3 * scale_of(tensor.stress)));
+    see("W", axes.energy[0], tensor.energy, std::max(std::abs(tensor.energy), 1e-3 * scale_of(tensor.stress)));
     for (std::size_t a = 0; a < 3; ++a)
       see(fmt::format("S of axis {}", a), 2 * axes.gradient[a], tensor.stress[a], scale_of(tensor.stress));
     constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
@@ -58,6 +43,41 @@ Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed) {
       see(fmt::format("the tangent of axes {} and {}", pair[k][0], pair[k][1]), 4 * axes.hessian[k],
           tensor.tangent[6 * pair[k][0] + pair[k][1]],
           std::max(scale_of(tensor.tangent), 1e-3 * scale_of(tensor.stress)));
+  }
+  meter.note(sampler.drawn_again());
+  return meter.verdict();
+}
+
+/// ∂W/∂p against differences of W: evaluate() has no such output.
+Verdict axes_energy_derivatives_match_differences(const Model& model, std::uint64_t seed) {
+  Meter meter("dW/dp of evaluate_axes with differences of W over each parameter", 1e-6);
+  const ModelDescription& description = model.describe();
+  if (!description.principal_axes || !description.energy_derivatives || !description.parameter_derivatives)
+    return not_checked(meter.verdict().compared, "the model declares no energy_derivatives along axes");
+  Sampler sampler(seed);
+  for (int draw = 0; draw < axes_draws; ++draw) {
+    const Point point = sampler.diagonal_point(model);
+    const std::span<const double> c = std::span(point.C).first(3);
+    const AxesAnswers at = axes_answers(model, c, point.p);
+    for (std::size_t j = 0; j < point.p.size(); ++j) {
+      const Parameter& declared = description.parameters[j];
+      const double value = point.p[j], size = declared.scale == Scale::log ? value : declared.max - declared.min;
+      const double room = 0.5 * std::min(value - declared.min, declared.max - value);
+      const Difference slope = differentiate(
+          [&](double t) {
+            std::vector<double> p = point.p;
+            p[j] += t;
+            return axes_answers(model, c, p, {true, false, false, false, false}).energy;
+          },
+          std::min(1e-2 * size, room))[0];
+      const double scale =
+          std::max({std::abs(at.energy_dp[j]), std::abs(slope.value), 1e-6 * std::abs(at.energy[0] / size), 1e-300});
+      if (!(slope.uncertainty <= 0.25 * meter.tolerance() * scale)) continue;
+      meter.see(std::abs(at.energy_dp[j] - slope.value) / scale, [&] {
+        return fmt::format("dW/d{} = {:.10g}, differences give {:.10g},", declared.name, at.energy_dp[j], slope.value) +
+               where(model, point);
+      });
+    }
   }
   meter.note(sampler.drawn_again());
   return meter.verdict();
@@ -74,7 +94,7 @@ Verdict axes_parameter_derivatives_agree_with_tensors(const Model& model, std::u
   for (int draw = 0; draw < axes_draws; ++draw) {
     const Point point = sampler.diagonal_point(model);
     const Evaluated tensor = evaluate(model, point.C, point.p);
-    const OnAxes axes = evaluate_axes(model, point, true);
+    const AxesAnswers axes = axes_answers(model, std::span(point.C).first(3), point.p);
     for (std::size_t j = 0; j < point.p.size(); ++j) {
       const auto row = std::span(tensor.stress_dp).subspan(6 * j, 6);
       const double scale = scale_of(row, 1e-6 * scale_of(tensor.stress) / std::max(1e-300, std::abs(point.p[j])));

@@ -1,34 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conformance/model_batch.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <stdexcept>
 
+#include "conformance/handout.hpp"
+
 namespace tunica::conformance {
-namespace {
-
-/// Numbers around every output that nobody may touch.
-constexpr std::size_t fence = 8;
-constexpr double post = -7.0e77;
-
-struct Fenced {
-  explicit Fenced(std::size_t count) : memory(count == 0 ? 0 : count + 2 * fence, post), size(count) {
-    // What is not written shows as no number.
-    std::fill_n(memory.begin() + (count == 0 ? 0 : fence), count, std::numeric_limits<double>::quiet_NaN());
-  }
-  std::span<double> inside() { return size == 0 ? std::span<double>() : std::span(memory).subspan(fence, size); }
-  [[nodiscard]] bool intact() const {
-    return size == 0 || (std::all_of(memory.begin(), memory.begin() + fence, [](double x) { return x == post; }) &&
-                         std::all_of(memory.end() - fence, memory.end(), [](double x) { return x == post; }));
-  }
-  std::vector<double> memory;
-  std::size_t size;
-};
-
-}  // namespace
-
 Batch Batch::draw(const Model& model, Sampler& sampler, std::size_t count) {
   Batch batch;
   batch.count = count;
@@ -63,24 +40,21 @@ Point Batch::point(std::size_t i) const {
 std::vector<double> answers(const Model& model, const Batch& batch, const OutputSelection& wanted) {
   const std::size_t n = batch.count;
   const ModelDescription& description = model.describe();
-  std::array outputs{Fenced(wanted.energy ? n : 0), Fenced(wanted.stress ? 6 * n : 0),
-                     Fenced(wanted.tangent ? 36 * n : 0),
-                     Fenced(wanted.stress_dp && description.parameter_derivatives ? 6 * n * batch.p.size() : 0),
-                     Fenced(wanted.state ? description.history_size * n : 0)};
-  const Batch before = batch;
-  const Status status = model.evaluate(batch.points(), {outputs[0].inside(), outputs[1].inside(), outputs[2].inside(),
-                                                        outputs[3].inside(), outputs[4].inside()});
+  Handout handout("the model");
+  const MaterialPoints points{n, handout.input("C", batch.C), handout.input("parameters", batch.p),
+                              handout.input("time_step", batch.time_step), handout.input("state", batch.state)};
+  const std::size_t derivatives = description.parameter_derivatives ? 6 * n * batch.p.size() : 0;
+  const MaterialResponse response{handout.output("energy", wanted.energy ? n : 0),
+                                  handout.output("stress", wanted.stress ? 6 * n : 0),
+                                  handout.output("tangent", wanted.tangent ? 36 * n : 0),
+                                  handout.output("stress_dp", wanted.stress_dp ? derivatives : 0),
+                                  handout.output("state", wanted.state ? description.history_size * n : 0)};
+  const Status status = model.evaluate(points, response);
+  handout.verify(status.ok());
   if (!status.ok()) throw std::runtime_error("the model answers '" + status.reason() + "'");
-  if (before.state != batch.state || before.C != batch.C || before.p != batch.p)
-    throw std::runtime_error("the model writes to its input: the old state, C or the parameters");
-  constexpr std::array names{"energy", "stress", "tangent", "stress_dp", "state"};
   std::vector<double> all;
-  for (std::size_t k = 0; k < outputs.size(); ++k) {
-    if (!outputs[k].intact())
-      throw std::runtime_error(std::string("the model writes beyond the memory of the output '") + names[k] + "'");
-    const auto inside = outputs[k].inside();
-    all.insert(all.end(), inside.begin(), inside.end());
-  }
+  for (const auto output : {response.energy, response.stress, response.tangent, response.stress_dp, response.state})
+    all.insert(all.end(), output.begin(), output.end());
   return all;
 }
 

@@ -35,7 +35,7 @@ struct Batch {
 };
 
 /// All answers one behind the other: energy, stress, tangent, stress_dp, state; of the kinds wanted only. Throws
-/// std::runtime_error for a status that is not ok, and where memory beyond an output was written to.
+/// std::runtime_error for a status that is not ok, and MemoryFault (handout.hpp) for writes elsewhere or left out.
 std::vector<double> answers(const Model& model, const Batch& batch, const OutputSelection& wanted = {});
 
 }  // namespace tunica::conformance

@@ -64,6 +64,56 @@ Verdict history_begins_at_rest(const Model& model, std::uint64_t seed) {
   return meter.verdict();
 }
 
+Verdict history_tangent_is_the_derivative_of_the_step(const Model& model, std::uint64_t seed) {
+  Meter meter("2 dS/dC of a step from an old state with differences of S of that step", 1e-6);
+  if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
+  constexpr const char* component[] = {"tt", "zz", "rr", "tz", "zr", "tr"};
+  Sampler sampler(seed);
+  std::size_t settled = 0, all = 0;
+  for (const double dt : {-1., 1e-2, 1., 1e2}) {
+    Batch batch = Batch::draw(model, sampler, points);
+    batch.time_step.assign(dt < 0 ? 0 : points, dt);
+    const std::vector<double> tangent = answers(model, batch, {false, false, true, false, false});
+    for (std::size_t b = 0; b < 6; ++b) {
+      const auto slope = differentiate(
+          [&](double t) {
+            Batch moved = batch;
+            for (std::size_t i = 0; i < points; ++i) moved.C[b * points + i] += t;
+            return answers(model, moved, {false, true, false, false, false});
+          },
+          1e-2);
+      const double factor = b < 3 ? 2 : 1;  // an off-diagonal entry stands for two
+      for (std::size_t i = 0; i < points; ++i) {
+        double scale = 1e-300, unsure = 0;
+        for (std::size_t a = 0; a < 6; ++a) {
+          scale = std::max(
+              {scale, std::abs(tangent[(6 * a + b) * points + i]), std::abs(factor * slope[a * points + i].value)});
+          unsure = std::max(unsure, factor * slope[a * points + i].uncertainty);
+        }
+        ++all;
+        if (!(unsure <= 0.25 * meter.tolerance() * scale)) continue;  // a kink: where loading turns, for example
+        ++settled;
+        for (std::size_t a = 0; a < 6; ++a) {
+          const double given = tangent[(6 * a + b) * points + i], expected = factor * slope[a * points + i].value;
+          meter.see(std::abs(given - expected) / scale, [&] {
+            return fmt::format("2 dS_{}/dC_{} = {:.10g}, differences of S from the same old state give {:.10g}, {}",
+                               component[a], component[b], given, expected,
+                               dt < 0 ? std::string("no clock") : fmt::format("a step of {:g} s", dt)) +
+                   where(model, batch.point(i));
+          });
+        }
+      }
+    }
+  }
+  if (settled < all / 4)
+    return broken(meter.verdict().compared,
+                  fmt::format("at {} of {} states and components differences do not settle: S jumps or has noise",
+                              all - settled, all));
+  if (settled < all)
+    meter.note(fmt::format("{} of {} columns left out, where differences do not settle", all - settled, all));
+  return meter.verdict();
+}
+
 Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed) {
   Meter meter("S with S of the same C again, no time later", 1e-9);
   if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
@@ -72,6 +122,14 @@ Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed
     batch.time_step.assign(points, dt);
     batch.state.clear();
     const StepResult first = step(model, batch);
+    const auto bad =
+        std::find_if_not(first.state.begin(), first.state.end(), [](double x) { return std::isfinite(x); });
+    if (bad != first.state.end())
+      return broken(meter.verdict().compared,
+                    fmt::format("number {} of {} of the state is {} after a step of {:g} s,",
+                                static_cast<std::size_t>(bad - first.state.begin()) / points + 1,
+                                model.describe().history_size, *bad, dt) +
+                        where(model, batch.point(static_cast<std::size_t>(bad - first.state.begin()) % points)));
     if (!std::all_of(first.stress.begin(), first.stress.end(), [](double x) { return std::isfinite(x); }))
       return broken(meter.verdict().compared, fmt::format("S is no number after a step of {:g} s", dt));
     batch.state = first.state;

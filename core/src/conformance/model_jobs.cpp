@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "conformance/declarations.hpp"
+#include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
 #include "conformance/model_properties.hpp"
 #include "conformance/optimizer_properties.hpp"
@@ -7,6 +17,72 @@
 #include "plugins/guarded.hpp"
 
 namespace tunica::conformance {
+
+namespace {
+
+constexpr const char* choices_property = "every_choice_is_exercised";
+
+/// Adds properties with each of the other choices that `make(choices)` accepts, and says which words none of them has.
+template <class Make, class Add>
+void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, std::size_t most,
+                 const CheckContext& context, const Make& make, const Add& add_to) {
+  std::vector<Choices> all = other_choices(declared, most);
+  if (all.empty()) return;
+  std::set<std::pair<std::string, std::string>> seen;
+  const Options plausible = plausible_options(declared);
+  for (const Option& option : declared)
+    if (option.kind == Option::Kind::choice) seen.insert({option.name, plausible.text(option.name)});
+  std::vector<std::string> missed;
+  std::size_t made = 0;
+  const std::size_t place = jobs.size();
+  const std::string what = "each word that an option may have with what is made with it";
+  for (const Choices& choices : all) {
+    // In a process of its own first: what a wrong factory does is not known yet.
+    const Verdict able = isolated(
+        [&]() -> Verdict {
+          try {
+            make(choices);
+          } catch (const InputError& refusal) {
+            return not_checked(what, refusal.what());
+          }
+          return {.compared = what};
+        },
+        context.settings.time_limit);
+    head.with = "with " + words_of(choices);
+    if (!able.counter_example.empty()) add(jobs, head, choices_property, [able] { return able; });
+    if (!able.held()) continue;
+    seen.insert(choices.begin(), choices.end());
+    ++made;
+    add_to(head, choices);
+  }
+  for (const Option& option : declared)
+    for (const std::string& word : option.choices)
+      if (!seen.contains({option.name, word})) missed.push_back(fmt::format("{} = {}", option.name, word));
+  head.with.clear();
+  Jobs about;
+  add(about, head, choices_property, [=]() -> Verdict {
+    if (!missed.empty())
+      return not_checked(what,
+                         fmt::format("it refuses {} with the defaults of the other options", fmt::join(missed, ", ")));
+    return {.compared = what, .note = fmt::format("{} other combinations", made)};
+  });
+  jobs.insert(jobs.begin() + static_cast<std::ptrdiff_t>(place), std::move(about.front()));
+}
+
+/// What an optimiser promises whatever its options; how well it finds optima is another matter.
+bool is_of_conduct(const OptimizerProperty& property) {
+  constexpr std::array all{evaluates_once_when_nothing_is_free,
+                           keeps_the_budget,
+                           stops_at_the_target,
+                           asks_for_what_it_declares,
+                           repeats_itself_with_the_same_seed,
+                           does_not_depend_on_the_order_of_parallel_work,
+                           gives_up_when_nothing_can_be_evaluated,
+                           prints_nothing};
+  return std::find(all.begin(), all.end(), property.function) != all.end();
+}
+
+}  // namespace
 
 Jobs model_jobs(const std::string& type, const CheckContext& context) {
   const auto& entry = context.catalogue.models().find(type)->second;
@@ -26,6 +102,19 @@ Jobs model_jobs(const std::string& type, const CheckContext& context) {
   });
   add_properties(jobs, head, model_properties(), context.settings.seed,
                  [made](const auto& check) { return check(*made()); });
+  const auto make = [&entry](const Choices& choices) {
+    return plugins::create_bare(entry, with_choices(entry.factory.options, choices));
+  };
+  std::vector<ModelProperty> properties = model_properties();
+  // Threads, which take the longest, are tried once.
+  std::erase_if(properties, [](const ModelProperty& one) { return one.function == concurrent_calls_agree; });
+  add_choices(jobs, head, entry.factory.options, many_combinations, context, make,
+              [&](const Finding& with, const Choices& choices) {
+                add(jobs, with, "parameters_are_declared",
+                    [make, choices] { return parameters_are_declared(make(choices)->describe().parameters); });
+                add_properties(jobs, with, properties, context.settings.seed,
+                               [make, choices](const auto& check) { return check(*make(choices)); });
+              });
   return jobs;
 }
 
@@ -39,6 +128,17 @@ Jobs optimizer_jobs(const std::string& type, const CheckContext& context) {
   });
   add_properties(jobs, head, optimizer_properties(), context.settings.seed, [&entry](const auto& check) {
     return check(Candidate{[&entry] { return plugins::create(entry, plausible_options(entry.factory.options)); }});
+  });
+  const auto make = [&entry](const Choices& choices) {
+    return plugins::create(entry, with_choices(entry.factory.options, choices));
+  };
+  std::vector<OptimizerProperty> properties = optimizer_properties();
+  std::erase_if(properties, [](const OptimizerProperty& one) { return !is_of_conduct(one); });
+  // Each word by itself: a search is longer than a call of a model.
+  add_choices(jobs, head, entry.factory.options, 0, context, make, [&](const Finding& with, const Choices& choices) {
+    add_properties(jobs, with, properties, context.settings.seed, [make, choices](const auto& check) {
+      return check(Candidate{[make, choices] { return make(choices); }});
+    });
   });
   return jobs;
 }

@@ -21,6 +21,7 @@ Verdict deviatoric_stress_vanishes_at_rest(const Model& model, std::uint64_t see
 Verdict energy_is_the_sum_of_its_parts(const Model& model, std::uint64_t seed);
 Verdict numbers_are_finite_or_say_so(const Model& model, std::uint64_t seed);
 
+Verdict writes_its_outputs_and_nothing_else(const Model& model, std::uint64_t seed);
 Verdict batch_equals_single_points(const Model& model, std::uint64_t seed);
 Verdict unwanted_outputs_change_nothing(const Model& model, std::uint64_t seed);
 Verdict calls_leave_nothing_behind(const Model& model, std::uint64_t seed);
@@ -28,8 +29,11 @@ Verdict concurrent_calls_agree(const Model& model, std::uint64_t seed);
 
 Verdict axes_path_agrees_with_tensors(const Model& model, std::uint64_t seed);
 Verdict axes_parameter_derivatives_agree_with_tensors(const Model& model, std::uint64_t seed);
+Verdict axes_memory_agrees_with_tensors(const Model& model, std::uint64_t seed);
+Verdict axes_energy_derivatives_match_differences(const Model& model, std::uint64_t seed);
 
 Verdict history_begins_at_rest(const Model& model, std::uint64_t seed);
+Verdict history_tangent_is_the_derivative_of_the_step(const Model& model, std::uint64_t seed);
 Verdict history_stands_still_without_time(const Model& model, std::uint64_t seed);
 
 using ModelProperty = PropertyOf<Model>;

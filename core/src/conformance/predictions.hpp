@@ -12,6 +12,18 @@ using Values = std::vector<double>;
 
 inline std::size_t size_of(const Simulation& s) { return s.test.rows().count * s.test.rows().channels.size(); }
 
+/// Which outputs are asked for.
+struct PredictionSelection {
+  bool values = true, jacobian = false, abscissa_derivative = false, diagnostics = false;
+};
+/// What a test answers. Nothing is to be read unless the status is ok.
+struct Prediction {
+  Status status;
+  Values values, jacobian, abscissa_derivative, diagnostics;
+};
+/// A call of predict(). Throws MemoryFault (handout.hpp) for writes elsewhere, or left out under the status ok.
+Prediction predict(const Test& test, const TestInput& input, const PredictionSelection& wanted = {});
+
 /// Predictions at the test's own abscissae, or with abscissa k replaced by `other`. Throws std::runtime_error where
 /// the status is not ok.
 Values values_at(const Simulation& s, const Values& p, const Values& q, const Values& other = {}, std::size_t k = 0);

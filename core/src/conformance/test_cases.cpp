@@ -10,6 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "conformance/handout.hpp"
+#include "conformance/option_values.hpp"
+#include "conformance/predictions.hpp"
 #include "plugins/guarded.hpp"
 
 namespace tunica::conformance {
@@ -17,7 +20,6 @@ namespace {
 
 using Role = Observable::Role;
 using Kind = Option::Kind;
-using Choices = std::vector<std::pair<std::string, std::string>>;
 
 /// Moderate values of something prescribed: growing, so that rows are in loading order.
 std::vector<double> rising(const Observable& observable, std::size_t rows, double size) {
@@ -90,21 +92,29 @@ class SetupSampler {
   std::size_t attempt_ = 0;
 };
 
-/// Why the test cannot be made or cannot predict; empty = it does.
-std::string refused(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
-                    const Material& material, std::shared_ptr<Test>& made) {
+/// What came of a guess. One that is no case is refused with a reason; one that breaks a promise is a case, which the
+/// properties then fail.
+struct Attempt {
+  std::shared_ptr<Test> test;
+  std::string refusal;     ///< empty = the guess is a case
+  bool no_number = false;  ///< refused since a value is no number under the status ok
+};
+Attempt attempt_with(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& guess,
+                     const Material& material) {
+  Attempt one;
   try {
-    made = plugins::create_bare(entry, guess.setup());
-    const std::vector<double> own = own_values(made->describe());
-    std::vector<double> values(made->rows().count * made->rows().channels.size());
-    const Status status = made->predict({*material.model, material.parameters, own}, {values, {}, {}, {}});
-    if (!status.ok()) return status.reason();
-    if (!std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-      return "it predicts numbers that are not finite, under the status ok";
+    one.test = plugins::create_bare(entry, guess.setup());
+    const std::vector<double> own = own_values(one.test->describe());
+    const Prediction found = predict(*one.test, {*material.model, material.parameters, own});
+    if (!found.status.ok())
+      one.refusal = found.status.reason().empty() ? "it fails without a reason" : found.status.reason();
+    else if (!std::all_of(found.values.begin(), found.values.end(), [](double x) { return std::isfinite(x); }))
+      one = {one.test, "it predicts numbers that are not finite, under the status ok", true};
   } catch (const InputError& problem) {
-    return problem.what();
+    one.refusal = problem.what();
+  } catch (const MemoryFault&) {
   }
-  return {};
+  return one;
 }
 
 /// As synthetic_case(), with these choices made.
@@ -113,12 +123,18 @@ TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const C
   const Material material = materials().front();
   SetupSampler guesses(entry.factory, pinned, seed);
   std::string last = "it declares no channel";
+  std::optional<TestCase> no_number;
+  const auto made = [&](OwnedSetup guess, std::shared_ptr<Test> test) -> TestCase {
+    std::vector<double> own = own_values(test->describe());
+    return {"", std::move(test), std::move(guess), std::move(own), material};
+  };
   for (int attempt = 0; attempt < patience; ++attempt) {
     OwnedSetup guess = guesses.next();
     if (guess.channels.empty()) continue;
-    std::shared_ptr<Test> test;
-    if (std::string reason = refused(entry, guess, material, test); !reason.empty()) {
-      last = std::move(reason);
+    Attempt one = attempt_with(entry, guess, material);
+    if (!one.refusal.empty()) {
+      last = std::move(one.refusal);
+      if (one.no_number && !no_number) no_number = made(guess, std::move(one.test));
       continue;
     }
     // As many channels as go together.
@@ -128,38 +144,15 @@ TestCase found_case(const plugins::Catalogue::Entry<TestFactory>& entry, const C
         continue;
       OwnedSetup more = guess;
       more.channels.push_back(observable.name);
-      std::shared_ptr<Test> larger;
-      if (refused(entry, more, material, larger).empty()) {
+      if (Attempt larger = attempt_with(entry, more, material); larger.refusal.empty()) {
         guess = more;
-        test = larger;
+        one = std::move(larger);
       }
     }
-    std::vector<double> own = own_values(test->describe());
-    return {"", std::move(test), std::move(guess), std::move(own), material};
+    return made(std::move(guess), std::move(one.test));
   }
-  throw std::runtime_error(last);
-}
-
-std::string words_of(const Choices& choices) {
-  std::vector<std::string> words;
-  for (const auto& [name, word] : choices) words.push_back(fmt::format("{} = {}", name, word));
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-/// All words of each option with all of the others.
-std::vector<Choices> combinations(const std::vector<Option>& options) {
-  std::vector<Choices> all{{}};
-  for (const Option& option : options) {
-    if (option.kind != Kind::choice) continue;
-    std::vector<Choices> longer;
-    for (const Choices& begun : all)
-      for (const std::string& word : option.choices) {
-        longer.push_back(begun);
-        longer.back().emplace_back(option.name, word);
-      }
-    all = std::move(longer);
-  }
-  return all;
+  if (no_number) return std::move(*no_number);
+  throw NothingSuits(last);
 }
 
 }  // namespace
@@ -194,8 +187,8 @@ TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std
   constexpr int patience = 4000;
   try {
     return found_case(entry, {}, patience, seed);
-  } catch (const std::runtime_error& problem) {
-    throw std::runtime_error(
+  } catch (const NothingSuits& problem) {
+    throw NothingSuits(
         fmt::format("no rows could be made up that suit it ({}); give --experiment with a test of it", problem.what()));
   }
 }
@@ -203,7 +196,6 @@ TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std
 ChoiceCases choice_cases(const plugins::Catalogue::Entry<TestFactory>& entry, const TestCase& base,
                          std::uint64_t seed) {
   constexpr int patience = 400;
-  constexpr std::size_t many = 24;
   const Choices& made = base.from->choices;
   const std::vector<Option>& options = entry.factory.options;
   ChoiceCases found;
@@ -214,13 +206,11 @@ ChoiceCases choice_cases(const plugins::Catalogue::Entry<TestFactory>& entry, co
       seen.insert(one.from->choices.begin(), one.from->choices.end());
       found.cases.push_back(std::move(one));
       return {};
-    } catch (const std::runtime_error& problem) {
+    } catch (const NothingSuits& problem) {
       return problem.what();
     }
   };
-  std::size_t count = 1;
-  for (const Option& option : options) count *= std::max<std::size_t>(1, option.choices.size());
-  if (count <= many && !base.test->describe().costly)
+  if (combination_count(options) <= many_combinations && !base.test->describe().costly)
     for (const Choices& choices : combinations(options))
       if (choices != made) look_for(choices);
   // What no combination has: one word at a time, whatever goes with it.

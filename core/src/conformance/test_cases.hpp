@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,9 +46,15 @@ struct TestCase {
 /// The test's own parameters where imperfections are absent.
 std::vector<double> own_values(const TestDescription& description);
 
+/// No rows, options and choices were found with which a test is made and predicts; says what the type answered last.
+class NothingSuits : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A test of the type with rows made up from its observables, such that the test is made and predicts. Seeded search
 /// among what a person might map and give: which observables, options at their defaults and near 1. Throws
-/// std::runtime_error with what the type answered last where none of that suits it.
+/// NothingSuits where none of that does.
 TestCase synthetic_case(const plugins::Catalogue::Entry<TestFactory>& entry, std::uint64_t seed);
 
 /// The other choices of a test's options, as far as they go together.

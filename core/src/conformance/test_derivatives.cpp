@@ -75,8 +75,7 @@ Verdict jacobian_matches_differences(const Simulation& s, std::uint64_t) {
   const std::size_t rows = size_of(s), models = s.model_parameters.size(), all = models + s.test_parameters.size();
   Meter meter("the Jacobian with differences of the predictions",
               s.test.describe().costly ? coarse_tolerance : tolerance);
-  Values values(rows), jacobian(all * rows);
-  const Status status = s.test.predict(s.input(), {values, jacobian, {}, {}});
+  const auto [status, values, jacobian, by_abscissae, shown] = predict(s.test, s.input(), {.jacobian = true});
   if (!status.ok()) {
     if (!s.model.describe().parameter_derivatives)
       return not_checked(meter.verdict().compared, "the model has no parameter derivatives");
@@ -100,8 +99,7 @@ Verdict jacobian_matches_differences(const Simulation& s, std::uint64_t) {
 Verdict abscissa_derivative_matches_differences(const Simulation& s, std::uint64_t) {
   const std::size_t rows = size_of(s), count = s.test.rows().abscissae.size();
   Meter meter("derivatives by the abscissae with differences of the predictions", tolerance);
-  Values values(rows), derivative(count * rows);
-  const Status status = s.test.predict(s.input(), {values, {}, derivative, {}});
+  const auto [status, values, none, derivative, shown] = predict(s.test, s.input(), {.abscissa_derivative = true});
   if (!status.ok()) return broken(meter.verdict().compared, "no derivative: " + status.reason());
   Comparison comparison;
   for (std::size_t k = 0; k < count; ++k) {

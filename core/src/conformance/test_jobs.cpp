@@ -53,6 +53,18 @@ Verdict check_all(const TestProperty& property, const TestCase& test_case, std::
   return worst;
 }
 
+/// Whether rows are found that suit the test. That none do is no fault; that it crashes or throws is one.
+template <class Search>
+Verdict able_to(const Search& search) {
+  const std::string compared = "a test that is made and asked with an answer, or an InputError of its factory";
+  try {
+    search();
+  } catch (const NothingSuits& why) {
+    return not_checked(compared, why.what());
+  }
+  return {.compared = compared};
+}
+
 /// A test copies what it keeps, and gives it back as rows().
 Verdict rows_are_kept(const plugins::Catalogue::Entry<TestFactory>& entry, const OwnedSetup& from) {
   const std::string compared = "rows() with the rows the test was made from, after these are gone";
@@ -103,12 +115,8 @@ void add_choices(Jobs& jobs, Finding head, const plugins::Catalogue::Entry<TestF
   if (base.from->choices.empty()) return;
   const std::uint64_t seed = context.settings.seed;
   // In a process of its own first, as above.
-  const Verdict able = isolated(
-      [&] {
-        static_cast<void>(choice_cases(entry, base, seed));
-        return Verdict{};
-      },
-      context.settings.time_limit);
+  const Verdict able =
+      isolated([&] { return able_to([&] { choice_cases(entry, base, seed); }); }, context.settings.time_limit);
   constexpr const char* property_name = "every_choice_is_exercised";
   if (!able.held()) return add(jobs, head, property_name, [able] { return able; });
   const auto choices = std::make_shared<const ChoiceCases>(choice_cases(entry, base, seed));
@@ -140,13 +148,13 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
       cases.push_back(std::make_shared<const TestCase>(std::move(test_case)));
   } else {
     // First in a process of its own: what a wrong test does while it is made and asked is not known yet.
-    const Verdict able = isolated(
-        [&] {
-          static_cast<void>(synthetic_case(entry, seed));
-          return Verdict{};
-        },
-        context.settings.time_limit);
-    why = able.counter_example;
+    const Verdict able =
+        isolated([&] { return able_to([&] { synthetic_case(entry, seed); }); }, context.settings.time_limit);
+    if (!able.counter_example.empty()) {
+      add(jobs, head, "predictions_are_numbers", [able] { return able; });
+      return jobs;
+    }
+    why = able.skipped;
     if (able.held()) cases.push_back(std::make_shared<const TestCase>(synthetic_case(entry, seed)));
   }
   if (cases.empty())

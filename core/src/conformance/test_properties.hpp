@@ -20,7 +20,9 @@ struct Simulation {
   [[nodiscard]] TestInput input() const { return {model, model_parameters, test_parameters, {}, layers}; }
 };
 
-/// What is handed in comes back: ok with numbers, no diagnostics left unwritten, nothing written beyond.
+/// Outputs that are wanted are written, every one of them, and no memory beside them is.
+Verdict writes_its_outputs_and_nothing_else(const Simulation& simulation, std::uint64_t seed = 0);
+/// What is handed in comes back: ok with numbers.
 Verdict predictions_are_numbers(const Simulation& simulation, std::uint64_t seed = 0);
 /// The Jacobian by model and test parameters against differences, relative to the largest entry of the column in the
 /// channel.

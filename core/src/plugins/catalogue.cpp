@@ -2,10 +2,14 @@
 #include "plugins/catalogue.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "plugins/declared_bounds.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::plugins {
 namespace {
@@ -51,6 +55,34 @@ void check_callable(const MechanismFactory& factory, std::string_view kind) {
   }
 }
 
+template <class Factory>
+std::string flaw_of_parameters(const Factory&) {
+  return {};  // those of a model are known once it is made, see check_when_made()
+}
+std::string flaw_of_parameters(const TestFactory& factory) { return first_flaw(factory.parameters); }
+std::string flaw_of_parameters(const MechanismFactory& factory) { return first_flaw(factory.parameters); }
+
+template <class Factory>
+void check_defaults(const Factory& factory, std::string_view kind) {
+  std::string flaw = first_flaw(factory.options);
+  if (flaw.empty()) flaw = flaw_of_parameters(factory);
+  if (!flaw.empty())
+    throw std::invalid_argument(fmt::format("the {} '{}': {}; correct the declaration", kind, name_of(factory), flaw));
+}
+
+/// A model tells its parameters once it is made, with whatever options: then they are checked.
+template <class Factory>
+void check_when_made(Factory&) {}
+void check_when_made(ModelFactory& factory) {
+  factory.create = [make = std::move(factory.create), type = factory.type](const Options& options) {
+    std::unique_ptr<Model> model = make(options);
+    if (model)
+      if (const std::string flaw = first_flaw(model->describe().parameters); !flaw.empty())
+        throw InputError(fmt::format("the model '{}': {}; correct the declaration", type, flaw));
+    return model;
+  };
+}
+
 /// Checks what one plugin brings against what is there; the result merges without a chance of failure.
 template <class Factory>
 Catalogue::Entries<Factory> checked_entries(std::vector<Factory>&& factories, const Catalogue::Entries<Factory>& taken,
@@ -64,12 +96,14 @@ Catalogue::Entries<Factory> checked_entries(std::vector<Factory>&& factories, co
           kind, name));
     }
     check_callable(factory, kind);
+    check_defaults(factory, kind);
     if (const auto found = taken.find(name); found != taken.end()) {
       throw std::invalid_argument(
           fmt::format("the {} '{}' is already provided by plugin '{}', and names must be "
                       "unique; rename it, or leave one of the two plugins out of the plugin path",
                       kind, name, found->second.plugin));
     }
+    check_when_made(factory);
     if (!entries.emplace(name, Catalogue::Entry<Factory>{std::move(factory), plugin}).second) {
       throw std::invalid_argument(
           fmt::format("the plugin registers the {} '{}' twice; rename one of them", kind, name));

@@ -26,7 +26,8 @@ class Catalogue {
   [[nodiscard]] const Entries<MechanismFactory>& mechanisms() const { return mechanisms_; }
 
   /// Takes over what one plugin has registered, all or nothing; throws std::invalid_argument on a name that is
-  /// taken (by which plugin is in the message) or not a plain identifier.
+  /// taken (by which plugin is in the message) or not a plain identifier, and on a default outside its own bounds. A
+  /// model whose parameters begin outside their bounds is refused with an InputError when it is made.
   class Registration;
   void commit(Registration&& registration, const std::string& plugin);
 

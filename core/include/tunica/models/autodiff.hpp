@@ -8,31 +8,7 @@
 #include <ceres/jet.h>
 
 #include "tunica/energy_part.hpp"
-
-/// Operators between plain numbers and jets of jets. Ceres defines them only for the jet's own scalar.
-namespace ceres {
-template <int N, int M>
-using NestedJet = Jet<Jet<double, N>, M>;
-
-#define TUNICA_NESTED_(op, Result)                         \
-  template <int N, int M>                                  \
-  Result operator op(double s, const NestedJet<N, M>& f) { \
-    return NestedJet<N, M>(Jet<double, N>(s)) op f;        \
-  }                                                        \
-  template <int N, int M>                                  \
-  Result operator op(const NestedJet<N, M>& f, double s) { \
-    return f op NestedJet<N, M>(Jet<double, N>(s));        \
-  }
-#define TUNICA_NESTED_JET_ NestedJet<N, M>
-TUNICA_NESTED_(+, TUNICA_NESTED_JET_)
-TUNICA_NESTED_(-, TUNICA_NESTED_JET_)
-TUNICA_NESTED_(*, TUNICA_NESTED_JET_)
-TUNICA_NESTED_(/, TUNICA_NESTED_JET_)
-TUNICA_NESTED_(<, bool)
-TUNICA_NESTED_(>, bool)
-#undef TUNICA_NESTED_JET_
-#undef TUNICA_NESTED_
-}  // namespace ceres
+#include "tunica/models/jet_functions.hpp"
 
 namespace tunica {
 

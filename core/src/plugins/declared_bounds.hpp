@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tunica/options.hpp"
+#include "tunica/parameter.hpp"
+
+namespace tunica::plugins {
+
+/// What is wrong with the default of an option: another kind than declared, none of the choices, or outside its own
+/// bounds. Empty = nothing. A host fills defaults in without a word, so that nobody else would notice.
+std::string flaw_of_default(const Option& option);
+
+/// The same of the bounds and the initial value of a parameter.
+std::string flaw_of_default(const Parameter& parameter);
+
+/// The first flaw of all; empty = none.
+template <class Declared>
+std::string first_flaw(const std::vector<Declared>& all) {
+  for (const Declared& one : all)
+    if (std::string flaw = flaw_of_default(one); !flaw.empty()) return flaw;
+  return {};
+}
+
+}  // namespace tunica::plugins
