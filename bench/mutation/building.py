@@ -22,10 +22,10 @@ def configure(root, build):
     subprocess.run(command, cwd=root, check=True, stdout=subprocess.DEVNULL)
 
 
-def errors(unit, path):
-    """The offsets of the errors in a source."""
-    return [one.location.offset if one.location.file and one.location.file.name == str(path) else None
-            for one in unit.diagnostics if one.severity >= 3]
+def errors(unit, path, known=()):
+    """(sentence, offset in the source, or None elsewhere) of the errors that are not known."""
+    return [(one.spelling, one.location.offset if one.location.file and one.location.file.name == str(path) else None)
+            for one in unit.diagnostics if one.severity >= 3 and one.spelling not in known]
 
 
 def find(job):
@@ -38,21 +38,20 @@ def find(job):
     options = options + ["-include", str(HERE / "runtime.hpp"), "-w", "-ferror-limit=0"]
     reading = TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD | TranslationUnit.PARSE_PRECOMPILED_PREAMBLE | 0x100
     unit = Index.create().parse(str(path), args=options, options=reading)
-    if errors(unit, path):
-        return name, [], b"", f"clang cannot read it: {unit.diagnostics[0].spelling}"
+    known = {sentence for sentence, _ in errors(unit, path)}  # clang 14 lacks a few things that g++ has; what it cannot read has no mutants
     places, left_out = Finder(unit, path).places, 0
-    for _ in range(6):
+    for _ in range(12):
         copy = schemata.instrumented(text, schemata.numbered(name, places))
         unit.reparse([(str(path), copy.decode())])
-        wrong = errors(unit, path)
+        wrong = errors(unit, path, known)
         if not wrong:
             return name, places, copy, f"{left_out} places do not compile and are left out" if left_out else ""
-        faulty = schemata.around(places, name, text, [offset for offset in wrong if offset is not None])
+        faulty = schemata.around(places, name, text, [offset for _, offset in wrong if offset is not None])
         if not faulty:
             break
         left_out += len(faulty)
         places = [place for place in places if place not in faulty]
-    return name, [], b"", f"no copy compiles: {[one.spelling for one in unit.diagnostics if one.severity >= 3][:2]}"
+    return name, [], b"", f"no copy compiles: {sorted(wrong)[:2]}"
 
 
 def remembered(file):
@@ -76,8 +75,11 @@ def prepare(root, build, folders, jobs):
             known[name] = {"hash": digest}
     with multiprocessing.Pool(jobs) as pool:
         for done, (name, places, copy, remark) in enumerate(pool.imap_unordered(find, work), 1):
-            known[name]["places"] = [dataclasses.asdict(place) for place in places]
-            found[name] = known[name]
+            found[name] = {**known[name], "places": [dataclasses.asdict(place) for place in places]}
+            if not places and remark:
+                del known[name]  # to be tried again
+            else:
+                known[name] = found[name]
             target = copies / name
             target.parent.mkdir(parents=True, exist_ok=True)
             if places:

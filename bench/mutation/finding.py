@@ -64,7 +64,9 @@ class Finder:
             return
         begin, end = self.extent(cursor)
         if cursor.kind.is_declaration() and cursor.kind not in (Kind.NAMESPACE, Kind.CLASS_DECL, Kind.STRUCT_DECL):
-            if FIXED.search(self.text[begin:max(begin, cursor.location.offset)]):
+            # Of several variables in one declaration only the first has the specifiers in its extent.
+            start = max(self.text.rfind(mark, 0, begin) for mark in (b";", b"{", b"}", b")")) + 1
+            if FIXED.search(self.text[start:max(begin, cursor.location.offset)]):
                 return
         children = list(cursor.get_children())
         fixed_condition = cursor.kind == Kind.IF_STMT and re.match(rb"if\s+constexpr", self.text[begin:end])

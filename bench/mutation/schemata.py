@@ -65,18 +65,17 @@ def instrumented(text, places):
 
 
 def around(places, name, text, offsets):
-    """The innermost place around each offset of the copy: what has to be left out for the copy to compile."""
+    """The innermost place around each offset of the copy, else the next one behind it: what has to be left out for the
+    copy to compile."""
+    where = [(moved(places, name, text, place.begin, False), moved(places, name, text, place.end, True), place)
+             for place in places]
     found = []
     for offset in offsets:
-        inside = [place for place in places if begins(places, name, text, place, offset)]
-        if inside:
-            found.append(min(inside, key=lambda place: place.end - place.begin))
+        inside = [(end - begin, place) for begin, end, place in where if begin <= offset <= end]
+        behind = [(begin, place) for begin, _, place in where if offset < begin < offset + 100]
+        if inside or behind:
+            found.append(min(inside or behind, key=lambda entry: entry[0])[1])
     return found
-
-
-def begins(places, name, text, place, offset):
-    """Whether the offset of the copy lies in what the place has become."""
-    return moved(places, name, text, place.begin, False) <= offset <= moved(places, name, text, place.end, True)
 
 
 def moved(places, name, text, offset, behind):
