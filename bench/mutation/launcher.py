@@ -46,7 +46,7 @@ def main():
     if found:
         command[place] = str(found[0])
         runtime = pathlib.Path(__file__).with_name("runtime.hpp")
-        command += ["-w", "-D_GLIBCXX_ASSERTIONS", "-include", str(runtime)]
+        command += ["-w", "-O1", "-D_GLIBCXX_ASSERTIONS", "-include", str(runtime)]
         for folder in dict.fromkeys(found[1]):
             command += ["-iquote", str(folder)]
     if shutil.which("ccache"):
