@@ -30,7 +30,7 @@ def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="*", default=FOLDERS, help="folders of sources, or single sources")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/mutants", help="its own build folder")
-    parser.add_argument("--tests", nargs="+", default=PROGRAMS, metavar="PROGRAM", help="test programs to run")
+    parser.add_argument("--tests", default=",".join(PROGRAMS), metavar="A,B", help="test programs to run")
     parser.add_argument("--sample", type=int, default=150, help="mutants to try; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--budget", type=float, default=120, help="seconds of test cases for one mutant")
@@ -38,7 +38,9 @@ def options():
     parser.add_argument("--build-only", action="store_true")
     parser.add_argument("--no-build", action="store_true", help="run what has been built")
     parser.add_argument("-j", "--jobs", type=int, default=2)
-    return parser.parse_args()
+    chosen = parser.parse_args()
+    chosen.tests = chosen.tests.split(",")
+    return chosen
 
 
 def sampled(mutants, chosen):

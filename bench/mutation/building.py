@@ -62,7 +62,7 @@ def prepare(root, build, folders, jobs):
     """Instruments what is new or has changed; returns name -> {"hash", "places"} for the sources of the folders."""
     state, copies = build / "mutation", build / "mutation/copies"
     copies.mkdir(parents=True, exist_ok=True)
-    tool = b"".join((HERE / name).read_bytes() for name in ("finding.py", "schemata.py", "runtime.hpp"))
+    tool = b"".join((HERE / name).read_bytes() for name in ("finding.py", "schemata.py"))
     known, work, found = remembered(state / "places.json"), [], {}
     sources = units.wanted(build, root, folders)
     for source, unit in sorted(sources.items()):

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -51,46 +52,105 @@ inline bool is(int mutant, int count = 1) {
 /// The second of two mutants at one place; the first has written both down.
 inline bool also(int mutant) { return alive == mutant; }
 
-template <class A, class B> auto add(int k, A a, B b) { return is(k) ? a - b : a + b; }
-template <class A, class B> auto subtract(int k, A a, B b) { return is(k) ? a + b : a - b; }
-template <class A, class B> auto multiply(int k, A a, B b) { return is(k) ? a / b : a * b; }
-template <class A, class B> auto divide(int k, A a, B b) { return is(k) ? a * b : a / b; }
-template <class A, class B> auto remainder(int k, A a, B b) { return is(k) ? a * b : a % b; }
+template <class A, class B>
+auto add(int k, A a, B b) {
+  return is(k) ? a - b : a + b;
+}
+template <class A, class B>
+auto subtract(int k, A a, B b) {
+  return is(k) ? a + b : a - b;
+}
+template <class A, class B>
+auto multiply(int k, A a, B b) {
+  return is(k) ? a / b : a * b;
+}
+template <class A, class B>
+auto divide(int k, A a, B b) {
+  return is(k) ? a * b : a / b;
+}
+template <class A, class B>
+auto remainder(int k, A a, B b) {
+  return is(k) ? a * b : a % b;
+}
 
-template <class A, class B> bool less(int k, A a, B b) { return is(k) ? a >= b : a < b; }
-template <class A, class B> bool greater(int k, A a, B b) { return is(k) ? a <= b : a > b; }
-template <class A, class B> bool at_most(int k, A a, B b) { return is(k) ? a > b : a <= b; }
-template <class A, class B> bool at_least(int k, A a, B b) { return is(k) ? a < b : a >= b; }
-template <class A, class B> bool equal(int k, A a, B b) { return is(k) ? a != b : a == b; }
-template <class A, class B> bool differs(int k, A a, B b) { return is(k) ? a == b : a != b; }
+template <class A, class B>
+bool less(int k, A a, B b) {
+  return is(k) ? a >= b : a < b;
+}
+template <class A, class B>
+bool greater(int k, A a, B b) {
+  return is(k) ? a <= b : a > b;
+}
+template <class A, class B>
+bool at_most(int k, A a, B b) {
+  return is(k) ? a > b : a <= b;
+}
+template <class A, class B>
+bool at_least(int k, A a, B b) {
+  return is(k) ? a < b : a >= b;
+}
+template <class A, class B>
+bool equal(int k, A a, B b) {
+  return is(k) ? a != b : a == b;
+}
+template <class A, class B>
+bool differs(int k, A a, B b) {
+  return is(k) ? a == b : a != b;
+}
 // Whole numbers: one too many or too few as well.
-template <class A, class B> bool less_whole(int k, A a, B b) { return is(k, 2) ? a >= b : also(k + 1) ? a <= b : a < b; }
-template <class A, class B> bool greater_whole(int k, A a, B b) {
+template <class A, class B>
+bool less_whole(int k, A a, B b) {
+  return is(k, 2) ? a >= b : also(k + 1) ? a <= b : a < b;
+}
+template <class A, class B>
+bool greater_whole(int k, A a, B b) {
   return is(k, 2) ? a <= b : also(k + 1) ? a >= b : a > b;
 }
-template <class A, class B> bool at_most_whole(int k, A a, B b) {
+template <class A, class B>
+bool at_most_whole(int k, A a, B b) {
   return is(k, 2) ? a > b : also(k + 1) ? a < b : a <= b;
 }
-template <class A, class B> bool at_least_whole(int k, A a, B b) {
+template <class A, class B>
+bool at_least_whole(int k, A a, B b) {
   return is(k, 2) ? a < b : also(k + 1) ? a > b : a >= b;
 }
 
-template <class A, class B> A& add_to(int k, A& a, B b) { return is(k) ? a -= b : a += b; }
-template <class A, class B> A& subtract_from(int k, A& a, B b) { return is(k) ? a += b : a -= b; }
-template <class A, class B> A& multiply_by(int k, A& a, B b) { return is(k) ? a /= b : a *= b; }
-template <class A, class B> A& divide_by(int k, A& a, B b) { return is(k) ? a *= b : a /= b; }
+template <class A, class B>
+A& add_to(int k, A& a, B b) {
+  return is(k) ? a -= b : a += b;
+}
+template <class A, class B>
+A& subtract_from(int k, A& a, B b) {
+  return is(k) ? a += b : a -= b;
+}
+template <class A, class B>
+A& multiply_by(int k, A& a, B b) {
+  return is(k) ? a /= b : a *= b;
+}
+template <class A, class B>
+A& divide_by(int k, A& a, B b) {
+  return is(k) ? a *= b : a /= b;
+}
 
-template <class A> auto negative(int k, A a) { return is(k) ? +a : -a; }
+template <class A>
+auto negative(int k, A a) {
+  return is(k) ? +a : -a;
+}
 inline bool negation(int k, bool a) { return is(k) ? a : !a; }
 inline bool condition(int k, bool a) { return is(k) ? !a : a; }
 
 /// A whole number: one more. With two mutants, one less too.
-template <class T> T whole(int k, T value) { return is(k) ? static_cast<T>(value + 1) : value; }
-template <class T> T whole_from_one(int k, T value) {
+template <class T>
+T whole(int k, T value) {
+  return is(k) ? static_cast<T>(value + 1) : value;
+}
+template <class T>
+T whole_from_one(int k, T value) {
   return is(k, 2) ? static_cast<T>(value + 1) : also(k + 1) ? static_cast<T>(value - 1) : value;
 }
 /// A real number: doubled; 0 becomes 1, and what is so small that it is a tolerance, a million times as large.
-template <class T> T real(int k, T value) {
+template <class T>
+T real(int k, T value) {
   if (!is(k)) return value;
   return value == 0 ? T(1) : value > T(-1e-5) && value < T(1e-5) ? value * T(1e6) : value * T(2);
 }

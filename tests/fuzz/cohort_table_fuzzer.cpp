@@ -18,7 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::set<std::string> folders;
     for (const auto& specimen : table.specimens) {
       if (!specimen.problem.empty()) continue;
-      fuzzing::promise(!specimen.folder.empty() && specimen.folder.find('/') == std::string::npos, "a folder is a name");
+      fuzzing::promise(!specimen.folder.empty() && specimen.folder.find('/') == std::string::npos,
+                       "a folder is a name");
       fuzzing::promise(specimen.folder != "." && specimen.folder != "..", "a folder lies in its own");
       fuzzing::promise(folders.insert(specimen.folder).second, "no two specimens share a folder");
       fuzzing::expect_read_or_refused([&] {

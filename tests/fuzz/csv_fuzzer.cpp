@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A data file, the first byte of the input being what the layout says of it: a table whose cells are numbers or refused.
+// A data file, the first byte of the input being what the layout says of it: a table whose cells are numbers or
+// refused.
 #include <cmath>
 
 #include "data/csv.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// evaluations.csv and a part of it, separated by a zero byte: refused, or repaired so that it reads a second time as the
-// first.
+// evaluations.csv and a part of it, separated by a zero byte: refused, or repaired so that it reads a second time as
+// the first.
 #include "execution/recovery.hpp"
 #include "fuzz/fuzzing.hpp"
 
@@ -8,7 +8,8 @@ using namespace tunica;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto& folder = fuzzing::folder();
-  const execution::EvaluationTable table({{"m/o", {{"a", "1"}, {"b", "kPa"}}, {"strip", "tube"}}, {"n/o", {{"b", "kPa"}}, {"tube"}}});
+  const execution::EvaluationTable table(
+      {{"m/o", {{"a", "1"}, {"b", "kPa"}}, {"strip", "tube"}}, {"n/o", {{"b", "kPa"}}, {"tube"}}});
   const std::vector<execution::Task> tasks{{0, 1}, {0, 2}, {1, 1}};
   const std::vector<bool> wanted{true, true, true};
   const std::string_view text = fuzzing::text_of(data, size);

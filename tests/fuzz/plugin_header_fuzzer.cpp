@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return text;
   };
   const std::string fingerprint = next(), name = next(), version = next();
-  PluginHeader header{sizeof(PluginHeader), TUNICA_PLUGIN_API, fingerprint.c_str(), name.c_str(), version.c_str(), nullptr};
+  PluginHeader header{sizeof(PluginHeader), TUNICA_PLUGIN_API, fingerprint.c_str(),
+                      name.c_str(),         version.c_str(),   nullptr};
   if (data[0] & 1) header.struct_size = data[0];
   if (data[0] & 2) header.api = data[1];
   if (data[0] & 4) header.fingerprint = nullptr;

@@ -24,8 +24,8 @@ inline rc::Gen<double> number() {
 
 /// Rows of `columns` numbers.
 inline rc::Gen<std::vector<std::vector<double>>> table(std::size_t columns) {
-  return rc::gen::nonEmpty(rc::gen::container<std::vector<std::vector<double>>>(
-      rc::gen::container<std::vector<double>>(columns, number())));
+  return rc::gen::nonEmpty(
+      rc::gen::container<std::vector<std::vector<double>>>(rc::gen::container<std::vector<double>>(columns, number())));
 }
 
 }  // namespace tunica::properties

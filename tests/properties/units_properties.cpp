@@ -22,7 +22,8 @@ bool close(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std:
 
 RC_GTEST_PROP(Units, AConversionHasAWayBackAndManyWaysThere, ()) {
   const auto& [base, units] = *rc::gen::elementOf(dimensions);
-  const std::string from = *rc::gen::elementOf(units), over = *rc::gen::elementOf(units), to = *rc::gen::elementOf(units);
+  const std::string from = *rc::gen::elementOf(units), over = *rc::gen::elementOf(units),
+                    to = *rc::gen::elementOf(units);
   const double value = *properties::number();
   const double there = convert(value, from, to);
   RC_ASSERT(close(convert(there, to, from), value));
