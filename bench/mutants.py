@@ -37,6 +37,7 @@ def options():
     parser.add_argument("--again", action="store_true", help="keep what an unchanged file's killed mutants have shown")
     parser.add_argument("--build-only", action="store_true")
     parser.add_argument("--no-build", action="store_true", help="run what has been built")
+    parser.add_argument("--out", type=pathlib.Path, help="where the results go")
     parser.add_argument("-j", "--jobs", type=int, default=2)
     chosen = parser.parse_args()
     chosen.tests = chosen.tests.split(",")
@@ -72,6 +73,7 @@ def main():
     chosen = options()
     build = chosen.build.resolve()
     state = build / "mutation"
+    out = chosen.out or state / "out"
     if not chosen.no_build:
         building.configure(ROOT, build)
     found = building.prepare(ROOT, build, [folder.rstrip("/") for folder in chosen.folders], chosen.jobs)
@@ -84,10 +86,10 @@ def main():
     programs = [str(build / "bin" / name) for name in chosen.tests]
     copies = hashlib.sha256(json.dumps(sorted((name, entry["hash"]) for name, entry in found.items())).encode()).digest()
     cases = trials.reach(programs, copies, state, chosen.jobs)
-    known = report.load(state / "out/mutants.json") if chosen.again else {}
+    known = report.load(out / "mutants.json") if chosen.again else {}
     verdicts = try_all(sampled(mutants, chosen), cases, chosen, known)
-    print(report.write(state / "out", verdicts, report.reasons(ROOT / "bench/mutation/equivalent.txt")))
-    print(f"written: {state / 'out/mutants.json'}, {state / 'out/survivors.md'}")
+    print(report.write(out, verdicts, report.reasons(ROOT / "bench/mutation/equivalent.txt")))
+    print(f"written: {out / 'mutants.json'}, {out / 'survivors.md'}")
     return 0
 
 
