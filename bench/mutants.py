@@ -16,6 +16,7 @@ import hashlib
 import json
 import pathlib
 import random
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -33,6 +34,7 @@ def options():
     parser.add_argument("--tests", default=",".join(PROGRAMS), metavar="A,B", help="test programs to run")
     parser.add_argument("--sample", type=int, default=150, help="mutants to try; 0: all")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", metavar="REGEX", help="only mutants whose file, line, text or words match")
     parser.add_argument("--budget", type=float, default=120, help="seconds of test cases for one mutant")
     parser.add_argument("--again", action="store_true", help="keep what an unchanged file's killed mutants have shown")
     parser.add_argument("--build-only", action="store_true")
@@ -77,7 +79,8 @@ def main():
     if not chosen.no_build:
         building.configure(ROOT, build)
     found = building.prepare(ROOT, build, [folder.rstrip("/") for folder in chosen.folders], chosen.jobs)
-    mutants = building.mutants(ROOT, found)
+    mutants = [mutant for mutant in building.mutants(ROOT, found)
+               if not chosen.only or re.search(chosen.only, f"{mutant['file']}:{mutant['line']} {report.place(mutant)}")]
     print(f"{len(mutants)} mutants in {len(found)} files", flush=True)
     if not chosen.no_build:
         building.compile(build, chosen.tests)

@@ -98,11 +98,13 @@ def mutants(root, found):
     listed = []
     for name, entry in sorted(found.items()):
         text = (root / name).read_bytes()
+        lines = text.decode().split("\n")
         places = [Place(**{**place, "operator": tuple(place["operator"])}) for place in entry["places"]]
         for first, place in schemata.numbered(name, places):
             line = text.count(b"\n", 0, place.operator[0] if place.operator else place.begin) + 1
             for k, words in enumerate(place.mutants):
                 listed.append({"number": first + k, "file": name, "hash": entry["hash"], "line": line, "mutant": words,
+                               "source": " ".join(lines[line - 1].split()),
                                "text": " ".join(text[place.begin:place.end].decode().split())[:100]})
     return listed
 

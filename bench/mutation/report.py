@@ -16,7 +16,7 @@ def load(file):
 
 
 def reasons(file):
-    """cases without a test, from a text: `file:text of the place:mutant: reason` a line."""
+    """Place -> why no test can notice its mutant, of a text with `place -- reason` a line."""
     found = {}
     for line in file.read_text().splitlines() if file.exists() else []:
         if line and not line.startswith("#"):
@@ -26,7 +26,8 @@ def reasons(file):
 
 
 def place(mutant):
-    return f"{mutant['file']} | {mutant['text']} | {mutant['mutant']}"
+    """Says which mutant it is whatever lines are added before it."""
+    return f"{mutant['file']} | {mutant['source']} | {mutant['text']} | {mutant['mutant']}"
 
 
 def write(folder, verdicts, equivalent):
@@ -41,7 +42,7 @@ def write(folder, verdicts, equivalent):
         run = f"{mutant['cases']} of {mutant['of']} cases run" if mutant["of"] else "reached by no test"
         reason = equivalent.get(place(mutant))
         lines.append(f"- `{mutant['file']}:{mutant['line']}` {mutant['mutant']}: `{mutant['text']}` ({run})"
-                     f"{'; listed: ' + reason if reason else ''}")
+                     f"{'; listed: ' + reason if reason else ''}\n  `{place(mutant)}`")
     (folder / "survivors.md").write_text("\n".join(lines) + "\n")
     return summary(verdicts, survivors, listed)
 
