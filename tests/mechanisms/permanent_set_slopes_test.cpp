@@ -71,6 +71,26 @@ INSTANTIATE_TEST_SUITE_P(Measures, PermanentSetSlopes,
                          ::testing::Values("cauchy", "first_piola_kirchhoff", "second_piola_kirchhoff"),
                          [](const auto& at) { return std::string(at.param); });
 
+/// Of a model with memory the column of the set is a difference of whole predictions, and made only where it is wanted.
+TEST(PermanentSetOfAMaterialWithMemory, IsTheSameWithAndWithoutDerivatives) {
+  const auto material = wrapped("stress_softening", model("hgo"));
+  const Values parameters{18.7, 24.9, 0.9, 46, 0.5, 0.4};
+  const auto test = wrapped_test("permanent_set", make_strip(loop));
+  const std::size_t n = loop.size();
+  Values alone(n), values(n), jacobian((parameters.size() + 2) * n);
+  ASSERT_TRUE(test->predict({*material, parameters, Values{0, s}}, {alone, {}, {}, {}}).ok());
+  ASSERT_TRUE(test->predict({*material, parameters, Values{0, s}}, {values, jacobian, {}, {}}).ok());
+  EXPECT_EQ(values, alone);
+  constexpr double h = 1e-5;
+  Values up(n), down(n);
+  ASSERT_TRUE(test->predict({*material, parameters, Values{0, s + h}}, {up, {}, {}, {}}).ok());
+  ASSERT_TRUE(test->predict({*material, parameters, Values{0, s - h}}, {down, {}, {}, {}}).ok());
+  for (std::size_t i = 0; i < n; ++i) {
+    const double difference = (up[i] - down[i]) / (2 * h);
+    EXPECT_NEAR(jacobian[(parameters.size() + 1) * n + i], difference, 1e-4 * (1 + std::abs(difference))) << i;
+  }
+}
+
 /// Predicts once, and fails when it is asked for derivatives by its abscissae.
 class Blunt final : public Test {
  public:
