@@ -17,7 +17,7 @@ const Values loop{1.05, 1.2, 1.5, 1.3, 1.02, 0.97, 1.15, 1.4, 1.6, 1.3};
 
 class PermanentSetSlopes : public ::testing::TestWithParam<const char*> {
  protected:
-  [[nodiscard]] std::unique_ptr<Test> strip(const Values& stretches) const {
+  [[nodiscard]] std::unique_ptr<tunica::Test> strip(const Values& stretches) const {
     return wrapped_test("permanent_set",
                         make_strip(stretches, {.channels = {"stress", "transverse_stretch"}, .measure = GetParam()}));
   }
