@@ -95,8 +95,11 @@ def valgrind(step):
         if step.options.tests and not re.search(step.options.tests, plugin.stem):
             continue
         checked += 1
-        if step.run("valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no", "build/release/bin/tunica",
-                    "--allow-world-writable-plugins", "plugin", "check", plugin) != 0:
+        before = len(step.text())
+        code = step.run("valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no", "build/release/bin/tunica",
+                        "--allow-world-writable-plugins", "plugin", "check", plugin)
+        # Properties run in processes of their own, whose exit code only the program sees; findings begin with ==PID==.
+        if code or re.search(r"^==\d+== ", step.text()[before:], re.M):
             wrong.append(plugin.stem)
     return not wrong and checked > 0, f"{checked} plugins, {len(wrong)} with findings" + "".join(f" {one}" for one in wrong)
 
