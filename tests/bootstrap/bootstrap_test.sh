@@ -108,6 +108,15 @@ case $2 in
     expect 8 "$here/bootstrap" test
     [[ ${output##*$'\n'} == "$CTEST_OUTPUT" ]] || fail "the last line is no verdict"
     ;;
+  installs_the_tools_of_an_analysis_and_passes_its_arguments)
+    mkdir "$here/bench"
+    install -m 755 /dev/stdin "$here/bench/analyse.py" <<<'#!/bin/sh
+echo "analyse $*"; exit 1'
+    export MISSING="cppcheck"
+    expect 1 "$here/bootstrap" analyse cppcheck -j 1
+    called "apt-get -q install -y --no-install-recommends cppcheck"
+    output_has "analyse cppcheck -j 1"
+    ;;
   does_not_take_silence_for_success)
     export CTEST_OUTPUT="No tests were found!!!"
     expect 1 "$here/bootstrap" test

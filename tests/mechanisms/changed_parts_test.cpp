@@ -68,6 +68,26 @@ TEST(ChangedParts, FibresTakenUpLateSeeTheirOwnStretch) {
   EXPECT_LT(carrying, n - 10);
 }
 
+/// The stress of fibres that are taken up late by the parameters of the base, the angle among them, against
+/// differences.
+TEST(ChangedParts, FibresTakenUpLateHaveTheDerivativesOfTheirStress) {
+  const auto made = wrapped("fibre_recruitment", model("hgo", "strain"));
+  const std::vector<double> C = random_deformations(40, 13), at{18.668, 24.905, 0.2912, 46.44, 1.15};
+  const auto found = evaluate(*made, C, at, {.stress_dp = true});
+  const std::size_t size = C.size();
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    const double h = 1e-6 * at[j];
+    std::vector<double> up = at, down = at;
+    up[j] += h;
+    down[j] -= h;
+    const auto above = evaluate(*made, C, up), below = evaluate(*made, C, down);
+    for (std::size_t i = 0; i < size; ++i) {
+      const double difference = (above.stress[i] - below.stress[i]) / (2 * h);
+      EXPECT_NEAR(found.stress_dp[j * size + i], difference, 1e-5 * (1 + std::abs(difference))) << j << ' ' << i;
+    }
+  }
+}
+
 struct Case {
   const char* mechanism;
   double null;

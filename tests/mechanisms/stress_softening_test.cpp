@@ -63,6 +63,26 @@ TEST(StressSoftening, WeighsTheEnergyOfTheFibresToo) {
   }
 }
 
+/// Stress and energy of a neo-Hookean material are proportional to μ, so that nothing is large or small by itself.
+TEST(StressSoftening, HasNoScaleOfStressOfItsOwn) {
+  const auto soft = wrapped("stress_softening", model("neo_hooke"));
+  const std::vector<double> values = values_of(*make_strip(stretches), *soft, {25, 0.45, 0.3});
+  for (const double scale : {1e-10, 1e10}) {
+    const std::vector<double> scaled = values_of(*make_strip(stretches), *soft, {25 * scale, 0.45, 0.3});
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_NEAR(scaled[i], scale * values[i], 1e-9 * scale * 25) << "row " << i;
+    std::vector<double> state, scaled_state;
+    for (const double stretch : {1.3, 1.5, 1.2}) {
+      const std::vector<double> C = testing::uniaxial_deformation(stretch);
+      const auto one = evaluate(*soft, C, {25, 0.45, 0.3}, {.state = true}, {}, state);
+      const auto other = evaluate(*soft, C, {25 * scale, 0.45, 0.3}, {.state = true}, {}, scaled_state);
+      for (std::size_t c = 0; c < 6; ++c) EXPECT_NEAR(other.stress[c], scale * one.stress[c], 1e-9 * scale * 25);
+      state = one.state;
+      scaled_state = other.state;
+    }
+  }
+}
+
 TEST(StressSoftening, IsNotSeenOnAPathThatOnlyLoads) {
   const auto test = make_strip({1, 1.1, 1.2, 1.3, 1.5});
   const auto soft = wrapped("stress_softening", model("hgo"));

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every check of the code that takes longer than the suite, in one command (`./bootstrap analyse`).
+
+    bench/analyse.py                      all of them, hours on two cores: what runs nightly
+    bench/analyse.py tidy cppcheck fuzz   some of them
+    bench/analyse.py asan --tests Csv     of the sanitizers, valgrind and coverage only some tests
+
+asan      the suite under AddressSanitizer and UndefinedBehaviorSanitizer
+tsan      the suite under ThreadSanitizer; what TBB does inside is not instrumented and is left out (cmake/tsan.supp)
+valgrind  every plugin of the release build under `tunica plugin check` in valgrind
+tidy      clang-tidy over core, plugins and apps
+cppcheck  cppcheck over the same
+coverage  the suite with gcov; prints the share of lines of core and plugins that it runs
+fuzz      every fuzz target with libFuzzer for --seconds
+
+Logs: build/analysis/NAME.log. The exit code is 1 where a check has found something."""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LOGS = ROOT / "build/analysis"
+ENVIRONMENT = {
+    "asan": {"ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1",
+             "UBSAN_OPTIONS": "print_stacktrace=1", "LSAN_OPTIONS": f"suppressions={ROOT}/cmake/lsan.supp:print_suppressions=0"},
+    "tsan": {"TSAN_OPTIONS": f"suppressions={ROOT}/cmake/tsan.supp:second_deadlock_stack=1"},
+    "coverage": {},
+}
+
+
+class Step:
+    """One check: its commands go to a log, its figures to the table."""
+
+    def __init__(self, name, options):
+        self.name, self.options = name, options
+        self.log = LOGS / f"{name}.log"
+        self.log.write_text("")
+
+    def run(self, *command, environment=None):
+        with open(self.log, "a") as log:
+            log.write("$ " + " ".join(map(str, command)) + "\n")
+            log.flush()
+            return subprocess.run(list(map(str, command)), cwd=ROOT, stdout=log, stderr=subprocess.STDOUT,
+                                  env=dict(os.environ, **(environment or {}))).returncode
+
+    def build(self, preset, *targets):
+        if self.run("cmake", "--preset", preset):
+            return False
+        names = ["--target", *targets] if targets else []
+        return self.run("cmake", "--build", f"build/{preset}", "-j", self.options.jobs, *names) == 0
+
+    def text(self):
+        return self.log.read_text(errors="replace")
+
+
+def suite(step, preset):
+    """Builds a preset and runs its tests; returns whether all passed, and how many."""
+    if not step.build(preset, *step.options.target):
+        return False, "does not build"
+    chosen = ["-R", step.options.tests] if step.options.tests else []
+    code = step.run("ctest", "--test-dir", f"build/{preset}", "--output-on-failure", "--timeout", "3600", "-j",
+                    step.options.jobs, *chosen, environment=ENVIRONMENT[step.name])
+    verdict = re.findall(r"^(\d+)% tests passed, (\d+) tests failed out of (\d+)", step.text(), re.M)
+    return code == 0, f"{verdict[-1][1]} of {verdict[-1][2]} tests failed" if verdict else "no verdict"
+
+
+def asan(step):
+    return suite(step, "asan-ubsan")
+
+
+def tsan(step):
+    return suite(step, "tsan")
+
+
+def coverage(step):
+    passed, words = suite(step, "coverage")
+    step.run("gcovr", "--root", ".", "--object-directory", "build/coverage", "--filter", "core/", "--filter", "plugins/",
+             "--gcov-ignore-parse-errors", "--exclude-throw-branches", "--txt", "build/analysis/coverage.txt",
+             "--print-summary", "-j", step.options.jobs)
+    lines = re.findall(r"^lines: ([\d.]+)% \((\d+) out of (\d+)\)", step.text(), re.M)
+    return passed, words + (f"; {lines[-1][0]} % of {lines[-1][2]} lines" if lines else "; no figure")
+
+
+def valgrind(step):
+    if not step.build("release", "product"):
+        return False, "does not build"
+    wrong, checked = [], 0
+    for plugin in sorted((ROOT / "build/release/lib").rglob("tunica/plugins/*.so")):
+        if step.options.tests and not re.search(step.options.tests, plugin.stem):
+            continue
+        checked += 1
+        before = len(step.text())
+        code = step.run("valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no",
+                        f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica", "--allow-world-writable-plugins", "plugin", "check", plugin)
+        # Properties run in processes of their own, whose exit code only the program sees; findings begin with ==PID==.
+        if code or re.search(r"^==\d+== ", step.text()[before:], re.M):
+            wrong.append(plugin.stem)
+    return not wrong and checked > 0, f"{checked} plugins, {len(wrong)} with findings" + "".join(f" {one}" for one in wrong)
+
+
+def tidy(step):
+    if step.run("cmake", "--preset", "dev"):
+        return False, "cannot be configured"
+    code = step.run("cmake", "--build", "build/dev", "--target", "lint")
+    return code == 0, f"{len(re.findall(r'(?:error|warning): .*[[]', step.text()))} findings"
+
+
+def cppcheck(step):
+    cache = LOGS / "cppcheck"
+    cache.mkdir(exist_ok=True)
+    code = step.run("cppcheck", "--quiet", "-j", step.options.jobs, "--enable=warning,performance,portability",
+                    "--inline-suppr", "--std=c++20", "--error-exitcode=1", f"--cppcheck-build-dir={cache}", "-I",
+                    "core/include", "-I", "core/src", f"--suppressions-list={ROOT}/cmake/cppcheck.txt",
+                    "--template={file}:{line}: {id}: {message}", "core/src", "plugins", "apps")
+    return code == 0, f"{len(re.findall(r'^[^$ ][^:]*:[0-9]+: ', step.text(), re.M))} findings"
+
+
+def fuzz_one(step, target):
+    """(name, exit code, executions) of one target; it keeps what it has found in its log."""
+    name = target.name.removesuffix("_fuzzer")
+    grown, found, log = LOGS / "corpus" / name, LOGS / "findings" / name, LOGS / f"fuzz-{name}.log"
+    grown.mkdir(parents=True, exist_ok=True)
+    found.mkdir(parents=True, exist_ok=True)
+    command = [target, grown, f"tests/fuzz/corpus/{name}", f"-dict=tests/fuzz/dictionaries/{name}.dict",
+               f"-artifact_prefix={found}/", f"-max_total_time={step.options.seconds}", "-timeout=20",
+               "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1"]
+    with open(log, "w") as file:
+        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT).returncode
+    counted = re.findall(r"^stat::number_of_executed_units: (\d+)", log.read_text(errors="replace"), re.M)
+    return name, code, int(counted[-1]) if counted else 0
+
+
+def fuzz(step):
+    if not step.build("fuzz", "fuzz_targets"):
+        return False, "does not build"
+    targets = [target for target in sorted((ROOT / "build/fuzz/bin").glob("*_fuzzer"))
+               if not step.options.tests or re.search(step.options.tests, target.name)]
+    with concurrent.futures.ThreadPoolExecutor(step.options.jobs) as pool:
+        results = list(pool.map(lambda target: fuzz_one(step, target), targets))
+    wrong = [name for name, code, _ in results if code]
+    with open(step.log, "a") as log:
+        log.writelines(f"{name}: exit code {code}, {executions} executions\n" for name, code, executions in results)
+    return not wrong and bool(results), (f"{sum(executions for *_, executions in results)} executions of {len(results)} "
+                                         "targets" + "".join(f"; a finding of {name}" for name in wrong))
+
+
+STEPS = {"cppcheck": cppcheck, "tidy": tidy, "asan": asan, "tsan": tsan, "valgrind": valgrind, "coverage": coverage,
+         "fuzz": fuzz}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"of {', '.join(STEPS)}; all without any")
+    parser.add_argument("--tests", metavar="REGEX", help="only these tests, plugins or fuzz targets")
+    parser.add_argument("--target", nargs="+", default=[], help="build only these targets of the suite")
+    parser.add_argument("--seconds", type=int, default=600, help="of each fuzz target")
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count())
+    options = parser.parse_args()
+    unknown = [step for step in options.steps if step not in STEPS]
+    if unknown:
+        parser.error(f"found the step '{unknown[0]}', expected one of {', '.join(STEPS)}")
+    LOGS.mkdir(parents=True, exist_ok=True)
+    clean = True
+    for name in options.steps or STEPS:
+        start = time.monotonic()
+        passed, words = STEPS[name](Step(name, options))
+        clean = clean and passed
+        print(f"{name:10} {'clean' if passed else 'FOUND'}  {time.monotonic() - start:7.0f} s  {words}  "
+              f"({LOGS.relative_to(ROOT) / name}.log)", flush=True)
+    return 0 if clean else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
