@@ -58,7 +58,7 @@ void refuse_what_cannot_be_copied(const std::string& kind, const std::string& li
   if (is_loaded(like, catalogue))
     throw InputError(
         fmt::format("--like {}: it cannot be copied, since its source needs more than the SDK or is not "
-                    "tunica's own; as {} take one of {}",
+                    "tunica's own; take one of the {}s {}",
                     like, kind, fmt::join(names, ", ")));
   throw InputError(
       fmt::format("--like {}: there is no such {} to copy. {}", like, kind, data::suggestion(like, names)));
