@@ -139,9 +139,9 @@ std::vector<ProjectFile> files_like(const std::string& kind, const std::string& 
     if (file.kind != kind || file.example != like) continue;
     const std::string path = renamed(std::string(file.path), like, name);
     // The version is that of the new project.
-    const std::regex version("(TUNICA_PLUGIN\\(\"\\w+\", )\"[^\"]*\"\\)");
+    const std::regex version(R"((TUNICA_PLUGIN\("\w+",)\s"[^"]*"\))");
     files.push_back(
-        {path, std::regex_replace(renamed(std::string(file.text), like, name), version, "$1TUNICA_PLUGIN_VERSION)")});
+        {path, std::regex_replace(renamed(std::string(file.text), like, name), version, "$1 TUNICA_PLUGIN_VERSION)")});
     if (path.ends_with(".cpp")) sources.push_back(path);
   }
   files.push_back({"CMakeLists.txt", build_rules(like, name, sources, has_example)});
