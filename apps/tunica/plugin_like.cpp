@@ -2,6 +2,7 @@
 #include "plugin_like.hpp"
 
 #include <algorithm>
+#include <regex>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ void refuse_what_cannot_be_copied(const std::string& kind, const std::string& li
   if (is_loaded(like, catalogue))
     throw InputError(
         fmt::format("--like {}: it cannot be copied, since its source needs more than the SDK or is not "
-                    "tunica's own; as {} take one of {}",
+                    "tunica's own; take one of the {}s {}",
                     like, kind, fmt::join(names, ", ")));
   throw InputError(
       fmt::format("--like {}: there is no such {} to copy. {}", like, kind, data::suggestion(like, names)));
@@ -137,7 +138,10 @@ std::vector<ProjectFile> files_like(const std::string& kind, const std::string& 
   for (const TemplateFile& file : built_in_files()) {
     if (file.kind != kind || file.example != like) continue;
     const std::string path = renamed(std::string(file.path), like, name);
-    files.push_back({path, renamed(std::string(file.text), like, name)});
+    // The version is that of the new project.
+    const std::regex version(R"((TUNICA_PLUGIN\("\w+",)\s"[^"]*"\))");
+    files.push_back(
+        {path, std::regex_replace(renamed(std::string(file.text), like, name), version, "$1 TUNICA_PLUGIN_VERSION)")});
     if (path.ends_with(".cpp")) sources.push_back(path);
   }
   files.push_back({"CMakeLists.txt", build_rules(like, name, sources, has_example)});

@@ -139,15 +139,15 @@ def copied():
     kinds = {}
     for kind in ("model", "test", "optimizer"):
         shown = re.sub(r"\s+", " ", run(program, "plugin", "new", kind, "mine", "--like", "external", code=2, cwd=fresh("copied")))
-        kinds[kind] = re.search(r"take one of ([a-z0-9_, ]+)", shown)[1].strip().split(", ")
+        kinds[kind] = re.search(r"take one of the \w+ ([a-z0-9_, ]+)", shown)[1].strip().split(", ")
     return kinds
 
 
 def like_refuses():
     folder = fresh("like_refuses")
     for words, message in [(("model", "mine", "--like", "composed"), "--like composed: it cannot be copied, since"),
-                           (("model", "mine", "--like", "composed"), "as model take one of arruda_boyce, four_fibre"),
-                           (("optimizer", "mine", "--like", "nlopt"), "as optimizer take one of es"),
+                           (("model", "mine", "--like", "composed"), "take one of the models arruda_boyce, four_fibre"),
+                           (("optimizer", "mine", "--like", "nlopt"), "take one of the optimizers es"),
                            (("model", "mine", "--like", "uniaxial"), "write `tunica plugin new test NAME --like uniaxial`"),
                            (("model", "mine", "--like", "ghp"), "there is no such model to copy. Did you mean 'gho'"),
                            (("mechanism", "mine", "--like", "fibre_dispersion"), "a mechanism cannot be copied; leave --like out"),
