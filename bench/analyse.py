@@ -131,7 +131,8 @@ def fuzz_one(step, target):
                f"-artifact_prefix={found}/", f"-max_total_time={step.options.seconds}", "-timeout=20",
                "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1"]
     with open(log, "w") as file:
-        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT).returncode
+        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT,
+                              env=dict(os.environ, **ENVIRONMENT["asan"])).returncode
     counted = re.findall(r"^stat::number_of_executed_units: (\d+)", log.read_text(errors="replace"), re.M)
     return name, code, int(counted[-1]) if counted else 0
 

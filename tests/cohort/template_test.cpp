@@ -32,6 +32,14 @@ TEST(Template, ReplacesOnlyTheValuesOfItsPointers) {
   EXPECT_EQ(text, expected) << "lines, comments and order stay, so that messages name the lines of the template";
 }
 
+// Found by the fuzz target.
+TEST(Template, RefusesATableThatIsNotUtf8) {
+  CohortFiles files;
+  files.replace(files.table, "width [mm]", "width [m\x8A]");
+  EXPECT_THAT(refusal(files), HasSubstr("specimens.csv, line 2: a cell or unit that "));
+  EXPECT_THAT(refusal(files), HasSubstr("is not UTF-8. Save the table as UTF-8 text."));
+}
+
 TEST(Template, PutsANumberWhereTheTemplateHasOneAndTheTableNoUnit) {
   CohortFiles files;
   files.replace(files.table, "width [mm]", "width");

@@ -62,6 +62,16 @@ TEST(Csv, ReadsQuotedFields) {
   EXPECT_EQ(strip.lines, (std::vector<std::size_t>{2, 4}));
 }
 
+// Found by the fuzz target: in a file delimited by white space an empty quoted cell is none.
+TEST(Csv, RefusesAHeaderWithoutCells) {
+  TableLayout layout;
+  layout.row_names = "";
+  const std::string message =
+      testing::message_of<InputError>([&] { parse_csv("strip.csv", "\"\"\n ,tam\n!,4,,6id\t2,65,6#\n", layout); });
+  EXPECT_NE(message.find("strip.csv, line 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("where the header is expected"), std::string::npos) << message;
+}
+
 TEST(Csv, FindsAColumnByItsNameOrItsWholeHeader) {
   EXPECT_EQ(read_strip("lambda 1 [-],sigma (true),stress [Pa]\n1,0,7\n1.1,1,8\n",
                        {{"stretch", "lambda 1"}, {"stress", "stress [Pa]"}})

@@ -90,6 +90,10 @@ TEST(Quantity, SaysWhatIsWrong) {
       refused("soft").find("'soft' is not a quantity: it does not begin with a number. Expected a number and a unit, "
                            "for example \"1.5 kPa\"."),
       std::string::npos);
+  // Of a number without a dimension the example is one that is read.
+  EXPECT_NE(testing::message_of<InputError>([&] { parse_quantity("2 1", "1"); }).find("for example \"1.5 %\""),
+            std::string::npos);
+  EXPECT_EQ(parse_quantity("1.5 %", "1"), 0.015);
   EXPECT_NE(refused("").find("does not begin with a number"), std::string::npos);
   EXPECT_NE(refused("1,5 kPa").find("decimal comma"), std::string::npos);
   EXPECT_NE(refused("1 2 kPa").find("'2 kPa' follows the number"), std::string::npos);

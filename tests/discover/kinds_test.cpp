@@ -105,7 +105,8 @@ TEST(DiscoveryKinds, HaveCurvesWhoseKnotsAreDenserNearRest) {
   const Kind isotropic = curve_of(kinds.front(), 4);
   EXPECT_EQ(isotropic.name, "I1_curve");
   ASSERT_EQ(isotropic.knots.size(), 5u);
-  for (std::size_t j = 0; j < 5; ++j) EXPECT_NEAR(isotropic.knots[j], first * std::pow(j / 4., 1.5), 1e-12);
+  for (std::size_t j = 0; j < 5; ++j)
+    EXPECT_NEAR(isotropic.knots[j], first * std::pow(static_cast<double>(j) / 4, 1.5), 1e-12);
   EXPECT_EQ(isotropic.amplitude(), "slope");
   EXPECT_THAT(isotropic.heights, ElementsAre("c_1", "c_2", "c_3", "c_4", "c_5"));
   EXPECT_EQ(isotropic.log_prior, kinds.front().log_prior);

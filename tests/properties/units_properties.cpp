@@ -36,7 +36,9 @@ RC_GTEST_PROP(Units, AQuantityIsItsNumberConverted, ()) {
   const auto& [base, units] = *rc::gen::elementOf(dimensions);
   const std::string unit = *rc::gen::elementOf(units);
   const double value = *properties::number();
-  RC_ASSERT(parse_quantity(fmt::format("{} {}", value, unit), base) == convert(value, unit, base));
+  if (unit != "1") {  // which is written without a unit
+    RC_ASSERT(parse_quantity(fmt::format("{} {}", value, unit), base) == convert(value, unit, base));
+  }
   RC_ASSERT(parse_quantity(fmt::format("{}", value), base) == value);
 }
 

@@ -51,7 +51,7 @@ Status Evaluator::difference_as_stated(const RunTest& test, std::span<const doub
     std::vector<double> shifted(at.begin(), at.end()), ahead(size), behind(values.begin(), values.end());
     const double h =
         std::min(stated.step * parameter_scale(at[index], parameter), 0.25 * (parameter.max - parameter.min));
-    const auto predict_at = [&](double offset, std::vector<double>& into) {
+    const auto predict_at = [&, index = index](double offset, std::vector<double>& into) {
       shifted[index] = at[index] + offset;
       return call(test, shifted, into, {}, *own);
     };
@@ -94,7 +94,7 @@ Status Evaluator::difference(const RunTest& test, std::span<const double> at, st
   for (const auto& [index, row] : test.columns) {
     const FreeParameter& parameter = layout_.parameters[index];
     const double value = at[index], h = step_length(value, parameter);
-    const auto predict_at = [&](double offset, std::span<double> into) {
+    const auto predict_at = [&, index = index](double offset, std::span<double> into) {
       shifted[index] = value + offset;
       Status status = call(test, shifted, into, {}, workspace);
       shifted[index] = value;

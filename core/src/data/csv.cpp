@@ -204,6 +204,11 @@ void read_header(Cutter& cutter, const TableLayout& layout, Csv& csv) {
   Cutter below = cutter;
   std::vector<std::string> header = below.fields(csv.delimiter);
   if (csv.delimiter == ' ') header = join_units(header);
+  if (header.empty())
+    throw InputError(
+        fmt::format("{}, line {}: found a line without a cell where the header is expected. Write a line "
+                    "`name [unit]` with one name per column above the rows.",
+                    csv.file.string(), csv.header_line));
   const bool nameless = std::all_of(header.begin(), header.end(), number);
   if (nameless && !layout.by_position)
     throw InputError(

@@ -165,7 +165,7 @@ bool is_unit(std::string_view unit) { return UnitSystem::instance().knows(unit);
 double parse_quantity(std::string_view text, std::string_view base_unit) {
   const auto refuse = [&](std::string_view reason) -> double {
     throw InputError(fmt::format("'{}' is not a quantity: {}. Expected a number and a unit, for example \"1.5 {}\".",
-                                 excerpt(text), reason, base_unit));
+                                 excerpt(text), reason, base_unit == "1" ? "%" : base_unit));
   };
   std::string_view rest = text;
   while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
