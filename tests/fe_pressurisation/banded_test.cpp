@@ -67,7 +67,7 @@ TEST_P(BandedMatrix, SolvesAndCountsNegativePivotsLikeEigen) {
 
 /// What is asked in between decides, and only for matrices that take a while.
 TEST(Banded, GivesUpWhereTheTimeIsOver) {
-  Banded matrix;
+  fe::Banded matrix;
   matrix.resize(4000, 1000);
   for (std::size_t j = 0; j < matrix.size(); ++j) matrix.add(j, j, 1);
   int asked = 0;

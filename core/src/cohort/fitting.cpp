@@ -113,9 +113,7 @@ void fit_into(Record& record, const experiment::Experiment& experiment, const pl
   if (settings.reports) report::write_report(folder);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  execution::make_folder(folder);
-}
+void make_folder(const std::filesystem::path& folder) { execution::make_folder(folder); }
 
 }  // namespace
 

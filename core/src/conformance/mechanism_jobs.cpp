@@ -70,7 +70,9 @@ WrappedModel around_some_model(const Entry& entry, const CheckContext& context, 
       last = problem.what();
     }
   for (const auto& [name, model] : context.catalogue.models()) try {
-      const auto make = [&model = model] { return plugins::create_bare(model, plausible_options(model.factory.options)); };
+      const auto make = [&model = model] {
+        return plugins::create_bare(model, plausible_options(model.factory.options));
+      };
       return around_model(entry, make, initial_values(make()->describe().parameters), choices);
     } catch (const InputError& problem) {
       last = problem.what();
@@ -107,7 +109,8 @@ WrappedTest around_test(const Entry& entry, const std::string& type, const Check
   std::string last;
   for (const Options& options : guesses(mechanism.options, &bare.test->rows(), choices)) try {
       on.with = plugins::wrap_bare(
-          entry, bare.from ? plugins::create_bare(factory, bare.from->setup()) : composed_test(bare.name, context), options);
+          entry, bare.from ? plugins::create_bare(factory, bare.from->setup()) : composed_test(bare.name, context),
+          options);
       on.mechanism.parameters = mechanism.parameters_with(options);
       on.amplitude = bare.own.size();
       on.own.push_back(mechanism.null);
