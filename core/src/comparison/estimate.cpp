@@ -108,24 +108,6 @@ void add_identifiability(const assembly::Assembly& assembly, const execution::Re
   summary.identifiability = found.sentences();
 }
 
-void add_quality(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
-  std::vector<double> predictions(assembly.layout().prediction_count);
-  auto workspace = assembly.evaluator().make_workspace();
-  if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
-  for (const auto kind : {assembly::NoiseKind::stated, assembly::NoiseKind::estimated}) {
-    auto& own = kind == assembly::NoiseKind::stated ? summary.misfit : summary.misfit_estimated;
-    if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
-  }
-  add_deviation(assembly, predictions, summary);
-  for (auto& channel : assembly::quality(assembly, predictions)) {
-    if (channel.fitted)
-      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
-    if (channel.held_out)
-      summary.quality.push_back(
-          {channel.test, channel.observable, channel.unit, true, *channel.held_out, channel.over});
-  }
-}
-
 /// Of the fitted channels that count, the one that the predictions are farthest from.
 void add_deviation(const assembly::Assembly& assembly, const std::vector<double>& predictions, RunSummary& summary) {
   for (const auto& view : assembly.layout().channels) {
@@ -146,6 +128,24 @@ void add_deviation(const assembly::Assembly& assembly, const std::vector<double>
     one.sd = *middle;
     if (one.largest > 0) one.share /= one.largest;
     if (!summary.deviation || one.mean > summary.deviation->mean) summary.deviation = std::move(one);
+  }
+}
+
+void add_quality(const assembly::Assembly& assembly, const execution::RealisationResult& best, RunSummary& summary) {
+  std::vector<double> predictions(assembly.layout().prediction_count);
+  auto workspace = assembly.evaluator().make_workspace();
+  if (!assembly.evaluator().predict(best.best.parameters, predictions, {}, *workspace).ok()) return;
+  for (const auto kind : {assembly::NoiseKind::stated, assembly::NoiseKind::estimated}) {
+    auto& own = kind == assembly::NoiseKind::stated ? summary.misfit : summary.misfit_estimated;
+    if (const assembly::Misfit found = misfit(assembly, kind, predictions); found.judged()) own = found;
+  }
+  add_deviation(assembly, predictions, summary);
+  for (auto& channel : assembly::quality(assembly, predictions)) {
+    if (channel.fitted)
+      summary.quality.push_back({channel.test, channel.observable, channel.unit, false, *channel.fitted, channel.over});
+    if (channel.held_out)
+      summary.quality.push_back(
+          {channel.test, channel.observable, channel.unit, true, *channel.held_out, channel.over});
   }
 }
 
