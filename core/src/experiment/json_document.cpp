@@ -204,8 +204,8 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
   if (text_.size() > limits::file_bytes)
     throw InputError(fmt::format("{}: the JSON text has {} MiB; expected at most {}. Put numbers into data files.",
                                  file_.string(), (text_.size() >> 20) + 1, limits::file_bytes >> 20));
-  std::error_code error;
-  if (!text::is_utf8(std::filesystem::absolute(file_, error).string()))
+  std::error_code unknown;
+  if (!text::is_utf8(std::filesystem::absolute(file_, unknown).string()))
     throw InputError(
         fmt::format("{}: the name of the file, or of a folder above it, is not UTF-8, so that no result could name it. "
                     "Rename it, or move the file.",
