@@ -32,9 +32,12 @@ def tokens(source):
 
 
 def inside(words, at):
-    """What stands between the bracket words[at] and its partner, and the place behind that."""
+    """What stands between the bracket words[at] and its partner, and the place behind that. Without a partner, as in a
+    lambda cut at its first semicolon, what is left."""
     depth, end = 0, at
     while True:
+        if end == len(words):
+            return words[at + 1:], end + 1
         if not isinstance(words[end], Text):
             depth += (words[end] in "([{") - (words[end] in ")]}")
         end += 1

@@ -9,6 +9,7 @@
 
 #include "execution/files.hpp"
 #include "supervisor.hpp"
+#include "text/escaped.hpp"
 
 namespace tunica::app {
 
@@ -32,8 +33,10 @@ void keep_stdout() {
 int answer_descriptor() { return ::fileno(destination); }
 
 void write_answer(const std::string& words) {
+  // Colours are our own; names of folders are others', and need not be text.
+  const std::string plain = text::is_utf8(words) ? words : text::escaped(words, "\n\t\033");
   errno = 0;
-  if (std::fwrite(words.data(), 1, words.size(), destination) < words.size() && problem == 0) problem = errno;
+  if (std::fwrite(plain.data(), 1, plain.size(), destination) < plain.size() && problem == 0) problem = errno;
 }
 
 void flush_answer() {

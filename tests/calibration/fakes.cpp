@@ -2,6 +2,7 @@
 #include "calibration/fakes.hpp"
 
 #include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -24,8 +25,9 @@ class LinearModel : public Model {
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
     const std::size_t n = points.count;
+    std::fill(response.stress.begin(), response.stress.end(), 0);
+    std::fill(response.stress_dp.begin(), response.stress_dp.end(), 0);
     for (std::size_t i = 0; i < n; ++i) {
-      response.stress[i] = 0;
       for (std::size_t j = 0; j < points.parameters.size(); ++j) {
         const double value = basis_(j, points.C[i]);
         response.stress[i] += points.parameters[j] * value;
@@ -93,6 +95,8 @@ class WrappedModel : public Model {
     inner.parameters = points.parameters.first(last);
     if (kind_ == Kind::memory && !response.stress_dp.empty()) return Status::failed("no parameter derivatives");
     if (Status status = base_->evaluate(inner, response); !status.ok()) return status;
+    if (!response.stress_dp.empty())
+      std::fill(response.stress_dp.begin() + static_cast<std::ptrdiff_t>(6 * last * n), response.stress_dp.end(), 0);
     const double v = points.parameters[last];
     double before = 0;
     for (std::size_t i = 0; i < n; ++i) {

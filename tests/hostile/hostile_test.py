@@ -167,7 +167,7 @@ def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
     expect("stdout" in said and "o space left" in said, said)
     expect(timeless(outcome(folder, "mute")[1]) == honest_run, "a full disk behind stdout changed the result")
     for verb in ("check experiment.json", "list", "--help", "certify mute",
-                 "simulate experiment.json --model good --parameters mute/result.json"):
+                 "simulate experiment.json --model good --parameters mute/result.json -o curves"):
         said = shell(f"{' '.join(tunica.words)} {verb} 2>&1 >/dev/full", code=2)
         expect("stdout" in said, f"{verb}: {said}")
 
