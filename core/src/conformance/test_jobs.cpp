@@ -9,6 +9,7 @@
 #include "conformance/isolated.hpp"
 #include "conformance/jobs.hpp"
 #include "conformance/option_values.hpp"
+#include "conformance/predictions.hpp"
 #include "conformance/test_cases.hpp"
 #include "plugins/guarded.hpp"
 
@@ -41,8 +42,7 @@ Verdict check_all(const TestProperty& property, const TestCase& test_case, std::
   for (const Simulation& simulation : simulations(test_case)) {
     // Where imperfections as large as these cannot be simulated, the test has said so.
     if (!first) {
-      std::vector<double> values(simulation.test.rows().count * simulation.test.rows().channels.size());
-      if (!simulation.test.predict(simulation.input(), {values, {}, {}, {}}).ok()) continue;
+      if (!predict(simulation.test, simulation.input()).status.ok()) continue;
     }
     Verdict one = property.check(simulation, seed);
     if (first || !one.counter_example.empty() || (one.held() && worst.held() && one.worst > worst.worst))
