@@ -82,7 +82,7 @@ def batches(cases, budget):
     """The quick cases first, each batch about as long as all before it, within the budget of seconds."""
     batch, spent, size = [], 0.0, 2.0
     for case in sorted(cases, key=lambda case: case[2]):
-        if batch and spent + case[2] > budget:
+        if spent and spent + case[2] > budget:
             break
         batch.append(case)
         spent += case[2]
