@@ -126,8 +126,8 @@ int contained(int argc, char** argv) {
     say_error(problem.what());
     return invalid_input;
   } catch (const plugins::PluginFailure& problem) {
-    say_error(fmt::format("nothing goes on with this plugin: {}. Take it out, or report this to its author",
-                          problem.what()));
+    say_error(
+        fmt::format("nothing goes on with this plugin: {}. Take it out, or report this to its author", problem.what()));
     return internal_error;
   } catch (const std::filesystem::filesystem_error& problem) {
     say_error(fmt::format("the system refused {}: {}; check the path, its permissions and the free space",

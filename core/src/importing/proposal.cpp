@@ -17,7 +17,6 @@
 
 namespace tunica::importing {
 namespace {
-
 using From = data::Quantity::Kind;
 
 /// "PA Belly.1" → "PA_Belly_1": names in an experiment file have no dots, slashes or blanks.
@@ -34,6 +33,14 @@ std::string listed(const std::vector<std::string>& values) {
   return fmt::format("{}{}", fmt::join(shown, ", "), values.size() > shown.size() ? ", …" : "");
 }
 
+template <class Known>
+const auto& registered(const Known& known, const char* kind, const std::string& name) {
+  if (const auto found = known.find(name); found != known.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [one, entry] : known) names.push_back(one);
+  throw InputError(fmt::format("--{} {}: there is no such {}. {}", kind, name, kind, data::suggestion(name, names)));
+}
+
 /// One file on its way to tests.
 class File {
  public:
@@ -47,12 +54,7 @@ class File {
         columns_(guess_columns(csv_)),
         type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
     csv_.require_utf8(false);
-    const auto found = catalogue.tests().find(type_);
-    std::vector<std::string> types;
-    for (const auto& [name, entry] : catalogue.tests()) types.push_back(name);
-    if (found == catalogue.tests().end())
-      throw InputError(fmt::format("--test {}: there is no such test. {}", type_, data::suggestion(type_, types)));
-    factory_ = &found->second.factory;
+    factory_ = &registered(catalogue.tests(), "test", type_).factory;
     note("{} columns, {} rows; names in line {}, cells parted by {}", csv_.columns.size(), csv_.rows.size(),
          csv_.header_line,
          csv_.delimiter == '\t'  ? "tabs"
@@ -384,10 +386,7 @@ Proposal propose(const Answers& answers, const std::filesystem::path& folder, co
     }
     runs.push_back({{"model", model}, {"optimizer", "lm"}, {"tests", std::move(names)}});
   }
-  std::vector<std::string> models;
-  for (const auto& [name, entry] : catalogue.models()) models.push_back(name);
-  if (!catalogue.models().contains(model))
-    throw InputError(fmt::format("--model {}: there is no such model. {}", model, data::suggestion(model, models)));
+  static_cast<void>(registered(catalogue.models(), "model", model));
   Json entry = {{"type", model}};
   if (model == "ogden") entry["terms"] = 2;  // on strips of porcine dermis one term leaves 4 to 17 times the misfit
   proposal.experiment = {{"format", 1}};
