@@ -46,7 +46,6 @@ class File {
         csv_(data::parse_csv(file, data::read_bytes(file), layout(answers))),
         columns_(guess_columns(csv_)),
         type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
-    csv_.require_utf8(false);
     const auto found = catalogue.tests().find(type_);
     std::vector<std::string> types;
     for (const auto& [name, entry] : catalogue.tests()) types.push_back(name);
