@@ -15,7 +15,7 @@ using ::testing::Not;
 namespace {
 
 /// Exit code 2, nothing on stdout, no folder, and a message of a size that a person reads.
-std::string refused(const trial::Bench& bench) {
+std::string turned_away(const trial::Bench& bench) {
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   EXPECT_EQ(ended.code, 2) << ended.err.substr(0, 1000);
   EXPECT_EQ(ended.out, "");
@@ -35,13 +35,13 @@ void expect_harmless(const std::string& text) {
 TEST(HostileInput, CountsThatNoMachineHolds) {
   trial::Bench bench;
   bench.experiment["runs"][0]["realisations"] = 1000000000;
-  EXPECT_THAT(refused(bench), HasSubstr("a whole number of realisations from 1 to 100000 is expected"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("a whole number of realisations from 1 to 100000 is expected"));
   bench.experiment["runs"][0].erase("realisations");
   bench.experiment["constraints"] = {{{"type", "transverse_stability"}, {"points", 1000000000000}}};
-  EXPECT_THAT(refused(bench), HasSubstr("a whole number of stretches from 2 to 10000 is expected"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("a whole number of stretches from 2 to 10000 is expected"));
   bench.experiment.erase("constraints");
   bench.experiment["analysis"]["bootstrap"]["draws"] = 1000000000;
-  EXPECT_THAT(refused(bench), HasSubstr("a whole number of draws from 40 to 1000000 is expected"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("a whole number of draws from 40 to 1000000 is expected"));
 }
 
 TEST(HostileInput, CountsOnTheCommandLine) {
@@ -57,21 +57,21 @@ TEST(HostileInput, CountsOnTheCommandLine) {
 TEST(HostileInput, AHugeKeyAndAHugeValueAreQuotedInShort) {
   trial::Bench bench;
   bench.experiment[std::string(10'000'000, 'k')] = 1;
-  EXPECT_THAT(refused(bench), HasSubstr("has 10000000 bytes, and at most 1000 are allowed"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("has 10000000 bytes, and at most 1000 are allowed"));
   bench.experiment.erase(std::string(10'000'000, 'k'));
   bench.experiment["objective"]["type"] = std::string(10'000'000, 'v');
-  EXPECT_THAT(refused(bench), HasSubstr("unknown objective 'vvvv"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("unknown objective 'vvvv"));
 }
 
 TEST(HostileInput, TextOfFilesActsOnNoTerminal) {
   trial::Bench bench;
   bench.experiment["models"]["neo\u202e"] = {{"type", "neo_hooke"}};
-  const std::string error = refused(bench);
+  const std::string error = turned_away(bench);
   EXPECT_THAT(error, HasSubstr("'neo\\u202e'"));
   expect_harmless(error);
   bench.experiment["models"].erase("neo\u202e");
   bench.folder.write("circ.csv", "stretch [1],str\xFF\033[2J\u009b\u202e\n1.1,1\n");
-  const std::string columns = refused(bench);
+  const std::string columns = turned_away(bench);
   EXPECT_THAT(columns, HasSubstr("str\\xff\\x1b[2J\\u009b\\u202e"));
   expect_harmless(columns);
 }
@@ -96,11 +96,11 @@ TEST(HostileInput, SpecialFilesNeverMakeItWait) {
   ASSERT_EQ(::mkfifo(bench.path("pipe").c_str(), 0600), 0);
   for (const char* file : {"pipe", "/dev/zero"}) {
     bench.experiment["tests"]["circ"]["data"]["file"] = file;
-    EXPECT_THAT(refused(bench), HasSubstr("is no regular file"));
+    EXPECT_THAT(turned_away(bench), HasSubstr("is no regular file"));
   }
   bench.experiment["tests"]["circ"]["data"]["file"] = "/proc/kmsg";
-  EXPECT_THAT(refused(bench), AnyOf(HasSubstr("/proc/kmsg: this is not a regular file"),
-                                    HasSubstr("/proc/kmsg: the file cannot be read")));  // where only root may
+  EXPECT_THAT(turned_away(bench), AnyOf(HasSubstr("/proc/kmsg: this is not a regular file"),
+                                        HasSubstr("/proc/kmsg: the file cannot be read")));  // where only root may
   for (const char* verb : {"run", "check", "discover"}) {
     const auto ended = trial::tunica({verb, "pipe"}, bench.folder.path());
     EXPECT_EQ(ended.code, 2);
@@ -130,10 +130,10 @@ TEST(HostileInput, AFolderWhoseNameIsNotUtf8) {
 TEST(HostileInput, DataThatFixNothing) {
   trial::Bench bench;
   bench.experiment["tests"]["circ"]["weight"] = bench.experiment["tests"]["axial"]["weight"] = 0;
-  EXPECT_THAT(refused(bench), HasSubstr("every row that could be fitted has the weight 0"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("every row that could be fitted has the weight 0"));
   bench.experiment["tests"]["circ"].erase("weight");
   bench.experiment["tests"]["circ"]["data"]["noise"] = {{"relative", 1e308}};
-  EXPECT_THAT(refused(bench), HasSubstr("the stated noise gives σ = ∞"));
+  EXPECT_THAT(turned_away(bench), HasSubstr("the stated noise gives σ = ∞"));
   bench.experiment["tests"]["circ"]["data"]["noise"] = {{"absolute", 1e-14}};
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   EXPECT_EQ(ended.code, 0) << ended.err;
