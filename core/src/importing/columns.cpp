@@ -133,6 +133,7 @@ bool measures(std::string_view unit, std::string_view base) {
 }
 
 std::vector<ColumnGuess> guess_columns(const data::Csv& csv) {
+  csv.require_utf8(false);  // the proposal names them
   std::vector<ColumnGuess> guesses;
   for (std::size_t k = 0; k < csv.columns.size(); ++k) {
     const data::Csv::Column& column = csv.columns[k];

@@ -53,7 +53,6 @@ class File {
         csv_(data::parse_csv(file, data::read_bytes(file), layout(answers))),
         columns_(guess_columns(csv_)),
         type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
-    csv_.require_utf8(false);
     factory_ = &registered(catalogue.tests(), "test", type_).factory;
     note("{} columns, {} rows; names in line {}, cells parted by {}", csv_.columns.size(), csv_.rows.size(),
          csv_.header_line,
