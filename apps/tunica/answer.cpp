@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "execution/files.hpp"
@@ -43,6 +44,10 @@ void flush_answer() {
   if (std::fflush(destination) != 0 && problem == 0) problem = errno;
   if (problem != 0) throw execution::WriteFailure("stdout", problem);
   supervised::answered();
+}
+
+void print_json(const nlohmann::ordered_json& document) {
+  answer("{}\n", text::plain_json(document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
 }
 
 }  // namespace tunica::app

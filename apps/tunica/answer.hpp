@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json_fwd.hpp>
 
 /// Results on stdout, which plugins cannot get at.
 namespace tunica::app {
@@ -24,5 +25,8 @@ template <class... Values>
 void answer(fmt::format_string<Values...> form, Values&&... values) {
   write_answer(fmt::format(form, std::forward<Values>(values)...));
 }
+
+/// The one document that --json puts on stdout; numbers that are not finite as null.
+void print_json(const nlohmann::ordered_json& document);
 
 }  // namespace tunica::app

@@ -26,7 +26,4 @@ nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<TestFact
 nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<OptimizerFactory>& entry);
 nlohmann::ordered_json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry);
 
-/// The one document that --json puts on stdout; numbers that are not finite as null.
-void print_json(const nlohmann::ordered_json& document);
-
 }  // namespace tunica::app

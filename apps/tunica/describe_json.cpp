@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "answer.hpp"
 #include "describe.hpp"
 #include "plugins/guarded.hpp"
-#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -169,10 +167,6 @@ json description_json(const plugins::Catalogue::Entry<MechanismFactory>& entry) 
   document["isolated_by"] = factory.isolated_by;
   document["options"] = options_json(factory.options);
   return document;
-}
-
-void print_json(const json& document) {
-  answer("{}\n", text::plain_json(document.dump(2, ' ', false, json::error_handler_t::replace)));
 }
 
 }  // namespace tunica::app

@@ -126,7 +126,8 @@ TEST(Cards, OfDispersionZeroAreThoseOfAlignedFibres) {
 }
 
 TEST(Cards, RefuseSettingsAndParametersThatAreNotUsable) {
-  EXPECT_THAT(refused(Target::calculix, neo, {.name = "1\n*STEP"}), HasSubstr("name of the material: found '1?*STEP'"));
+  EXPECT_THAT(refused(Target::calculix, neo, {.name = "1\n*STEP"}),
+              HasSubstr("name of the material: found '1\\n*STEP'"));
   EXPECT_THAT(refused(Target::calculix, neo, {.bulk_ratio = 0}), HasSubstr("CalculiX needs a bulk modulus"));
   EXPECT_THAT(refused(Target::febio, neo, {.bulk_ratio = 0}), HasSubstr("FEBio needs a bulk modulus"));
   EXPECT_THAT(refused(Target::lsdyna, neo), HasSubstr("a card of LS-DYNA has a density"));

@@ -86,7 +86,9 @@ TEST(HostileInput, JsonIsValidAndHarmlessWhateverTheNames) {
     EXPECT_EQ(ended.code, 0) << ended.err;
     expect_harmless(ended.out);
     expect_harmless(ended.err);
-    if (words.front() == "check") EXPECT_FALSE(nlohmann::json::parse(ended.out, nullptr, false).is_discarded());
+    if (words.front() == "check") {
+      EXPECT_FALSE(nlohmann::json::parse(ended.out, nullptr, false).is_discarded());
+    }
   }
   EXPECT_EQ(bench.result("out")["name"], "a\u202eb\u009b\033c") << "files hold the name as it is";
 }

@@ -305,11 +305,12 @@ TEST(Run, ShoutsAboutParametersAtTheirBounds) {
   const auto result = bench.result("out");
   EXPECT_EQ(result["runs"][0]["best"]["parameters"]["mu"]["at_bound"], "upper");
   ASSERT_EQ(result["warnings"].size(), result["warning_details"].size());
-  const auto& warning = result["warning_details"][0];
+  EXPECT_EQ(result["warning_details"][0]["kind"], "misfit_out_of_scale") << "the bound keeps the model off the data";
+  const auto& warning = result["warning_details"][1];
   EXPECT_EQ(warning["kind"], "at_bound");
   EXPECT_EQ(warning["run"], "neo/lm");
   EXPECT_EQ(warning["subjects"][0], "mu");
-  EXPECT_EQ(result["warnings"][0], "neo/lm: " + warning["sentence"].get<std::string>());
+  EXPECT_EQ(result["warnings"][1], "neo/lm: " + warning["sentence"].get<std::string>());
 }
 
 TEST(Run, SaysWhyWhenEveryEvaluationFails) {

@@ -36,8 +36,8 @@ TEST(Template, ReplacesOnlyTheValuesOfItsPointers) {
 TEST(Template, RefusesATableThatIsNotUtf8) {
   CohortFiles files;
   files.replace(files.table, "width [mm]", "width [m\x8A]");
-  EXPECT_THAT(refusal(files), HasSubstr("specimens.csv, line 2: a cell or unit that "));
-  EXPECT_THAT(refusal(files), HasSubstr("is not UTF-8. Save the table as UTF-8 text."));
+  EXPECT_THAT(refusal(files), HasSubstr("specimens.csv, line 1, column 3: found 'width [m\\x8a]'"));
+  EXPECT_THAT(refusal(files), HasSubstr("is not UTF-8. Save the file as UTF-8 text."));
 }
 
 TEST(Template, PutsANumberWhereTheTemplateHasOneAndTheTableNoUnit) {

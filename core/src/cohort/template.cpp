@@ -87,13 +87,7 @@ std::string Template::of(const Specimen& specimen) const {
     // A number where the template has one; a quantity with its unit is a text.
     const bool plain = hole.number && Json::accept(value) && Json::parse(value).is_number();
     text.append(text_, from, hole.begin - from);
-    try {
-      text += plain ? value : Json(value).dump();
-    } catch (const Json::exception&) {
-      throw InputError(
-          fmt::format("{}, line {}: a cell or unit that {} takes is not UTF-8. Save the table as UTF-8 text.",
-                      table_.string(), specimen.line, hole.place));
-    }
+    text += plain ? value : Json(value).dump();
     from = hole.end;
   }
   return text.append(text_, from);

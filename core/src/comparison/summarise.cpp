@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -158,9 +159,10 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   };
   const auto own = warnings_of(plan, summary.runs);
   const auto first = [](const execution::Warning& warning) {
-    return warning.kind == execution::WarningKind::misfit_out_of_scale ||
-           warning.kind == execution::WarningKind::no_misfit ||
-           warning.kind == execution::WarningKind::noise_contradicted;
+    using Kind = execution::WarningKind;
+    constexpr std::array kinds{Kind::no_feasible_point, Kind::misfit_out_of_scale, Kind::no_misfit,
+                               Kind::noise_contradicted};
+    return std::find(kinds.begin(), kinds.end(), warning.kind) != kinds.end();
   };
   for (const auto& warning : own)
     if (first(warning)) add(warning);

@@ -206,12 +206,13 @@ void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run,
 
 std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
   Warnings warnings;
-  for (const auto& run : runs) warn_of_scale(run, warnings);
-  for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
   for (const auto& run : runs)
     if (!run.has_result) warn_of_missing_result(run, reasons_text(run), warnings);
   for (const auto& run : runs)
     if (run.has_result && run.status.kind() == Status::Kind::infeasible) warn_of_broken_constraints(run, warnings);
+  for (const auto& run : runs)
+    if (run.status.ok()) warn_of_scale(run, warnings);
+  for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
   for (const auto& run : runs) warn_of_bounds(run, warnings);

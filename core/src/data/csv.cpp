@@ -316,8 +316,10 @@ void Csv::require_utf8(bool cells) const {
           fmt::format("{}, line {}, column {}: found '{}', which is not UTF-8. Save the file as UTF-8 text.",
                       file.string(), line, column + 1, excerpt(text)));
   };
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    check(header_line, k, columns[k].text + columns[k].unit.value_or(""));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    check(header_line, k, columns[k].text);
+    check(header_line, k, columns[k].unit.value_or(""));  // from a line of its own
+  }
   if (!cells) return;
   for (const Row& row : rows)
     for (std::size_t k = 0; k < row.cells.size(); ++k) check(row.line, k, row.cells[k]);

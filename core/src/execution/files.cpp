@@ -120,6 +120,7 @@ std::error_code make_folders(const std::filesystem::path& folder) {
     if (const auto problem = make_folders(parent)) return problem;
   error.clear();
   std::filesystem::create_directory(folder, error);
+  if (error == std::errc::file_exists) return std::make_error_code(std::errc::not_a_directory);
   if (!error) sync_folder(folder.parent_path());
   return error;
 }
