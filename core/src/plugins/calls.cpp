@@ -20,12 +20,11 @@ Register& threads() {
   return only;
 }
 
-constinit thread_local CallsOfThread* mine = nullptr;
-
 /// Gives the entry back when the thread ends. In the middle of a call it is not the thread that ends: a plugin has
 /// called exit(), which destroys what is local to the thread before anything else.
 struct Lease {
   ~Lease() {
+    CallsOfThread*& mine = known_calls_of_this_thread;
     if (mine->depth > 0) return;
     const std::lock_guard lock(threads().mutex);
     threads().free.push_back(mine);
@@ -33,7 +32,10 @@ struct Lease {
   }
 };
 
-CallsOfThread& lease() {
+}  // namespace
+
+CallsOfThread& first_call_of_this_thread() {
+  CallsOfThread*& mine = known_calls_of_this_thread;
   {
     Register& all = threads();
     const std::lock_guard lock(all.mutex);
@@ -49,12 +51,6 @@ CallsOfThread& lease() {
   if (prepare_thread != nullptr) prepare_thread();
   return *mine;
 }
-
-}  // namespace
-
-CallsOfThread& calls_of_this_thread() { return mine != nullptr ? *mine : lease(); }
-
-CallsOfThread* known_calls_of_this_thread() { return mine; }
 
 std::vector<CallsOfThread*> calls_of_all_threads() {
   Register& all = threads();

@@ -32,10 +32,14 @@ struct CallsOfThread {
   std::array<std::atomic<const Call*>, depth_recorded> stack = {};
 };
 
-/// Those of this thread; made by the first call.
-CallsOfThread& calls_of_this_thread();
-/// For signal handlers: null where this thread has called nothing yet.
-CallsOfThread* known_calls_of_this_thread();
+/// Those of this thread; null where it has called nothing yet.
+inline constinit thread_local CallsOfThread* known_calls_of_this_thread = nullptr;
+/// Makes them.
+CallsOfThread& first_call_of_this_thread();
+inline CallsOfThread& calls_of_this_thread() {
+  CallsOfThread* const known = known_calls_of_this_thread;
+  return known != nullptr ? *known : first_call_of_this_thread();
+}
 /// Every thread that has called a plugin. Entries stay when a thread ends, and are used again.
 std::vector<CallsOfThread*> calls_of_all_threads();
 /// Whole evaluations that came to an end.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/guarded_model.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <utility>
@@ -23,31 +22,31 @@ bool is_unwritten(double value) {
   return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(unwritten);
 }
 
-/// A model writes all of an output or nothing, as a rule: the ends tell. What is in between is not a finite number,
-/// and is found by whoever uses it.
-bool left_out(std::span<const double> output) {
-  return !output.empty() && (is_unwritten(output.front()) || is_unwritten(output.back()));
-}
-
 struct Named {
   const char* name;
   std::span<double> values;
 };
 
+/// Marks the first and the last point of every component, of which there are size/n. A model that leaves a component
+/// out leaves all of its points: to mark those too would cost as much as the model. `tunica plugin check` does.
 template <std::size_t N>
-void prepare(const Named (&outputs)[N]) {
-  for (const Named& output : outputs) std::fill(output.values.begin(), output.values.end(), unwritten);
+void mark(const Named (&outputs)[N], std::size_t n) {
+  if (n == 0) return;
+  for (const Named& output : outputs)
+    for (std::size_t first = 0; first < output.values.size(); first += n)
+      output.values[first] = output.values[first + n - 1] = unwritten;
 }
 
 template <std::size_t N>
-Status verdict(Status status, const Named (&outputs)[N], const std::string& plugin, std::size_t count) {
-  if (!status.ok() || count == 0) return status;
+Status verdict(Status status, const Named (&outputs)[N], const std::string& plugin, std::size_t n) {
+  if (!status.ok() || n == 0) return status;
   for (const Named& output : outputs)
-    if (left_out(output.values))
-      return Status::failed(
-          fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
-                      "`tunica plugin check` shows what else is amiss",
-                      plugin, output.name));
+    for (std::size_t first = 0; first < output.values.size(); first += n)
+      if (is_unwritten(output.values[first]) || is_unwritten(output.values[first + n - 1]))
+        return Status::failed(
+            fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
+                        "`tunica plugin check` shows what else is amiss",
+                        plugin, output.name));
   return status;
 }
 
@@ -112,7 +111,7 @@ Status GuardedModel::evaluate(const MaterialPoints& points, const MaterialRespon
                            {"tangent", response.tangent},
                            {"derivatives by parameters", response.stress_dp},
                            {"state", response.state}};
-  prepare(outputs);
+  mark(outputs, points.count);
   const CallScope scope(call);
   return verdict(contained(plugin_, [&] { return model_->evaluate(points, response); }), outputs, plugin_,
                  points.count);
@@ -129,7 +128,7 @@ Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse&
                            {"Hessian", response.hessian},
                            {"derivatives by parameters", response.gradient_dp},
                            {"derivatives of the energy", response.energy_dp}};
-  prepare(outputs);
+  mark(outputs, points.count);
   const CallScope scope(call);
   return verdict(contained(plugin_, [&] { return model_->evaluate_axes(points, response); }), outputs, plugin_,
                  points.count);

