@@ -10,6 +10,7 @@
 #include "tunica/energy_part.hpp"
 #include "tunica/parameter.hpp"
 #include "tunica/status.hpp"
+#include "tunica/strip_path.hpp"
 
 /// The interfaces that plugins implement, and the declarations they share. docs/sdk.md gives a reading order.
 namespace tunica {
@@ -127,6 +128,7 @@ class Model {
                                [[maybe_unused]] const AxisResponse& response) const {
     return Status::failed("this model has no principal-axes path");
   }
+  virtual bool solve_strip([[maybe_unused]] const StripPath& strip, [[maybe_unused]] Status& status) const { return false; }
   /// The terms of the energy that mechanisms can change. Expose all of them, so that they add up to W, or none.
   [[nodiscard]] virtual std::span<const std::unique_ptr<EnergyPart>> parts() const { return {}; }
   /// The model without memory whose response in principal axes remember() changes. Its parameters are the first ones.

@@ -2,16 +2,13 @@
 #include "axes_path.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::uniaxial {
 namespace {
 
-bool all_finite(std::span<const double> values) {
-  std::size_t bad = 0;  // no early exit, so that the loop vectorises
-  for (const double value : values) bad += !(std::abs(value) <= std::numeric_limits<double>::max());
-  return bad == 0;
-}
+bool all_finite(std::span<const double> values) { return detail::all_finite(values.data(), values.size()); }
 
 /// Predictions run concurrently and thousands of times a second: one scratch a thread spares every one its allocations.
 free_strip::Scratch& thread_scratch() {
@@ -21,10 +18,37 @@ free_strip::Scratch& thread_scratch() {
 
 }  // namespace
 
+bool AxesPath::solved_by_model(const Strip& strip, const TestInput& input, const TestOutput& output,
+                               std::span<const double> stretch, Status& status) const {
+  const std::size_t n = stretch.size(), parameters = input.model_parameters.size();
+  std::size_t lost = StripPath::none;
+  StripPath path{.loaded = strip.loaded, .parameters = input.model_parameters, .stretch = stretch, .stress = output.values};
+  if (!output.jacobian.empty()) path.stress_dp = output.jacobian.first(parameters * n);
+  path.lost = &lost;
+  if (input.abscissae.empty()) start_.set(path);
+  if (!input.model.solve_strip(path, status)) return false;
+  if (!status.ok()) {
+    if (lost != StripPath::none)
+      status = Status::failed("uniaxial: " + status.reason() + ", at " + row_name(strip, stretch, lost));
+    return true;
+  }
+  if (all_finite(output.values) && all_finite(path.stress_dp)) return true;
+  std::size_t bad = 0;
+  while (bad + 1 < n && std::isfinite(output.values[bad])) ++bad;
+  status = Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, bad));
+  return true;
+}
+
 Status AxesPath::predict(const Strip& strip, const TestInput& input, const TestOutput& output) const {
   const std::span<const double> stretch =
       input.abscissae.empty() ? std::span<const double>(strip.stretch) : input.abscissae[0];
   const std::size_t n = stretch.size(), channels = strip.channels.size();
+  const bool plain = channels == 1 && strip.channels[0] == Channel::stress && strip.measure == Measure::cauchy &&
+                     output.abscissa_derivative.empty() && output.diagnostics.empty();
+  if (plain) {
+    Status solved;
+    if (solved_by_model(strip, input, output, stretch, solved)) return solved;
+  }
   free_strip::Scratch& s = thread_scratch();
   s.reserve(n, input.model_parameters.size());
   const std::span<double> u(s.u.data(), n);
@@ -43,8 +67,6 @@ Status AxesPath::predict(const Strip& strip, const TestInput& input, const TestO
 
   const std::size_t rows = channels * n;
   bool finite = true;
-  const bool plain = channels == 1 && strip.channels[0] == Channel::stress && strip.measure == Measure::cauchy &&
-                     output.abscissa_derivative.empty() && output.diagnostics.empty();
   if (plain && !output.values.empty()) {
     for (std::size_t i = 0; i < n; ++i) output.values[i] = s.stress[i] + s.stress_by_y[i] * s.step[i];
     finite = all_finite(output.values);

@@ -15,6 +15,8 @@ class AxesPath {
   Status predict(const Strip& strip, const TestInput& input, const TestOutput& output) const;
 
  private:
+  bool solved_by_model(const Strip& strip, const TestInput& input, const TestOutput& output,
+                       std::span<const double> stretch, Status& status) const;
   free_strip::Start start_;
 };
 

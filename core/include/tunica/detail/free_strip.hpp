@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tunica/detail/safeguarded_newton.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/model.hpp"
 
 /// The incompressible strip pulled along a material axis with free lateral faces: its equilibrium path, all rows at
@@ -28,6 +29,9 @@ namespace tunica::free_strip {
 inline constexpr double last_step = 1e-6;
 /// Of a batch; rows that need more are solved one by one.
 inline constexpr int newton_iterations = 12;
+/// What is said of a row without equilibrium.
+inline constexpr const char* lost_row =
+    "no lateral equilibrium: the energy overflows or has no stationary point on the path from rest";
 
 /// Positions of the Hessian components (a, b) in the order tt, zz, rr, tz, zr, tr.
 inline constexpr std::array<std::array<std::size_t, 3>, 3> pair{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
@@ -234,16 +238,22 @@ inline Status iterate(const Pull& pull, std::span<const double> stretch, double 
   for (const std::size_t i : open) {
     if (solve_from_rest(pull, stretch[i], batch.scratch_of(), u[i])) continue;
     lost = i;
-    return Status::failed(
-        "no lateral equilibrium: the energy overflows or has no stationary point on the path from "
-        "rest");
+    return Status::failed(lost_row);
   }
   return batch.evaluate(u.data(), false);
+}
+
+/// The row whose stretch is nearest.
+inline std::size_t nearest(std::span<const double> stretch, double wanted) {
+  const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
+  return static_cast<std::size_t>(std::min_element(stretch.begin(), stretch.end(), closer) - stretch.begin());
 }
 
 /// Where the batch iteration begins, for given stretches.
 class Start {
  public:
+  static constexpr std::size_t node_count = 8;  ///< whole vectors on every level
+
   Start() = default;
   /// Places the nodes and prepares the interpolation, once a test.
   explicit Start(std::span<const double> stretch) {
@@ -258,19 +268,40 @@ class Start {
       nodes_.push_back(0.5 * (*low + *high) - 0.5 * (*high - *low) * std::cos(angle));
       weight[k] = (k % 2 == 0 ? 1 : -1) * std::sin(angle);
     }
-    interpolation_.resize(n * node_count);
-    for (std::size_t i = 0; i < n; ++i) {
+    // Between them lie most tissues: λ2 = λ1^−½ is isotropic.
+    for (const double power : {-0.75, -1.25})
+      for (const double node : nodes_) guesses_.push_back(std::pow(node, power));
+    row_stride_ = (n + detail::widest - 1) / detail::widest * detail::widest;
+    interpolation_.resize(2 * node_count * row_stride_);
+    for (std::size_t i = 0; i < row_stride_; ++i) {
+      const double lambda = stretch[std::min(i, n - 1)];
       double sum = 0;
       std::array<double, node_count> term;
       for (std::size_t k = 0; k < node_count; ++k) {
-        double distance = stretch[i] - nodes_[k];
+        double distance = lambda - nodes_[k];
         if (std::abs(distance) < 1e-14) distance = 1e-14;
         term[k] = weight[k] / distance;
         sum += term[k];
       }
-      // λ1 u is interpolated; the row's own 1/λ1 is folded in.
-      for (std::size_t k = 0; k < node_count; ++k) interpolation_[k * n + i] = term[k] / sum * nodes_[k] / stretch[i];
+      // Hermite's interpolation of f = λ1 u from f and ∂f/∂λ1: (1 − 2 (λ − λ_k) L'_k(λ_k)) L_k² and (λ − λ_k) L_k², L_k
+      // Lagrange's polynomials. The node's λ1 and the row's own 1/λ1 are folded in.
+      for (std::size_t k = 0; k < node_count; ++k) {
+        const double lagrange = term[k] / sum, distance = lambda - nodes_[k];
+        double slope = 0;
+        for (std::size_t j = 0; j < node_count; ++j)
+          if (j != k) slope += 1 / (nodes_[k] - nodes_[j]);
+        interpolation_[k * row_stride_ + i] = (1 - 2 * distance * slope) * lagrange * lagrange * nodes_[k] / lambda;
+        interpolation_[(node_count + k) * row_stride_ + i] = distance * lagrange * lagrange / lambda;
+      }
     }
+  }
+
+  /// Sets where the search for a model's own solution begins.
+  void set(StripPath& path) const {
+    path.nodes = nodes_;
+    path.guesses = guesses_;
+    path.interpolation = interpolation_;
+    path.row_stride = row_stride_;
   }
 
   /// First u = λ2² of every row: interpolated from the nodes, or 1/λ1 where there are too few rows for that to pay.
@@ -281,32 +312,36 @@ class Start {
       return {};
     }
     constexpr double coarse = 1e-3;  // a start's error is squared by the next Newton step
-    std::array<double, node_count> at_nodes;
+    std::array<double, 2 * node_count> at_nodes;
     for (std::size_t k = 0; k < node_count; ++k) at_nodes[k] = 1 / nodes_[k];
     Batch batch(pull, nodes_, scratch);
-    if (Status status = iterate(pull, nodes_, coarse, batch, at_nodes, lost); !status.ok()) {
+    if (Status status = iterate(pull, nodes_, coarse, batch, {at_nodes.data(), node_count}, lost); !status.ok()) {
       if (lost) lost = nearest(stretch, nodes_[*lost]);
       return status;
     }
-    for (std::size_t k = 0; k < node_count; ++k) at_nodes[k] *= 1 + batch.scratch_of().step[k];
-    const std::size_t n = stretch.size();
-    double* __restrict row = u.data();
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0;
-      for (std::size_t k = 0; k < node_count; ++k) sum += interpolation_[k * n + i] * at_nodes[k];
-      row[i] = sum;
+    for (std::size_t k = 0; k < node_count; ++k) {
+      double stress_by_l, y_by_l;
+      batch.by_stretch(k, stress_by_l, y_by_l);
+      at_nodes[k] *= 1 + batch.scratch_of().step[k];
+      at_nodes[node_count + k] = at_nodes[k] * (1 + y_by_l);
     }
+    double* const row = u.data();
+    detail::vectorised([&, n = stretch.size()] {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) {
+        double sum = 0;
+        for (std::size_t k = 0; k < 2 * node_count; ++k) sum += interpolation_[k * row_stride_ + i] * at_nodes[k];
+        row[i] = sum;
+      }
+    });
     return {};
   }
 
  private:
-  static constexpr std::size_t node_count = 12;
-  static std::size_t nearest(std::span<const double> stretch, double wanted) {
-    const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
-    return static_cast<std::size_t>(std::min_element(stretch.begin(), stretch.end(), closer) - stretch.begin());
-  }
   std::vector<double> nodes_;          ///< stretches of the Chebyshev points; empty = too few rows to pay
-  std::vector<double> interpolation_;  ///< rows × nodes, node-major: weight of node k for row i at [k·n + i]
+  std::vector<double> guesses_;        ///< as StripPath::guesses
+  std::vector<double> interpolation_;  ///< as StripPath::interpolation
+  std::size_t row_stride_ = 0;         ///< rows, filled up to whole vectors
 };
 
 }  // namespace tunica::free_strip

@@ -23,6 +23,13 @@
 /// addition, vector functions of libmvec), by 1e-13 relative or less. Loops over lanes have to be padded where a value
 /// must not depend on its place: the compiler finishes a loop of odd length with scalar functions.
 /// Threads: everything here is thread-safe.
+/// Before a loop over lanes: no lane reads what another one writes, whatever the pointers.
+#if defined(__clang__)
+#define TUNICA_LANES _Pragma("clang loop vectorize(assume_safety)")
+#else
+#define TUNICA_LANES _Pragma("GCC ivdep")
+#endif
+
 namespace tunica::detail {
 
 /// Sets of instructions, each one a superset of those before.
@@ -50,6 +57,11 @@ inline constexpr std::size_t widest = 8;
     !defined(__SANITIZE_THREAD__)
 #define TUNICA_VECTOR_LEVELS_ 1
 #endif
+
+/// Lanes of a double in a vector of the level; 1 where the compiler is left to itself.
+inline constexpr std::size_t lanes_of(VectorLevel level) {
+  return level == VectorLevel::avx512 ? 8 : level == VectorLevel::avx2 ? 4 : 2;
+}
 
 /// The highest level that this processor, the system and this build offer.
 inline VectorLevel best_vector_level() {

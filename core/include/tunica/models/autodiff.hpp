@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
 
 #include <ceres/jet.h>
 
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/energy_part.hpp"
 #include "tunica/models/jet_functions.hpp"
 
@@ -38,13 +40,50 @@ void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   }
 }
 
-/// Evaluates a law by its own respond() if it has one, else from its formula.
+/// The law's own respond() if it has one, else the formula.
 template <class Law>
-void respond(std::span<const double> p, const ResponseBatch& batch) {
+void respond_on_this_level(std::span<const double> p, const ResponseBatch& batch) {
   if constexpr (requires { Law::respond(p, batch); }) {
     Law::respond(p, batch);
   } else {
     respond_by_autodiff<Law>(p, batch);
+  }
+}
+
+/// Evaluates a law on the vector level of this library. A value does not depend on its place: a batch that does not
+/// fill whole vectors is filled up with its last point.
+template <class Law>
+void respond(std::span<const double> p, const ResponseBatch& batch) {
+  const std::size_t n = batch.x.size(), width = detail::lanes_of(detail::vector_level());
+  if (n % width == 0) {
+    detail::vectorised([p, &batch] { respond_on_this_level<Law>(p, batch); });
+    return;
+  }
+  constexpr std::size_t chunk = 32, rows = Law::parameter_count;
+  std::array<double, chunk> x, value, first, second;
+  std::array<double, chunk * rows> value_dp, first_dp;
+  for (std::size_t begin = 0; begin < n; begin += chunk) {
+    const std::size_t m = std::min(chunk, n - begin), filled = (m + width - 1) / width * width;
+    for (std::size_t i = 0; i < filled; ++i) x[i] = batch.x[begin + std::min(i, m - 1)];
+    const auto wanted = [filled](std::span<double> out, double* row, std::size_t count) {
+      return std::span<double>(row, out.empty() ? 0 : count * filled);
+    };
+    const ResponseBatch whole{{x.data(), filled},
+                              wanted(batch.value, value.data(), 1),
+                              wanted(batch.first, first.data(), 1),
+                              wanted(batch.second, second.data(), 1),
+                              wanted(batch.value_dp, value_dp.data(), rows),
+                              wanted(batch.first_dp, first_dp.data(), rows)};
+    detail::vectorised([p, &whole] { respond_on_this_level<Law>(p, whole); });
+    const auto take = [=](std::span<double> out, const double* from, std::size_t count) {
+      for (std::size_t j = 0; !out.empty() && j < count; ++j)
+        std::copy_n(from + j * filled, m, out.data() + j * n + begin);
+    };
+    take(batch.value, value.data(), 1);
+    take(batch.first, first.data(), 1);
+    take(batch.second, second.data(), 1);
+    take(batch.value_dp, value_dp.data(), rows);
+    take(batch.first_dp, first_dp.data(), rows);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "tunica/detail/hyperelastic_axes.hpp"
 #include "tunica/detail/hyperelastic_tensor.hpp"
+#include "tunica/detail/strip_solver.hpp"
 #include "tunica/model.hpp"
 #include "tunica/plugin.hpp"
 
@@ -49,6 +50,11 @@ class Hyperelastic : public Model {
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
     hyperelastic::evaluate_axes(parts_, points, response);
     return {};
+  }
+  bool solve_strip(const StripPath& strip, Status& status) const override {
+    if (parts_.size() > hyperelastic::StripSolver::max_parts) return false;
+    status = hyperelastic::StripSolver(*this, parts_, strip).solve();
+    return true;
   }
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return parts_; }
 

@@ -64,41 +64,47 @@ struct Exponential {
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     const double k1 = p[0], k2 = p[1];
     const std::size_t n = b.x.size();
+    const double* const x = b.x.data();
     // ψ = k1/2 x² φ(k2 x²)
-    for (std::size_t i = 0; i < b.value.size(); ++i)
-      b.value[i] = 0.5 * k1 * b.x[i] * b.x[i] * phi(k2 * b.x[i] * b.x[i]);
+    for (std::size_t i = 0; i < b.value.size(); ++i) b.value[i] = 0.5 * k1 * x[i] * x[i] * phi(k2 * x[i] * x[i]);
     if (!b.value_dp.empty()) {
       for (std::size_t i = 0; i < n; ++i) {
-        const double x2 = b.x[i] * b.x[i];
+        const double x2 = x[i] * x[i];
         b.value_dp[i] = 0.5 * x2 * phi(k2 * x2);
         b.value_dp[n + i] = 0.5 * k1 * x2 * x2 * phi_prime(k2 * x2);
       }
     }
-    if (b.first.empty() && b.second.empty() && b.first_dp.empty()) return;
-    constexpr std::size_t chunk = 64;
-    alignas(16) std::array<double, chunk> e;
-    for (std::size_t begin = 0; begin < n; begin += chunk) {
-      const std::size_t m = n - begin < chunk ? n - begin : chunk;
-      const double* const x = b.x.data() + begin;
-      for (std::size_t i = 0; i < m; ++i) e[i] = k2 * x[i] * x[i];
-      detail::exponential(e.data(), e.data(), m);
-      // ψ' = k1 x e^{k2 x²},  ψ'' = k1 (1 + 2 k2 x²) e^{k2 x²}
-      if (!b.first.empty()) {
-        double* const first = b.first.data() + begin;
-        for (std::size_t i = 0; i < m; ++i) first[i] = k1 * x[i] * e[i];
+    // ψ' = k1 x e^{k2 x²},  ψ'' = k1 (1 + 2 k2 x²) e^{k2 x²},  ∂ψ'/∂k1 = x e^{k2 x²},  ∂ψ'/∂k2 = k1 x³ e^{k2 x²}
+    double* const first = b.first.data();
+    double* const second = b.second.data();
+    double* const by_k1 = b.first_dp.data();
+    if (!b.first.empty() && !b.second.empty() && b.first_dp.empty()) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) {
+        const double y = k2 * x[i] * x[i], e = k1 * detail::lane_exp(y);
+        first[i] = x[i] * e;
+        second[i] = (1 + 2 * y) * e;
       }
-      if (!b.second.empty()) {
-        double* const second = b.second.data() + begin;
-        for (std::size_t i = 0; i < m; ++i) second[i] = k1 * (1 + 2 * k2 * x[i] * x[i]) * e[i];
+      return;
+    }
+    if (!b.first.empty()) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) first[i] = k1 * detail::lane_exp(k2 * x[i] * x[i]) * x[i];
+    }
+    if (!b.second.empty()) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) {
+        const double y = k2 * x[i] * x[i];
+        second[i] = (1 + 2 * y) * (k1 * detail::lane_exp(y));
       }
-      // ∂ψ'/∂k1 = x e^{k2 x²},  ∂ψ'/∂k2 = k1 x³ e^{k2 x²}
-      if (!b.first_dp.empty()) {
-        double* const by_k1 = b.first_dp.data() + begin;
-        double* const by_k2 = b.first_dp.data() + n + begin;
-        for (std::size_t i = 0; i < m; ++i) {
-          by_k1[i] = x[i] * e[i];
-          by_k2[i] = k1 * x[i] * x[i] * by_k1[i];
-        }
+    }
+    if (!b.first_dp.empty()) {
+      double* const by_k2 = by_k1 + n;
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) {
+        const double x2 = x[i] * x[i];
+        by_k1[i] = x[i] * detail::lane_exp(k2 * x2);
+        by_k2[i] = k1 * x2 * by_k1[i];
       }
     }
   }

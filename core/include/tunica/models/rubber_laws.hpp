@@ -102,13 +102,12 @@ struct Ogden {
       clear(b.first);
       clear(b.second);
       for (std::size_t i = 0; i < m; ++i) {
-        l[i] = std::log(b.x[begin + i]);
+        l[i] = detail::lane_log(b.x[begin + i]);
         inverse[i] = 1 / b.x[begin + i];
       }
       for (std::size_t k = 0; k < terms; ++k) {
         const double mu = p[2 * k], alpha = p[2 * k + 1];
-        for (std::size_t i = 0; i < m; ++i) e[i] = alpha * l[i];
-        detail::exponential(e.data(), e.data(), m);
+        for (std::size_t i = 0; i < m; ++i) e[i] = detail::lane_exp(alpha * l[i]);
         // w' = Σ μ λ^(α−1),  w'' = Σ μ (α − 1) λ^(α−2)
         for (std::size_t i = 0; !b.first.empty() && i < m; ++i) b.first[begin + i] += mu * e[i] * inverse[i];
         for (std::size_t i = 0; !b.second.empty() && i < m; ++i)

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_lanes.hpp"
+#include "tunica/detail/vector_level.hpp"
+#include "tunica/detail/vector_math.hpp"
+#include "tunica/strip_path.hpp"
+
+namespace tunica::hyperelastic {
+
+/// Equilibrium of all rows of a free strip, of a model that is a sum of parts. What does not change along the strip,
+/// such as the invariants of the parts, is evaluated once; nothing is allocated unless a row is lost on the way.
+///
+/// Nodes first, then the rows from where the nodes lead to (free_strip::Start); derivatives by parameters and by the
+/// stretch are evaluated once more, at the equilibrium.
+class StripSolver {
+ public:
+  static constexpr std::size_t max_parts = 32;
+
+  /// `model` is the sum of `parts`; it solves rows that Newton's method over lanes does not bring home.
+  StripSolver(const Model& model, const Parts& parts, const StripPath& strip)
+      : model_(model), strip_(strip), width_(detail::lanes_of(detail::vector_level())) {
+    for (const auto& part : parts) add(*part);
+    if (curved_count_ != 1) return;
+    const StripInvariant& x = parts_[curved_[0]].part.x;
+    single_ = x.i2 == 0 && x.f1 == 0 && x.f2 == 0;
+  }
+
+  /// Everything on the level of this library, so that there is one copy of it a level.
+  Status solve() {
+    Status status;
+    detail::vectorised([this, &status] { status = solve_on_this_level(); });
+    return status;
+  }
+
+ private:
+  Status solve_on_this_level() {
+    StripLanes lanes;
+    AtNodes at_nodes;
+    if (!strip_.nodes.empty()) {
+      if (Status status = solve_nodes(lanes); !status.ok()) {
+        if (strip_.lost != nullptr && *strip_.lost != StripPath::none)
+          *strip_.lost = free_strip::nearest(strip_.stretch, strip_.nodes[*strip_.lost]);
+        return status;
+      }
+      read_nodes(lanes, at_nodes);
+    }
+    const bool derivatives = !strip_.stress_dp.empty() || !strip_.stress_by_l.empty();
+    for (std::size_t first = 0; first < strip_.stretch.size(); first += chunk) {
+      const std::span<const double> rows =
+          strip_.stretch.subspan(first, std::min(chunk, strip_.stretch.size() - first));
+      begin(lanes, rows);
+      if (!strip_.nodes.empty()) interpolate(lanes, at_nodes, first, rows.size());
+      if (Status status = newton(lanes, rows, free_strip::last_step); !status.ok()) {
+        if (strip_.lost != nullptr && *strip_.lost != StripPath::none) *strip_.lost += first;
+        return status;
+      }
+      if (!strip_.stress.empty()) std::copy_n(lanes.stress.data(), rows.size(), strip_.stress.data() + first);
+      for (std::size_t i = 0; !strip_.lateral.empty() && i < rows.size(); ++i)
+        strip_.lateral[first + i] = std::log(lanes.u[i]) + std::log1p(lanes.step[i]);
+      if (derivatives) differentiate(lanes, first, rows.size());
+    }
+    return {};
+  }
+
+  static constexpr std::size_t node_count = free_strip::Start::node_count;
+  static constexpr double coarse = 1e-3;  ///< a step at a node; the next one's error is its square and less
+  using AtNodes = std::array<double, 2 * node_count>;
+
+  /// Room for a part that nothing is set to beforehand.
+  union Slot {
+    Slot() {}
+    StripPart part;
+  };
+
+  /// Rows filled up to whole vectors.
+  [[nodiscard]] std::size_t padded(std::size_t n) const { return (n + width_ - 1) / width_ * width_; }
+
+  void add(const EnergyPart& part) {
+    StripPart& p = *std::construct_at(&parts_[count_++].part);
+    p.part = &part;
+    p.description = &part.describe();
+    p.invariant = {};
+    part.invariant(strip_.parameters, p.invariant, {});
+    p.direction = Direction(p.invariant, 1);
+    const Structure a = structure(p.invariant, p.direction);
+    const bool axial = strip_.loaded == 1;
+    const EnergyPart::Active active = p.description->active;
+    constexpr double tolerance = 1e-12;  // as PartBatch::switch_off_below
+    p.x = {axial ? a.zz : a.tt,
+           axial ? a.tt : a.zz,
+           a.rr,
+           a.i2,
+           a.offset,
+           p.description->mirrored ? 2. : 1.,
+           -std::numeric_limits<double>::infinity(),
+           0,
+           0,
+           -1};
+    if (active == EnergyPart::Active::argument_positive) p.x.edge = -tolerance;
+    if (active == EnergyPart::Active::fibre_stretched) {
+      const double s2 = p.direction.s * p.direction.s, c2 = p.direction.c * p.direction.c;
+      p.x.f1 = axial ? c2 : s2;
+      p.x.f2 = axial ? s2 : c2;
+      p.x.fibre_edge = 1 - tolerance;
+    }
+    p.is_linear = p.description->linear && active == EnergyPart::Active::always && a.i2 == 0;
+    if (!p.is_linear) {
+      curved_[curved_count_++] = count_ - 1;
+      return;
+    }
+    const double anywhere = 0;
+    part.respond(strip_.parameters, {{&anywhere, 1}, {}, {&p.slope, 1}, {}, {}, {}});
+    p.slope *= p.x.weight;
+    linear_[0] += p.slope * p.x.a1;
+    linear_[1] += p.slope * p.x.a2;
+    linear_[2] += p.slope * p.x.a3;
+  }
+
+  /// c1 and the u of an isotropic material.
+  void begin(StripLanes& s, std::span<const double> stretch) const {
+    const std::size_t m = stretch.size();
+    TUNICA_LANES
+    for (std::size_t i = 0; i < m; ++i) {
+      s.c1[i] = stretch[i] * stretch[i];
+      s.u[i] = 1 / stretch[i];
+    }
+    for (std::size_t i = m; i < padded(m); ++i) {
+      s.c1[i] = s.c1[m - 1];
+      s.u[i] = s.u[m - 1];
+    }
+  }
+
+  /// Two guesses a node, evaluated at once: a pass over few lanes takes as long as one over twice as many. The inverse of
+  /// W_y is interpolated through both.
+  Status solve_nodes(StripLanes& s) const {
+    for (std::size_t k = 0; k < node_count; ++k) {
+      s.c1[k] = s.c1[node_count + k] = strip_.nodes[k] * strip_.nodes[k];
+      s.u[k] = strip_.guesses[k];
+      s.u[node_count + k] = strip_.guesses[node_count + k];
+    }
+    evaluate(s, 2 * node_count);
+    // The nearer guess becomes the current one; a guess without a step is infinitely far. By way of rows of their own:
+    // a row that is read and written here would be written lane by lane.
+    alignas(64) std::array<double, node_count> u, r, slope, step;
+    TUNICA_LANES
+    for (std::size_t k = 0; k < node_count; ++k) {
+      const std::size_t b = node_count + k;
+      const double step_a = std::abs(s.step[k]) < sound ? std::abs(s.step[k]) : 2 * sound;
+      const double step_b = std::abs(s.step[b]) < sound ? std::abs(s.step[b]) : 2 * sound;
+      const double nearer = step_b < step_a ? 1 : 0;
+      const auto one = [nearer](double is_a, double is_b) { return nearer != 0 ? is_b : is_a; };
+      u[k] = one(s.u[k], s.u[b]);
+      r[k] = one(s.by_y[k], s.by_y[b]);
+      slope[k] = one(s.by_yy[k], s.by_yy[b]);
+      step[k] = one(s.step[k], s.step[b]);
+      s.bend[k] = one(s.by_ly[k], s.by_ly[b]) / slope[k];
+      s.u_before[k] = one(s.u[b], s.u[k]);
+      s.r_before[k] = one(s.by_y[b], s.by_y[k]);
+      s.u_per_r[k] = s.u_before[k] / one(s.by_yy[b], s.by_yy[k]);
+    }
+    std::copy_n(u.data(), node_count, s.u.data());
+    std::copy_n(r.data(), node_count, s.by_y.data());
+    std::copy_n(slope.data(), node_count, s.by_yy.data());
+    std::copy_n(step.data(), node_count, s.step.data());
+    move<true>(s, node_count);
+    if (Status status = newton<true>(s, strip_.nodes, coarse, 1); !status.ok()) return status;
+    keep_bend(s);
+    return {};
+  }
+
+  static void keep_bend(StripLanes& s) {
+    TUNICA_LANES
+    for (std::size_t k = 0; k < node_count; ++k) {
+      s.bend_before[k] = s.bend[k];
+      s.bend[k] = s.by_ly[k] / s.by_yy[k];
+    }
+  }
+
+  /// u of each node after its last step, and its slope along the path: with f = λ1 u
+  ///     ∂f/∂λ1 = u (1 + y_l),  y_l = −W_ly/W_yy,
+  /// the latter followed from the last pass to the end of the step as it changed from the pass before.
+  static void read_nodes(StripLanes& s, AtNodes& at) {
+    std::array<double, node_count> before;
+    std::copy_n(s.u_before.data(), node_count, before.data());
+    move<true>(s, node_count);
+    TUNICA_LANES
+    for (std::size_t k = 0; k < node_count; ++k) {
+      const double u = s.u[k], ahead = (u - s.u_before[k]) / (s.u_before[k] - before[k]);
+      const double more = ahead * (s.bend[k] - s.bend_before[k]);
+      const double bend = s.bend[k] + (std::abs(more) < std::abs(s.bend[k]) ? more : 0);
+      at[k] = u;
+      at[node_count + k] = u * (1 - 2 * bend);
+    }
+  }
+
+  /// u of the rows. Eight weights at a time, which fit into registers.
+  void interpolate(StripLanes& s, const AtNodes& at_nodes, std::size_t first, std::size_t m) const {
+    const double* const weights = strip_.interpolation.data() + first;
+    const std::size_t stride = strip_.row_stride, end = padded(m);
+    add_nodes<true>(s, at_nodes.data(), weights, stride, end);
+    add_nodes<false>(s, at_nodes.data() + node_count, weights + node_count * stride, stride, end);
+  }
+  template <bool assign>
+  static void add_nodes(StripLanes& s, const double* at, const double* w, std::size_t stride, std::size_t end) {
+    static_assert(node_count == 8);
+    const double a0 = at[0], a1 = at[1], a2 = at[2], a3 = at[3], a4 = at[4], a5 = at[5], a6 = at[6], a7 = at[7];
+    TUNICA_LANES
+    for (std::size_t i = 0; i < end; ++i) {
+      const double* const v = w + i;
+      const double low = (v[0] * a0 + v[stride] * a1) + (v[2 * stride] * a2 + v[3 * stride] * a3);
+      const double high = (v[4 * stride] * a4 + v[5 * stride] * a5) + (v[6 * stride] * a6 + v[7 * stride] * a7);
+      s.u[i] = (assign ? 0 : s.u[i]) + (low + high);
+    }
+  }
+
+  /// The derivatives of W at u, Newton's step, and σ after it.
+  void evaluate(StripLanes& s, std::size_t lanes) const {
+    if (single_) {
+      const StripPart& p = parts_[curved_[0]].part;
+      begin_single(s, p.x, lanes);
+      respond(s, p, lanes, {}, {});
+      return end_single(s, p.x, linear_, lanes);
+    }
+    begin_strip(s, linear_, lanes);
+    for (std::size_t k = 0; k < curved_count_; ++k) {
+      const StripPart& p = parts_[curved_[k]].part;
+      strip_invariant(s, p.x, lanes);
+      respond(s, p, lanes, {}, {});
+      add_to_strip(s, p.x, lanes);
+    }
+    end_strip(s, lanes);
+  }
+
+  void respond(StripLanes& s, const StripPart& p, std::size_t lanes, std::span<double> value_dp,
+               std::span<double> first_dp) const {
+    const bool curved = !p.description->linear;
+    p.part->respond(
+        strip_.parameters,
+        {{s.x.data(), lanes}, {}, {s.first.data(), lanes}, {s.second.data(), curved ? lanes : 0}, value_dp, first_dp});
+    if (!curved) std::fill_n(s.second.data(), lanes, 0.0);
+  }
+
+  /// u after a step. From the second step on the inverse of W_y is interpolated through both passes with its slopes
+  /// (Hermite): of order 2.7 instead of 2 (Traub 1964, §5.2). Rows without a step stay where they are.
+  template <bool again>
+  static void move(StripLanes& s, std::size_t lanes) {
+    TUNICA_LANES
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const double u = s.u[i], r = s.by_y[i], step = s.step[i], by_r = u / s.by_yy[i];
+      double kept = step < -0.6 ? -0.6 : step;
+      kept = kept > 1.5 ? 1.5 : kept;
+      double change = std::abs(step) < sound ? u * kept : 0;
+      if constexpr (again) {
+        const double h = 1 / (r - s.r_before[i]), secant = (u - s.u_before[i]) * h, q = r * h;
+        const double more = (by_r - secant) * r * q - (by_r - 2 * secant + s.u_per_r[i]) * q * q * s.r_before[i];
+        change += std::abs(more) < 0.5 * std::abs(change) ? more : 0;
+      }
+      s.u_before[i] = u;
+      s.r_before[i] = r;
+      s.u_per_r[i] = by_r;
+      s.u[i] = u + change;
+    }
+  }
+
+  /// Passes until every step is below the tolerance; that last step is left to be applied to first order. Rows that do
+  /// not get there are followed from rest, one by one.
+  template <bool nodes = false>
+  Status newton(StripLanes& s, std::span<const double> stretch, double tolerance, int pass = 0) const {
+    const std::size_t lanes = padded(stretch.size());
+    for (; pass < free_strip::newton_iterations; ++pass) {
+      evaluate(s, lanes);
+#ifdef STATS
+      { double w = 0; for (std::size_t i = 0; i < lanes; ++i) w = std::max(w, std::abs(s.step[i])); printf("%s %d %g\n", lanes == 8 ? "node" : "row", pass, w); }
+#endif
+      if (!detail::any_not_below(s.step.data(), lanes, tolerance)) return {};
+      if (detail::any_not_below(s.step.data(), lanes, sound) && none_moves(s, lanes, tolerance)) break;
+      if constexpr (nodes) keep_bend(s);
+      if (pass == 0)
+        move<false>(s, lanes);
+      else
+        move<true>(s, lanes);
+    }
+    return follow_from_rest(s, stretch, tolerance);
+  }
+
+  /// Whether all that is open has no step at all.
+  static bool none_moves(const StripLanes& s, std::size_t lanes, double tolerance) {
+    return std::none_of(s.step.data(), s.step.data() + lanes,
+                        [tolerance](double step) { return std::abs(step) < sound && !(std::abs(step) < tolerance); });
+  }
+
+  [[gnu::noinline]] Status follow_from_rest(StripLanes& s, std::span<const double> stretch, double tolerance) const {
+    free_strip::Scratch scratch;
+    const free_strip::Pull pull{model_, strip_.parameters, strip_.loaded};
+    for (std::size_t i = 0; i < stretch.size(); ++i) {
+      if (std::abs(s.step[i]) < tolerance) continue;
+      if (free_strip::solve_from_rest(pull, stretch[i], scratch, s.u[i])) continue;
+      if (strip_.lost != nullptr) *strip_.lost = i;
+      return Status::failed(free_strip::lost_row);
+    }
+    const std::size_t m = stretch.size(), lanes = padded(m);
+    for (std::size_t i = m; i < lanes; ++i) s.u[i] = s.u[m - 1];
+    evaluate(s, lanes);
+    return {};
+  }
+
+  /// Derivatives of σ and y at the equilibrium, by parameters and along the path:
+  ///     dy/dp = −W_yp/W_yy,  dσ/dp = W_lp + W_ly dy/dp,   dy/dl = −W_ly/W_yy,  dσ/dl = W_ll + W_ly dy/dl
+  void differentiate(StripLanes& s, std::size_t first, std::size_t m) {
+    const std::size_t lanes = padded(m);
+    ByParameters by_p;
+    const double k1 = linear_[0], k2 = linear_[1], k3 = linear_[2];
+    TUNICA_LANES
+    for (std::size_t i = 0; i < lanes; ++i) {
+      s.u[i] *= 1 + s.step[i];
+      const double c1 = s.c1[i], u = s.u[i], c3 = 1 / (c1 * u);
+      s.c3[i] = c3;
+      s.by_yy[i] = k2 * u + k3 * c3;
+      s.by_ly[i] = k3 * c3;
+      s.by_ll[i] = k1 * c1 + k3 * c3;
+    }
+    for (std::size_t k = 0; k < count_; ++k) add_derivatives(s, parts_[k].part, lanes, by_p);
+    const std::size_t n = strip_.stretch.size(), parameters = strip_.stress_dp.size() / n;
+    for (std::size_t i = 0; i < lanes; ++i) s.x[i] = 1 / s.by_yy[i];
+    for (std::size_t i = 0; !strip_.stress_by_l.empty() && i < m; ++i)
+      strip_.stress_by_l[first + i] = 4 * (s.by_ll[i] - s.by_ly[i] * s.by_ly[i] * s.x[i]);
+    for (std::size_t i = 0; !strip_.lateral_by_l.empty() && i < m; ++i)
+      strip_.lateral_by_l[first + i] = -2 * s.by_ly[i] * s.x[i];
+    for (std::size_t i = 0; i < lanes; ++i) s.first[i] = s.by_ly[i] * s.x[i];
+    for (std::size_t j = 0; j < parameters; ++j) {
+      double* const stress = strip_.stress_dp.data() + j * n + first;
+      double* const lateral = strip_.lateral_dp.empty() ? nullptr : strip_.lateral_dp.data() + j * n + first;
+      if (!by_p.written[j]) {
+        std::fill_n(stress, m, 0.0);
+        if (lateral != nullptr) std::fill_n(lateral, m, 0.0);
+        continue;
+      }
+      const double* const y = by_p.y[j].data();
+      const double* const l = by_p.l[j].data();
+      TUNICA_LANES
+      for (std::size_t i = 0; i < m; ++i) stress[i] = 2 * (l[i] - s.first[i] * y[i]);
+      TUNICA_LANES
+      for (std::size_t i = 0; lateral != nullptr && i < m; ++i) lateral[i] = -y[i] * s.x[i];
+    }
+  }
+
+  /// W_yp and ½ W_lp, for the parameters that some part depends on.
+  struct ByParameters {
+    ByParameters() {}
+    alignas(64) std::array<StripLanes::Row, max_model_parameters> y, l;
+    std::bitset<max_model_parameters> written;
+  };
+
+  void add_derivatives(StripLanes& s, const StripPart& p, std::size_t lanes, ByParameters& by_p) const {
+    const bool parameters = !strip_.stress_dp.empty();
+    if (p.is_linear && !parameters) return;
+    const auto& responses = p.description->response_parameters;
+    const auto& moving = p.description->invariant_parameters;
+    std::array<Invariant, max_part_parameters> derivatives;
+    alignas(64) std::array<double, chunk * max_part_parameters> first_dp;
+    if (parameters && !moving.empty()) {
+      Invariant again;
+      p.part->invariant(strip_.parameters, again, {derivatives.data(), moving.size()});
+    }
+    strip_invariant(s, p.x, lanes);
+    respond(s, p, lanes, {}, {first_dp.data(), parameters ? responses.size() * lanes : 0});
+    const double a1 = p.x.a1, a2 = p.x.a2, a3 = p.x.a3, i2 = p.x.i2;
+    alignas(64) std::array<double, chunk> x_y, x_l;
+    TUNICA_LANES
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
+      const double p12 = i2 * (c1 * u), p23 = i2 * (u * c3), p31 = i2 * (c3 * c1);
+      const double x1 = a1 * c1, x2 = a2 * u, x3 = a3 * c3;
+      s.first[i] *= s.weight[i];
+      s.second[i] *= s.weight[i];
+      x_y[i] = x2 - x3 + (p12 - p31);
+      x_l[i] = x1 - x3 + (p12 - p23);
+    }
+    if (!p.is_linear) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
+        const double p12 = i2 * (c1 * u), p23 = i2 * (u * c3), p31 = i2 * (c3 * c1), x3 = a3 * c3;
+        s.by_yy[i] += s.second[i] * x_y[i] * x_y[i] + s.first[i] * (a2 * u + x3 + p12 + p31);
+        s.by_ly[i] += s.second[i] * x_y[i] * x_l[i] + s.first[i] * (x3 + p12);
+        s.by_ll[i] += s.second[i] * x_l[i] * x_l[i] + s.first[i] * (a1 * c1 + x3 + p12 + p23);
+      }
+    }
+    if (!parameters) return;
+    for (std::size_t j = 0; j < responses.size(); ++j) {
+      const double* const dp = first_dp.data() + j * lanes;
+      double* const y = by_p.y[responses[j]].data();
+      double* const l = by_p.l[responses[j]].data();
+      if (!by_p.written[responses[j]]) {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < lanes; ++i) {
+          const double by = s.weight[i] * dp[i];
+          y[i] = by * x_y[i];
+          l[i] = by * x_l[i];
+        }
+      } else {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < lanes; ++i) {
+          const double by = s.weight[i] * dp[i];
+          y[i] += by * x_y[i];
+          l[i] += by * x_l[i];
+        }
+      }
+      by_p.written.set(responses[j]);
+    }
+    for (std::size_t j = 0; j < moving.size(); ++j) {
+      const Structure d = structure_derivative(p.invariant, derivatives[j], p.direction, 1);
+      const bool axial = strip_.loaded == 1;
+      const double d1 = axial ? d.zz : d.tt, d2 = axial ? d.tt : d.zz, d3 = d.rr, di2 = d.i2, d0 = d.offset;
+      double* const y = by_p.y[moving[j]].data();
+      double* const l = by_p.l[moving[j]].data();
+      if (!by_p.written[moving[j]]) {
+        std::fill_n(y, lanes, 0.0);
+        std::fill_n(l, lanes, 0.0);
+      }
+      TUNICA_LANES
+      for (std::size_t i = 0; i < lanes; ++i) {
+        const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
+        const double q12 = di2 * (c1 * u), q23 = di2 * (u * c3), q31 = di2 * (c3 * c1);
+        const double x1 = d1 * c1, x2 = d2 * u, x3 = d3 * c3,
+                     bent = s.second[i] * (x1 + x2 + x3 + (q12 + q23 + q31) + d0);
+        y[i] += bent * x_y[i] + s.first[i] * (x2 - x3 + (q12 - q31));
+        l[i] += bent * x_l[i] + s.first[i] * (x1 - x3 + (q12 - q23));
+      }
+      by_p.written.set(moving[j]);
+    }
+  }
+
+  static constexpr double sound = 1e10;  ///< a larger step is none
+
+  const Model& model_;
+  const StripPath& strip_;
+  std::size_t width_, count_ = 0, curved_count_ = 0;
+  bool single_ = false;             ///< one curved part without I2 or a switch by the fibres' own stretch
+  std::array<double, 3> linear_{};  ///< w ψ' a of the linear parts, summed up
+  std::array<std::size_t, max_parts> curved_;
+  std::array<Slot, max_parts> parts_;
+};
+
+}  // namespace tunica::hyperelastic
