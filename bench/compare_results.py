@@ -15,7 +15,7 @@ import re
 import sys
 
 # Clock times, and the program that ran: versions, hashes of its input files, threads.
-LEFT_OUT = {"seconds", "seconds_spent", "date", "tunica", "plugins", "compiler", "libraries", "input_sha256", "data",
+LEFT_OUT = {"seconds", "seconds_spent", "date", "tunica", "plugins", "compiler", "libraries", "vector_level", "input_sha256", "data",
             "threads"}
 CODE = re.compile(r"[\w./#+-]+")  # a string without blanks is a code, a name or a unit
 

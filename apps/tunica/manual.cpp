@@ -117,6 +117,10 @@ constexpr const char* environment = R"(.SH ENVIRONMENT
 .B TUNICA_PLUGIN_PATH
 Folders with plugins, colons between them; searched after those of \fB\-\-plugin\-path\fR and before the installed ones.
 .TP
+.B TUNICA_VECTOR_LEVEL
+Instructions that models are evaluated with: \fIbaseline\fR, \fIavx2\fR or \fIavx512\fR. Without it the highest that the machine has.
+Results of different levels differ in the last digits.
+.TP
 .B NO_COLOR
 Any value takes the colours off. There are none either where the output is no terminal.
 .TP

@@ -14,6 +14,7 @@
 #include <tbb/version.h>
 
 #include "data/sha256.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::comparison {
@@ -34,6 +35,7 @@ Provenance provenance_of(const experiment::Experiment& experiment, std::vector<s
   result.plugins = std::move(plugins);
   result.data = std::move(data);
   result.compiler = "g++ " __VERSION__;
+  result.vector_level = detail::name(detail::vector_level());
   result.libraries = {
       {"boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
       {"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},

@@ -93,6 +93,15 @@ std::uint64_t axis_key(const Call& call) {
   return key.value();
 }
 
+/// By the parameters and by what is wanted, as above.
+std::uint64_t strip_key(const Call& call) {
+  const auto& strip = *static_cast<const StripPath*>(call.input);
+  CallKey key(call.plugin, call.what);
+  key.add(strip.parameters);
+  for (const auto& wanted : {strip.stress, strip.lateral, strip.stress_dp, strip.stress_by_l}) key.add(wanted.empty());
+  return key.value();
+}
+
 }  // namespace
 
 GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
@@ -132,6 +141,32 @@ Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse&
   const CallScope scope(call);
   return verdict(contained(plugin_, [&] { return model_->evaluate_axes(points, response); }), outputs, plugin_,
                  points.count);
+}
+
+bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
+  const Call call{plugin_.c_str(), "solve_strip", strip_key, &strip};
+  if (stricken_)
+    if (std::string reason = refusal_of_evaluation(plugin_, strip_key(call)); !reason.empty()) {
+      status = Status::failed(std::move(reason));
+      return true;
+    }
+  const Named outputs[] = {{"stress of the strip", strip.stress},
+                           {"lateral stretch", strip.lateral},
+                           {"derivatives by parameters", strip.stress_dp},
+                           {"lateral derivatives by parameters", strip.lateral_dp},
+                           {"derivatives by the stretch", strip.stress_by_l},
+                           {"lateral derivatives by the stretch", strip.lateral_by_l}};
+  mark(outputs, strip.stretch.size());
+  bool offered = false;
+  const CallScope scope(call);
+  status = contained(plugin_, [&] {
+    Status outcome;
+    offered = model_->solve_strip(strip, outcome);
+    return outcome;
+  });
+  offered |= !status.ok();
+  if (offered) status = verdict(std::move(status), outputs, plugin_, strip.stretch.size());
+  return offered;
 }
 
 const Model& GuardedModel::elastic() const {

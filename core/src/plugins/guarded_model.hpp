@@ -17,6 +17,7 @@ class GuardedModel final : public Model {
 
   [[nodiscard]] const ModelDescription& describe() const override { return *description_; }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override;
+  bool solve_strip(const StripPath& strip, Status& status) const override;
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override;
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return model_->parts(); }
   [[nodiscard]] const Model& elastic() const override;

@@ -66,7 +66,8 @@ void give_signal_stack() {
 using Seconds = std::chrono::duration<double>;
 
 bool is_of_model(const Call& call) {
-  return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes");
+  return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes") ||
+         call.what == std::string_view("solve_strip");
 }
 
 /// A thread as the watch sees it.

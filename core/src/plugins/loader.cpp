@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "plugins/refusals.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::plugins {
@@ -114,7 +115,22 @@ SearchPath default_search_path(const std::vector<fs::path>& from_command_line) {
   return path;
 }
 
+void check_vector_level() {
+  const char* const stated = std::getenv(detail::vector_level_variable);
+  if (stated == nullptr) return;
+  const auto level = detail::vector_level_called(stated);
+  if (!level)
+    throw InputError(fmt::format("{} is '{}'; expected baseline, avx2 or avx512, or leave the variable out",
+                                 detail::vector_level_variable, stated));
+  const auto best = detail::best_vector_level();
+  if (*level > best)
+    throw InputError(fmt::format("{} is '{}', which this machine or this build does not offer; the highest is '{}'. "
+                                 "Lower it, or leave the variable out",
+                                 detail::vector_level_variable, stated, detail::name(best)));
+}
+
 LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
+  check_vector_level();
   LoadReport report;
   std::set<fs::path> searched;
   for (const fs::path& folder : path.folders) {

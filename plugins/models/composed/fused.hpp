@@ -67,6 +67,9 @@ class FusedModel final : public Model {
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& out) const override {
     return evaluated_.evaluate_axes(points, out);
   }
+  bool solve_strip(const StripPath& strip, Status& status) const override {
+    return evaluated_.solve_strip(strip, status);
+  }
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return whole_.parts(); }
 
  private:

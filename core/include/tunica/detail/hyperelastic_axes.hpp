@@ -16,6 +16,7 @@ void sweep3(double* y, std::size_t n, const double* __restrict x, const std::arr
   double* __restrict y1 = y + n;
   double* __restrict y2 = y + 2 * n;
   const auto [a0, a1, a2] = a;
+  TUNICA_LANES
   for (std::size_t i = 0; i < m; ++i) {
     y0[i] = (assign ? 0 : y0[i]) + a0 * x[i];
     y1[i] = (assign ? 0 : y1[i]) + a1 * x[i];
@@ -31,6 +32,7 @@ void sweep_both(double* y, std::size_t n, const double* __restrict x, const std:
   double* __restrict y2 = y + 2 * n;
   const auto [a0, a1, a2] = a;
   const auto [b0, b1, b2] = b;
+  TUNICA_LANES
   for (std::size_t i = 0; i < m; ++i) {
     y0[i] = (assign ? 0 : y0[i]) + (a0 * x[i] + b0 * z[i]);
     y1[i] = (assign ? 0 : y1[i]) + (a1 * x[i] + b1 * z[i]);
@@ -92,6 +94,7 @@ class AxesPart {
     const double* __restrict ct = c_[0];
     const double* __restrict cz = c_[1];
     const double* __restrict cr = c_[2];
+    TUNICA_LANES
     for (std::size_t i = 0; i < m_; ++i) x[i] = a_.tt * ct[i] + a_.zz * cz[i] + a_.rr * cr[i] + a_.offset;
     if (a_.i2 != 0)
       for (std::size_t i = 0; i < m_; ++i) x[i] += a_.i2 * second_invariant(i);
@@ -168,7 +171,7 @@ class AxesPart {
     }
     for (std::size_t j = 0; j < description_.response_parameters.size(); ++j) {
       double* const to = row(description_.response_parameters[j]);
-      for (std::size_t i = 0; i < m_; ++i) to[i] += weight_ * batch_.value_dp[j * m_ + i];
+      for (std::size_t i = 0; i < m_; ++i) to[i] += weight_ * batch_.value_dp[j * batch_.lanes + i];
     }
   }
 
@@ -203,7 +206,7 @@ class AxesPart {
   void add_response_parameters(Written& written) const {
     for (std::size_t j = 0; j < description_.response_parameters.size(); ++j) {
       const std::size_t parameter = description_.response_parameters[j];
-      const double* const first_p = batch_.first_dp.data() + j * m_;
+      const double* const first_p = batch_.first_dp.data() + j * batch_.lanes;
       double* const g = dp(parameter);
       const bool onto = written.parameters[parameter];
       if (a_.i2 == 0) {
@@ -247,7 +250,7 @@ class AxesPart {
 };
 
 /// Model::evaluate_axes for a sum of parts.
-inline void evaluate_axes(const Parts& parts, const AxisPoints& points, const AxisResponse& out) {
+inline void evaluate_axes_on_this_level(const Parts& parts, const AxisPoints& points, const AxisResponse& out) {
   const std::size_t n = points.count;
   const auto clear = [n](std::span<double> rows, std::size_t first, std::size_t count, std::size_t begin,
                          std::size_t m) {
@@ -264,6 +267,11 @@ inline void evaluate_axes(const Parts& parts, const AxisPoints& points, const Ax
     for (std::size_t j = 0; !out.energy_dp.empty() && j < points.parameters.size(); ++j)
       if (!written.energy_parameters[j]) clear(out.energy_dp, j, 1, begin, m);
   }
+}
+
+/// The same on the vector level of this library.
+inline void evaluate_axes(const Parts& parts, const AxisPoints& points, const AxisResponse& out) {
+  detail::vectorised([&parts, &points, &out] { evaluate_axes_on_this_level(parts, points, out); });
 }
 
 }  // namespace tunica::hyperelastic

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/energy_part.hpp"
 
 /// The kernels of Hyperelastic: chunks of points on the stack, plain loops that the compiler vectorises.
@@ -58,39 +59,55 @@ inline Structure structure_derivative(const Invariant& v, const Invariant& d, co
           0.5 * (d.across * m.s + v.across * m.c * turn)};
 }
 
-/// Response of one part at up to `chunk` points; what is not wanted stays untouched.
+/// n, filled up to whole vectors of the level.
+inline std::size_t filled(std::size_t n) {
+  const std::size_t width = detail::lanes_of(detail::vector_level());
+  return (n + width - 1) / width * width;
+}
+
+/// Response of one part at up to `chunk` points; what is not wanted stays untouched. Rows are filled up to whole vectors
+/// with the last point, so that no value depends on its place; row j of the derivatives by parameters begins at
+/// [j·lanes].
 struct PartBatch {
   using Row = std::array<double, chunk>;
   PartBatch() {}  // leaves the arrays as they are: every entry that is read was written before
-  alignas(16) Row x, value, first, second;
-  alignas(16) std::array<double, chunk * max_part_parameters> value_dp, first_dp;
+  alignas(64) Row x, value, first, second;
+  alignas(64) std::array<double, chunk * max_part_parameters> value_dp, first_dp;
+  std::size_t lanes = 0;  ///< set by respond()
 
   struct Wants {
     bool value = false, first = false, second = false, parameters = false, value_parameters = false;
   };
 
+  /// At the first m entries of x.
   void respond(const EnergyPart& part, std::span<const double> parameters, std::size_t m, Wants wants) {
     const std::size_t np = part.describe().response_parameters.size();
-    part.respond(parameters, {{x.data(), m},
-                              {value.data(), wants.value ? m : 0},
-                              {first.data(), wants.first ? m : 0},
-                              {second.data(), wants.second ? m : 0},
-                              {value_dp.data(), wants.value_parameters ? np * m : 0},
-                              {first_dp.data(), wants.parameters ? np * m : 0}});
+    lanes = filled(m);
+    for (std::size_t i = m; i < lanes; ++i) x[i] = x[m - 1];
+    part.respond(parameters, {{x.data(), lanes},
+                              {value.data(), wants.value ? lanes : 0},
+                              {first.data(), wants.first ? lanes : 0},
+                              {second.data(), wants.second ? lanes : 0},
+                              {value_dp.data(), wants.value_parameters ? np * lanes : 0},
+                              {first_dp.data(), wants.parameters ? np * lanes : 0}});
   }
 
   /// Silences the points where the part does not contribute. `edge` − tolerance counts as active: at rest rounding
-  /// must not decide, and the right limit counts.
-  void switch_off_below(std::span<const double> argument, double edge, std::size_t np, std::size_t m, Wants wants) {
+  /// must not decide, and the right limit counts. So does NaN.
+  void switch_off_below(const Row& argument, double edge, std::size_t np, std::size_t m, Wants wants) {
     constexpr double tolerance = 1e-12;
-    for (std::size_t i = 0; i < m; ++i) {
-      if (argument[i] >= edge - tolerance) continue;
-      if (wants.value) value[i] = 0;
-      if (wants.first) first[i] = 0;
-      if (wants.second) second[i] = 0;
-      for (std::size_t j = 0; wants.parameters && j < np; ++j) first_dp[j * m + i] = 0;
-      for (std::size_t j = 0; wants.value_parameters && j < np; ++j) value_dp[j * m + i] = 0;
-    }
+    const auto silence = [&argument, edge, m](double* row) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < m; ++i) {
+        const double kept = row[i];
+        row[i] = argument[i] < edge - tolerance ? 0 : kept;
+      }
+    };
+    if (wants.value) silence(value.data());
+    if (wants.first) silence(first.data());
+    if (wants.second) silence(second.data());
+    for (std::size_t j = 0; wants.parameters && j < np; ++j) silence(first_dp.data() + j * lanes);
+    for (std::size_t j = 0; wants.value_parameters && j < np; ++j) silence(value_dp.data() + j * lanes);
   }
 };
 

@@ -82,13 +82,13 @@ inline void add_part_tensor(const EnergyPart& part, double side, const MaterialP
     }
     for (std::size_t j = 0; wants.parameters && j < response_count; ++j) {
       double* const row = out.stress_dp.data() + 6 * description.response_parameters[j] * n + begin + i;
-      for (std::size_t c = 0; c < 6; ++c) row[c * n] += 2 * batch.first_dp[j * m + i] * slope[c];
+      for (std::size_t c = 0; c < 6; ++c) row[c * n] += 2 * batch.first_dp[j * batch.lanes + i] * slope[c];
     }
   }
 }
 
 /// Model::evaluate for a sum of parts; a mirrored part is two families.
-inline void evaluate_tensor(const Parts& parts, const MaterialPoints& points, const MaterialResponse& out) {
+inline void evaluate_tensor_on_this_level(const Parts& parts, const MaterialPoints& points, const MaterialResponse& out) {
   for (const auto& span : {out.energy, out.stress, out.tangent, out.stress_dp})
     std::fill(span.begin(), span.end(), 0.0);
   for (std::size_t begin = 0; begin < points.count; begin += chunk) {
@@ -98,6 +98,11 @@ inline void evaluate_tensor(const Parts& parts, const MaterialPoints& points, co
       if (part->describe().mirrored) add_part_tensor(*part, -1, points, out, begin, m);
     }
   }
+}
+
+/// The same on the vector level of this library.
+inline void evaluate_tensor(const Parts& parts, const MaterialPoints& points, const MaterialResponse& out) {
+  detail::vectorised([&parts, &points, &out] { evaluate_tensor_on_this_level(parts, points, out); });
 }
 
 }  // namespace tunica::hyperelastic

@@ -19,6 +19,7 @@
   extern "C" [[gnu::simd("notinbranch"), gnu::const, gnu::nothrow]] double tunica_##function##_(double) __asm__(#function)
 TUNICA_VECTOR_FUNCTION_(exp);
 TUNICA_VECTOR_FUNCTION_(log);
+extern "C" [[gnu::simd("notinbranch"), gnu::const, gnu::nothrow]] double tunica_pow_(double, double) __asm__("pow");
 #undef TUNICA_VECTOR_FUNCTION_
 #define TUNICA_LIBMVEC_ 1
 #endif
@@ -39,6 +40,15 @@ inline double lane_log(double x) {
   return tunica_log_(x);
 #else
   return std::log(x);
+#endif
+}
+
+/// x^y, in loops over lanes.
+inline double lane_pow(double x, double y) {
+#ifdef TUNICA_LIBMVEC_
+  return tunica_pow_(x, y);
+#else
+  return std::pow(x, y);
 #endif
 }
 

@@ -11,33 +11,54 @@
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/energy_part.hpp"
 #include "tunica/models/jet_functions.hpp"
+#include "tunica/models/taylor.hpp"
 
 namespace tunica {
 
 /// Evaluates ψ, ψ', ψ'' and their parameter derivatives from the formula of a law (laws.hpp) alone.
 ///
-/// Sizes and meaning are those of ResponseBatch. Method: a jet over (x; p) inside a jet over x. It costs several times
-/// as much as derivatives by hand. Thread-safe; allocates nothing.
+/// Sizes and meaning are those of ResponseBatch. Method: the formula on Taylor numbers (taylor.hpp), over lanes; without
+/// parameters unless their derivatives are wanted. Thread-safe; allocates nothing.
 template <class Law>
 void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
-  constexpr int n = static_cast<int>(Law::parameter_count);
-  using Inner = ceres::Jet<double, 1 + n>;  // derivative by x, then by each p
-  using Outer = ceres::Jet<Inner, 1>;       // second derivative by x
-  std::array<Outer, Law::parameter_count> parameters;
-  for (int j = 0; j < n; ++j) parameters[j] = Outer(Inner(p[j], 1 + j));
+  static constexpr std::size_t n = Law::parameter_count, chunk = 64;
   const std::size_t count = b.x.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    Outer x(Inner(b.x[i], 0));
-    x.v[0] = Inner(1.0);
-    const Outer w = Law::template energy<Outer>(x, std::span<const Outer>(parameters));
-    if (!b.value.empty()) b.value[i] = w.a.a;
-    if (!b.first.empty()) b.first[i] = w.a.v[0];
-    if (!b.second.empty()) b.second[i] = w.v[0].v[0];
-    for (int j = 0; j < n; ++j) {
-      if (!b.value_dp.empty()) b.value_dp[j * count + i] = w.a.v[1 + j];
-      if (!b.first_dp.empty()) b.first_dp[j * count + i] = w.v[0].v[1 + j];
+  const auto evaluate = [p, &b, count](auto zero, bool by_parameters) {
+    using T = decltype(zero);
+    std::array<T, n> parameters;
+    for (std::size_t j = 0; j < n; ++j) parameters[j] = T::parameter(p[j], j);
+    alignas(64) std::array<double, chunk> value, first, second;
+    alignas(64) std::array<std::array<double, chunk>, std::tuple_size_v<decltype(zero.p)> + 1> value_dp, first_dp;
+    for (std::size_t begin = 0; begin < count; begin += chunk) {
+      const std::size_t m = std::min(chunk, count - begin);
+      const double* const x = b.x.data() + begin;
+      TUNICA_LANES
+      for (std::size_t i = 0; i < m; ++i) {
+        const T w = Law::template energy<T>(T::argument(x[i]), std::span<const T>(parameters));
+        value[i] = w.value;
+        first[i] = w.x;
+        second[i] = w.xx;
+        for (std::size_t j = 0; j < w.p.size(); ++j) {
+          value_dp[j][i] = w.p[j];
+          first_dp[j][i] = w.xp[j];
+        }
+      }
+      const auto take = [begin, m](std::span<double> out, const std::array<double, chunk>& from, std::size_t row) {
+        if (!out.empty()) std::copy_n(from.data(), m, out.data() + row + begin);
+      };
+      take(b.value, value, 0);
+      take(b.first, first, 0);
+      take(b.second, second, 0);
+      for (std::size_t j = 0; by_parameters && j < n; ++j) {
+        take(b.value_dp, value_dp[j], j * count);
+        take(b.first_dp, first_dp[j], j * count);
+      }
     }
-  }
+  };
+  if (b.value_dp.empty() && b.first_dp.empty())
+    evaluate(Taylor<0>(), false);
+  else
+    evaluate(Taylor<n>(), true);
 }
 
 /// The law's own respond() if it has one, else the formula.

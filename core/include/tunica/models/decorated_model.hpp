@@ -42,6 +42,14 @@ class DecoratedModel final : public Hyperelastic {
     return base_->evaluate_axes({points.count, points.c, points.parameters.first(count_)}, response);
   }
 
+  bool solve_strip(const StripPath& strip, Status& status) const override {
+    if (strip.parameters[count_] != null_ || !strip.stress_dp.empty() || !base_->describe().principal_axes)
+      return Hyperelastic::solve_strip(strip, status);
+    StripPath bare = strip;
+    bare.parameters = strip.parameters.first(count_);
+    return base_->solve_strip(bare, status);
+  }
+
  private:
   static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
     ModelDescription description = base.describe();
