@@ -128,9 +128,9 @@ class Model {
                                [[maybe_unused]] const AxisResponse& response) const {
     return Status::failed("this model has no principal-axes path");
   }
-  /// Optional: finds the equilibrium of a free strip itself, which spares a call for every step on the way. False if the
-  /// model leaves that to the test; a decorated model must not pass it on, unless it changes nothing. `status` is the
-  /// outcome; a row without equilibrium is a failure, and *strip.lost tells which.
+  /// Optional: finds the equilibrium of a free strip itself, which spares a call for every step on the way. False if
+  /// the model leaves that to the test; a decorated model must not pass it on, unless it changes nothing. `status` is
+  /// the outcome; a row without equilibrium is a failure, and *strip.lost tells which.
   virtual bool solve_strip([[maybe_unused]] const StripPath& strip, [[maybe_unused]] Status& status) const {
     return false;
   }

@@ -10,7 +10,8 @@ namespace tunica {
 /// A question to a model: n rows of an incompressible strip that is pulled along a material axis, its lateral faces
 /// free. What is wanted is the equilibrium of every row.
 ///
-/// With l = ln λ1 and y = ln λ2² the squared stretches are c = (e^{2l}, e^y, e^{−2l−y}), and W(l, y) has the derivatives
+/// With l = ln λ1 and y = ln λ2² the squared stretches are c = (e^{2l}, e^y, e^{−2l−y}), and W(l, y) has the
+/// derivatives
 ///
 ///     σ = ∂W/∂l,   0 = ∂W/∂y                                     (physics: docs/theory.md, uniaxial strip)
 ///

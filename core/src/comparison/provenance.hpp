@@ -15,7 +15,7 @@ struct Provenance {
   std::string version;               ///< of tunica
   std::vector<std::string> plugins;  ///< "gho 0.1.0", those in use, sorted
   std::string compiler;
-  std::string vector_level;  ///< "baseline", "avx2" or "avx512"
+  std::string vector_level;                                    ///< "baseline", "avx2" or "avx512"
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   std::uint64_t seed = 0;
   std::string input_sha256;       ///< of input.json as it was written

@@ -124,9 +124,10 @@ void check_vector_level() {
                                  detail::vector_level_variable, stated));
   const auto best = detail::best_vector_level();
   if (*level > best)
-    throw InputError(fmt::format("{} is '{}', which this machine or this build does not offer; the highest is '{}'. "
-                                 "Lower it, or leave the variable out",
-                                 detail::vector_level_variable, stated, detail::name(best)));
+    throw InputError(
+        fmt::format("{} is '{}', which this machine or this build does not offer; the highest is '{}'. "
+                    "Lower it, or leave the variable out",
+                    detail::vector_level_variable, stated, detail::name(best)));
 }
 
 LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {

@@ -22,7 +22,8 @@ bool AxesPath::solved_by_model(const Strip& strip, const TestInput& input, const
                                std::span<const double> stretch, Status& status) const {
   const std::size_t n = stretch.size(), parameters = input.model_parameters.size();
   std::size_t lost = StripPath::none;
-  StripPath path{.loaded = strip.loaded, .parameters = input.model_parameters, .stretch = stretch, .stress = output.values};
+  StripPath path{
+      .loaded = strip.loaded, .parameters = input.model_parameters, .stretch = stretch, .stress = output.values};
   if (!output.jacobian.empty()) path.stress_dp = output.jacobian.first(parameters * n);
   path.lost = &lost;
   if (input.abscissae.empty()) start_.set(path);

@@ -65,8 +65,8 @@ inline std::size_t filled(std::size_t n) {
   return (n + width - 1) / width * width;
 }
 
-/// Response of one part at up to `chunk` points; what is not wanted stays untouched. Rows are filled up to whole vectors
-/// with the last point, so that no value depends on its place; row j of the derivatives by parameters begins at
+/// Response of one part at up to `chunk` points; what is not wanted stays untouched. Rows are filled up to whole
+/// vectors with the last point, so that no value depends on its place; row j of the derivatives by parameters begins at
 /// [j·lanes].
 struct PartBatch {
   using Row = std::array<double, chunk>;

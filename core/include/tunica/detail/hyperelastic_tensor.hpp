@@ -88,7 +88,8 @@ inline void add_part_tensor(const EnergyPart& part, double side, const MaterialP
 }
 
 /// Model::evaluate for a sum of parts; a mirrored part is two families.
-inline void evaluate_tensor_on_this_level(const Parts& parts, const MaterialPoints& points, const MaterialResponse& out) {
+inline void evaluate_tensor_on_this_level(const Parts& parts, const MaterialPoints& points,
+                                          const MaterialResponse& out) {
   for (const auto& span : {out.energy, out.stress, out.tangent, out.stress_dp})
     std::fill(span.begin(), span.end(), 0.0);
   for (std::size_t begin = 0; begin < points.count; begin += chunk) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bitset>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
 
 #include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_derivatives.hpp"
 #include "tunica/detail/strip_lanes.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/detail/vector_math.hpp"
@@ -140,8 +140,8 @@ class StripSolver {
     }
   }
 
-  /// Two guesses a node, evaluated at once: a pass over few lanes takes as long as one over twice as many. The inverse of
-  /// W_y is interpolated through both.
+  /// Two guesses a node, evaluated at once: a pass over few lanes takes as long as one over twice as many. The inverse
+  /// of W_y is interpolated through both.
   Status solve_nodes(StripLanes& s) const {
     for (std::size_t k = 0; k < node_count; ++k) {
       s.c1[k] = s.c1[node_count + k] = strip_.nodes[k] * strip_.nodes[k];
@@ -279,9 +279,6 @@ class StripSolver {
     const std::size_t lanes = padded(stretch.size());
     for (; pass < free_strip::newton_iterations; ++pass) {
       evaluate(s, lanes);
-#ifdef STATS
-      { double w = 0; for (std::size_t i = 0; i < lanes; ++i) w = std::max(w, std::abs(s.step[i])); printf("%s %d %g\n", lanes == 8 ? "node" : "row", pass, w); }
-#endif
       if (!detail::any_not_below(s.step.data(), lanes, tolerance)) return {};
       if (detail::any_not_below(s.step.data(), lanes, sound) && none_moves(s, lanes, tolerance)) break;
       if constexpr (nodes) keep_bend(s);
@@ -318,7 +315,7 @@ class StripSolver {
   ///     dy/dp = −W_yp/W_yy,  dσ/dp = W_lp + W_ly dy/dp,   dy/dl = −W_ly/W_yy,  dσ/dl = W_ll + W_ly dy/dl
   void differentiate(StripLanes& s, std::size_t first, std::size_t m) {
     const std::size_t lanes = padded(m);
-    ByParameters by_p;
+    StripByParameters by_p;
     const double k1 = linear_[0], k2 = linear_[1], k3 = linear_[2];
     TUNICA_LANES
     for (std::size_t i = 0; i < lanes; ++i) {
@@ -354,14 +351,7 @@ class StripSolver {
     }
   }
 
-  /// W_yp and ½ W_lp, for the parameters that some part depends on.
-  struct ByParameters {
-    ByParameters() {}
-    alignas(64) std::array<StripLanes::Row, max_model_parameters> y, l;
-    std::bitset<max_model_parameters> written;
-  };
-
-  void add_derivatives(StripLanes& s, const StripPart& p, std::size_t lanes, ByParameters& by_p) const {
+  void add_derivatives(StripLanes& s, const StripPart& p, std::size_t lanes, StripByParameters& by_p) const {
     const bool parameters = !strip_.stress_dp.empty();
     if (p.is_linear && !parameters) return;
     const auto& responses = p.description->response_parameters;
@@ -374,70 +364,14 @@ class StripSolver {
     }
     strip_invariant(s, p.x, lanes);
     respond(s, p, lanes, {}, {first_dp.data(), parameters ? responses.size() * lanes : 0});
-    const double a1 = p.x.a1, a2 = p.x.a2, a3 = p.x.a3, i2 = p.x.i2;
-    alignas(64) std::array<double, chunk> x_y, x_l;
-    TUNICA_LANES
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
-      const double p12 = i2 * (c1 * u), p23 = i2 * (u * c3), p31 = i2 * (c3 * c1);
-      const double x1 = a1 * c1, x2 = a2 * u, x3 = a3 * c3;
-      s.first[i] *= s.weight[i];
-      s.second[i] *= s.weight[i];
-      x_y[i] = x2 - x3 + (p12 - p31);
-      x_l[i] = x1 - x3 + (p12 - p23);
-    }
-    if (!p.is_linear) {
-      TUNICA_LANES
-      for (std::size_t i = 0; i < lanes; ++i) {
-        const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
-        const double p12 = i2 * (c1 * u), p23 = i2 * (u * c3), p31 = i2 * (c3 * c1), x3 = a3 * c3;
-        s.by_yy[i] += s.second[i] * x_y[i] * x_y[i] + s.first[i] * (a2 * u + x3 + p12 + p31);
-        s.by_ly[i] += s.second[i] * x_y[i] * x_l[i] + s.first[i] * (x3 + p12);
-        s.by_ll[i] += s.second[i] * x_l[i] * x_l[i] + s.first[i] * (a1 * c1 + x3 + p12 + p23);
-      }
-    }
+    StripSlopes slopes;
+    begin_derivatives(s, p, slopes, lanes);
     if (!parameters) return;
-    for (std::size_t j = 0; j < responses.size(); ++j) {
-      const double* const dp = first_dp.data() + j * lanes;
-      double* const y = by_p.y[responses[j]].data();
-      double* const l = by_p.l[responses[j]].data();
-      if (!by_p.written[responses[j]]) {
-        TUNICA_LANES
-        for (std::size_t i = 0; i < lanes; ++i) {
-          const double by = s.weight[i] * dp[i];
-          y[i] = by * x_y[i];
-          l[i] = by * x_l[i];
-        }
-      } else {
-        TUNICA_LANES
-        for (std::size_t i = 0; i < lanes; ++i) {
-          const double by = s.weight[i] * dp[i];
-          y[i] += by * x_y[i];
-          l[i] += by * x_l[i];
-        }
-      }
-      by_p.written.set(responses[j]);
-    }
+    for (std::size_t j = 0; j < responses.size(); ++j)
+      by_p.add_response(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
     for (std::size_t j = 0; j < moving.size(); ++j) {
       const Structure d = structure_derivative(p.invariant, derivatives[j], p.direction, 1);
-      const bool axial = strip_.loaded == 1;
-      const double d1 = axial ? d.zz : d.tt, d2 = axial ? d.tt : d.zz, d3 = d.rr, di2 = d.i2, d0 = d.offset;
-      double* const y = by_p.y[moving[j]].data();
-      double* const l = by_p.l[moving[j]].data();
-      if (!by_p.written[moving[j]]) {
-        std::fill_n(y, lanes, 0.0);
-        std::fill_n(l, lanes, 0.0);
-      }
-      TUNICA_LANES
-      for (std::size_t i = 0; i < lanes; ++i) {
-        const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
-        const double q12 = di2 * (c1 * u), q23 = di2 * (u * c3), q31 = di2 * (c3 * c1);
-        const double x1 = d1 * c1, x2 = d2 * u, x3 = d3 * c3,
-                     bent = s.second[i] * (x1 + x2 + x3 + (q12 + q23 + q31) + d0);
-        y[i] += bent * x_y[i] + s.first[i] * (x2 - x3 + (q12 - q31));
-        l[i] += bent * x_l[i] + s.first[i] * (x1 - x3 + (q12 - q23));
-      }
-      by_p.written.set(moving[j]);
+      by_p.add_invariant(s, slopes, d, strip_.loaded == 1, moving[j], lanes);
     }
   }
 

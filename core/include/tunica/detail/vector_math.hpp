@@ -16,7 +16,8 @@
 /// value, where std::exp takes 5 to 10. Elsewhere, and with other compilers, they are those of libm.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
 #define TUNICA_VECTOR_FUNCTION_(function) \
-  extern "C" [[gnu::simd("notinbranch"), gnu::const, gnu::nothrow]] double tunica_##function##_(double) __asm__(#function)
+  extern "C"                              \
+      [[gnu::simd("notinbranch"), gnu::const, gnu::nothrow]] double tunica_##function##_(double) __asm__(#function)
 TUNICA_VECTOR_FUNCTION_(exp);
 TUNICA_VECTOR_FUNCTION_(log);
 extern "C" [[gnu::simd("notinbranch"), gnu::const, gnu::nothrow]] double tunica_pow_(double, double) __asm__("pow");

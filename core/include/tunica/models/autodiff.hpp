@@ -8,17 +8,17 @@
 
 #include <ceres/jet.h>
 
+#include "tunica/detail/taylor.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/energy_part.hpp"
 #include "tunica/models/jet_functions.hpp"
-#include "tunica/models/taylor.hpp"
 
 namespace tunica {
 
 /// Evaluates ψ, ψ', ψ'' and their parameter derivatives from the formula of a law (laws.hpp) alone.
 ///
-/// Sizes and meaning are those of ResponseBatch. Method: the formula on Taylor numbers (taylor.hpp), over lanes; without
-/// parameters unless their derivatives are wanted. Thread-safe; allocates nothing.
+/// Sizes and meaning are those of ResponseBatch. Method: the formula on Taylor numbers (tunica/detail/taylor.hpp), over
+/// lanes; without parameters unless their derivatives are wanted. Thread-safe; allocates nothing.
 template <class Law>
 void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   static constexpr std::size_t n = Law::parameter_count, chunk = 64;

@@ -21,9 +21,9 @@ namespace tunica {
 /// call what tunica::functions (jet_functions.hpp) lists.
 template <std::size_t n>
 struct Taylor {
-  double value = 0,  ///< w
-      x = 0,         ///< ∂w/∂x
-      xx = 0;        ///< ∂²w/∂x²
+  double value = 0,                 ///< w
+      x = 0,                        ///< ∂w/∂x
+      xx = 0;                       ///< ∂²w/∂x²
   std::array<double, n> p{}, xp{};  ///< ∂w/∂p_j, ∂²w/∂x∂p_j
 
   Taylor() = default;
