@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "temporary_folder.hpp"
+#include "tunica/detail/vector_level.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::plugins {
 namespace {
@@ -32,6 +34,38 @@ TEST(Loader, ReportsNameVersionAndFileOfAPlugin) {
   EXPECT_EQ(loaded.version, "1.2.3");
   EXPECT_EQ(loaded.file, file);
   EXPECT_EQ(catalogue.optimizers().at("does_nothing").plugin, "good 1.2.3");
+}
+
+/// A variable of the environment while it lives.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+  ~Environment() { unsetenv(name_); }
+
+ private:
+  const char* name_;
+};
+
+std::string complaint_about_level(const std::string& level) {
+  const Environment variable("TUNICA_VECTOR_LEVEL", level);
+  Catalogue catalogue;
+  try {
+    static_cast<void>(load_all({}, catalogue));
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+TEST(Loader, RefusesVectorLevelsThatAreNone) {
+  EXPECT_EQ(complaint_about_level("avx9"),
+            "TUNICA_VECTOR_LEVEL is 'avx9'; expected baseline, avx2 or avx512, or leave the variable out");
+  EXPECT_EQ(complaint_about_level("baseline"), "");
+  EXPECT_EQ(complaint_about_level(detail::name(detail::best_vector_level())), "");
+  if (detail::best_vector_level() == detail::VectorLevel::avx512) return;
+  EXPECT_THAT(
+      complaint_about_level("avx512"),
+      HasSubstr("TUNICA_VECTOR_LEVEL is 'avx512', which this machine or this build does not offer; the highest is"));
 }
 
 TEST(Loader, LoadsTheGoodOnesOfAFolderFullOfBadOnes) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bitset>
 
@@ -50,39 +49,49 @@ struct StripByParameters {
   /// Adds w ∂ψ'/∂p to a parameter of the response.
   [[gnu::always_inline]] void add_response(const StripLanes& s, const StripSlopes& slopes, const double* first_dp,
                                            std::size_t parameter, std::size_t lanes) {
-    begin(parameter, lanes);
-    double* const by_y = y[parameter].data();
-    double* const by_l = l[parameter].data();
-    TUNICA_LANES
-    for (std::size_t i = 0; i < lanes; ++i) {
+    add(parameter, lanes, [&](std::size_t i, double& by_y, double& by_l) {
       const double by = s.weight[i] * first_dp[i];
-      by_y[i] += by * slopes.y[i];
-      by_l[i] += by * slopes.l[i];
-    }
+      by_y = by * slopes.y[i];
+      by_l = by * slopes.l[i];
+    });
   }
   /// Adds what a parameter of the invariant does; `d` holds the derivatives of the invariant's coefficients.
   [[gnu::always_inline]] void add_invariant(const StripLanes& s, const StripSlopes& slopes, const Structure& d,
                                             bool axial, std::size_t parameter, std::size_t lanes) {
-    begin(parameter, lanes);
-    double* const by_y = y[parameter].data();
-    double* const by_l = l[parameter].data();
     const double d1 = axial ? d.zz : d.tt, d2 = axial ? d.tt : d.zz, d3 = d.rr, i2 = d.i2, offset = d.offset;
-    TUNICA_LANES
-    for (std::size_t i = 0; i < lanes; ++i) {
+    add(parameter, lanes, [&](std::size_t i, double& by_y, double& by_l) {
       const double c1 = s.c1[i], u = s.u[i], c3 = s.c3[i];
       const double p12 = i2 * (c1 * u), p23 = i2 * (u * c3), p31 = i2 * (c3 * c1);
       const double x1 = d1 * c1, x2 = d2 * u, x3 = d3 * c3;
       const double bent = s.second[i] * (x1 + x2 + x3 + (p12 + p23 + p31) + offset);
-      by_y[i] += bent * slopes.y[i] + s.first[i] * (x2 - x3 + (p12 - p31));
-      by_l[i] += bent * slopes.l[i] + s.first[i] * (x1 - x3 + (p12 - p23));
-    }
+      by_y = bent * slopes.y[i] + s.first[i] * (x2 - x3 + (p12 - p31));
+      by_l = bent * slopes.l[i] + s.first[i] * (x1 - x3 + (p12 - p23));
+    });
   }
 
  private:
-  void begin(std::size_t parameter, std::size_t lanes) {
-    if (written[parameter]) return;
-    std::fill_n(y[parameter].data(), lanes, 0.0);
-    std::fill_n(l[parameter].data(), lanes, 0.0);
+  /// The first part that has something to say sets the rows of a parameter.
+  template <class Row>
+  [[gnu::always_inline]] void add(std::size_t parameter, std::size_t lanes, const Row& row) {
+    double* const by_y = y[parameter].data();
+    double* const by_l = l[parameter].data();
+    if (written[parameter]) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < lanes; ++i) {
+        double own_y, own_l;
+        row(i, own_y, own_l);
+        by_y[i] += own_y;
+        by_l[i] += own_l;
+      }
+      return;
+    }
+    TUNICA_LANES
+    for (std::size_t i = 0; i < lanes; ++i) {
+      double own_y, own_l;
+      row(i, own_y, own_l);
+      by_y[i] = own_y;
+      by_l[i] = own_l;
+    }
     written.set(parameter);
   }
 };

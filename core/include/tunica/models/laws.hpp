@@ -78,12 +78,24 @@ struct Exponential {
     double* const first = b.first.data();
     double* const second = b.second.data();
     double* const by_k1 = b.first_dp.data();
-    if (!b.first.empty() && !b.second.empty() && b.first_dp.empty()) {
-      TUNICA_LANES
-      for (std::size_t i = 0; i < n; ++i) {
-        const double y = k2 * x[i] * x[i], e = k1 * detail::lane_exp(y);
-        first[i] = x[i] * e;
-        second[i] = (1 + 2 * y) * e;
+    double* const by_k2 = by_k1 + n;
+    if (!b.first.empty() && !b.second.empty()) {  // one exponential for all
+      if (b.first_dp.empty()) {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < n; ++i) {
+          const double y = k2 * x[i] * x[i], e = k1 * detail::lane_exp(y);
+          first[i] = x[i] * e;
+          second[i] = (1 + 2 * y) * e;
+        }
+      } else {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < n; ++i) {
+          const double x2 = x[i] * x[i], y = k2 * x2, e = detail::lane_exp(y), slope = x[i] * e;
+          first[i] = k1 * slope;
+          second[i] = (1 + 2 * y) * (k1 * e);
+          by_k1[i] = slope;
+          by_k2[i] = k1 * x2 * slope;
+        }
       }
       return;
     }
@@ -99,7 +111,6 @@ struct Exponential {
       }
     }
     if (!b.first_dp.empty()) {
-      double* const by_k2 = by_k1 + n;
       TUNICA_LANES
       for (std::size_t i = 0; i < n; ++i) {
         const double x2 = x[i] * x[i];
