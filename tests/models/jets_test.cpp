@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tunica/detail/taylor.hpp"
 #include "tunica/models/jet_functions.hpp"
 
 namespace tunica {
@@ -32,10 +33,11 @@ struct Formula {
   std::function<double(double, double)> plain;
   std::function<Jet(Jet, Jet)> single;
   std::function<Nested(Nested, Nested)> twofold;
+  std::function<Taylor<1>(Taylor<1>, Taylor<1>)> taylor;
 };
 template <class F>
 Formula formula(std::string name, F f) {
-  return {std::move(name), f, f, f};
+  return {std::move(name), f, f, f, f};
 }
 #define FORMULA(expression)                               \
   formula(#expression, [](const auto& x, const auto& y) { \
@@ -127,6 +129,36 @@ TEST(NestedJets, HaveTheSlopesOfJetsTwice) {
       EXPECT_EQ(found.v[i].v[2], 0) << f.name;
     }
   }
+}
+
+/// With x as the argument of a law, and y as its parameter.
+TEST(TaylorNumbers, HaveTheDerivativesOfJetsTwice) {
+  for (const Formula& f : formulas()) {
+    const Nested jets = f.twofold(nested(x0, 0), nested(y0, 1));
+    const Taylor<1> found = f.taylor(Taylor<1>::argument(x0), Taylor<1>::parameter(y0, 0));
+    expect_near(found.value, jets.a.a, 1e-14, f.name);
+    expect_near(found.x, jets.a.v[0], 1e-13, f.name + " by x");
+    expect_near(found.xx, jets.v[0].v[0], 1e-13, f.name + " by x twice");
+    expect_near(found.p[0], jets.a.v[1], 1e-13, f.name + " by y");
+    expect_near(found.xp[0], jets.v[0].v[1], 1e-13, f.name + " by x and y");
+  }
+}
+
+/// x^2 by x at x = 0 and below, where logarithms are not.
+TEST(TaylorNumbers, HavePowersOfZeroAndOfNegativeNumbers) {
+  for (const double exponent : {0., 1., 2., 3., 4.5}) {
+    const auto zero = Taylor<1>::argument(0), power = pow(zero, exponent), same = pow(zero, Taylor<1>(exponent));
+    for (const auto& found : {power, same}) {
+      EXPECT_EQ(found.value, exponent == 0 ? 1 : 0);
+      EXPECT_EQ(found.x, exponent == 1 ? 1 : 0);
+      EXPECT_EQ(found.xx, exponent == 2 ? 2 : 0);
+    }
+  }
+  const auto by_exponent = pow(Taylor<1>::argument(0), Taylor<1>::parameter(2.5, 0));
+  EXPECT_EQ(by_exponent.p[0], 0);
+  EXPECT_EQ(by_exponent.xp[0], 0);
+  EXPECT_EQ(pow(Taylor<1>::argument(-1.5), 2).xx, 2);
+  EXPECT_EQ(pow(Taylor<1>::argument(-1.5), 3).x, 6.75);
 }
 
 template <class J>
