@@ -35,7 +35,7 @@ bool AxesPath::solved_by_model(const Strip& strip, const TestInput& input, const
   }
   if (all_finite(output.values) && all_finite(path.stress_dp)) return true;
   std::size_t bad = 0;
-  while (bad + 1 < n && std::isfinite(output.values[bad])) ++bad;
+  while (!output.values.empty() && bad + 1 < n && std::isfinite(output.values[bad])) ++bad;
   status = Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, bad));
   return true;
 }
