@@ -67,7 +67,7 @@ TEST(FiniteElementMessages, WithoutParameterDerivativesThereIsNoJacobian) {
     Bare() : TensorsOnly(make_model("neo_hooke")) { description_.parameter_derivatives = false; }
   } const bare;
   const auto tube = make_fe_tube({1}, {.elements = "[2, 2]"});
-  std::vector<double> jacobian(3 * 2);
+  std::vector<double> jacobian(6 * 2);
   EXPECT_SAYS(tube->predict({bare, std::vector<double>{60}, bare_fe}, {{}, jacobian, {}, {}}).reason(),
               "the model has no parameter derivatives");
   EXPECT_TRUE(inflate(*tube, bare, {60}, bare_fe).status.ok());
@@ -77,9 +77,9 @@ TEST(FiniteElementMessages, ImperfectionsThatLeaveNoTubeAreAStatus) {
   Options thick = option("inner_radius", 1.);
   thick.set("thickness", 3.);
   const auto tube = make_fe_tube({1}, {.elements = "[2, 2]", .options = thick});
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0.4}), "the thickness error leaves no wall or no lumen");
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1}), "the thickness error leaves no wall or no lumen");
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {-1.3, 0}), "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, 0.4, 1}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, -1, 1}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1.3, 0, 0, 1}), "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
 }
 
 TEST(FiniteElementMessages, TheTimeLimitIsKept) {

@@ -50,11 +50,13 @@ Status Solver::begin(const Material& material) {
   held_ = mesh_.ends == Ends::clamped;
   hold_at(rest_);
   // At rest S = 2 ∂W/∂C − q C⁻¹ has to vanish: q is 2 ∂W/∂C_rr there, all three being equal up to a pressure.
-  const std::vector<double> unit{1, 1, 1, 0};
-  std::vector<double> first(Material::firsts);
-  if (Status status = material.evaluate(1, unit, first, {}, {}); !status.ok()) return status;
+  const std::size_t lanes = mesh_.radial;
+  std::vector<double> unit(4 * lanes, 1), first(Material::firsts * lanes);
+  std::fill_n(unit.begin() + static_cast<std::ptrdiff_t>(3 * lanes), lanes, 0.0);
+  if (Status status = material.evaluate(lanes, unit, first, {}, {}); !status.ok()) return status;
   const std::size_t modes = rest_.q.size() / (mesh_.radial * mesh_.axial);
-  for (std::size_t i = 0; i < rest_.q.size(); ++i) rest_.q[i] = i % modes == 0 ? 2 * first[2] : 0;
+  for (std::size_t i = 0; i < rest_.q.size(); ++i)
+    rest_.q[i] = i % modes == 0 ? 2 * first[2 * lanes + i / modes % lanes] : 0;
   system_.gamma = 1;
   if (Status status = assembly_->assemble(material, rest_, 0, true, system_); !status.ok()) return status;
   system_.gamma = incompressibility * system_.stiffness;
@@ -113,6 +115,7 @@ bool Solver::factorise() {
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
   const double gamma = system_.gamma;
   Status status = iterate(load, state, full_steps);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {  // what a wild state left behind
     system_.gamma = gamma;
     has_factor_ = false;
@@ -198,6 +201,7 @@ double Solver::volume(const State& state) const {
 Status Solver::solve_volume(double volume, Load& load, State& state) {
   const double gamma = system_.gamma;
   const Status status = iterate_volume(volume, load, state);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {
     system_.gamma = gamma;
     has_factor_ = false;
@@ -277,6 +281,7 @@ void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std
     weights[k].dilation.resize(dq_.size());
     if (!is_force) a[positions[k]] = 1;
     for (std::size_t i = 0; i < (is_force ? middle_.size() : 0); ++i) a[i] = -own * middle_[i];
+    if (is_force) a[outer()] -= own * middle_pressed_;
     const auto add_own = [&](double sign) {
       for (std::size_t i = 0; i < (is_force ? mesh_.across() : 0); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
     };
@@ -301,6 +306,14 @@ void Solver::note_force() {
   middle_force_ = 0;
   for (std::size_t j = 0; j < middle_.size(); ++j) middle_force_ += middle_[j] * dx_[j];
   for (std::size_t i = 0; i < mesh_.across(); ++i) middle_force_ -= system_.right[2 * mesh_.node(i, 0) + 1];
+}
+
+void Solver::note_support(const State& state) {
+  const Support& support = assembly_->support;
+  middle_support_ = middle_pressed_ = 0;
+  if (support.slope == 0) return;
+  middle_support_ = support.slope * Support::stored(outer_radius(state), support.free.front());
+  middle_pressed_ = support.slope * Support::pressed(outer_radius(state), support.free.front());
 }
 
 }  // namespace tunica::fe
