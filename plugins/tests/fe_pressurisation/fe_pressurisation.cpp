@@ -7,6 +7,7 @@
 
 #include "agreement.hpp"
 #include "fields.hpp"
+#include "history.hpp"
 #include "totals.hpp"
 #include "tunica/plugin.hpp"
 
@@ -45,8 +46,8 @@ class FePressurisation final : public Test {
     if (tube_.layered) plan_.interfaces = tube_.interfaces;
     if (plan_.radial < plan_.interfaces.size() + 1)
       throw InputError(fmt::format(
-          "fe_pressurisation: {} elements across the wall are too few for its {} layers, each of which takes one at "
-          "least; raise the first number of \"elements\"",
+          "fe_pressurisation: \"elements\" begins with {}, and the wall has {} layers, each of which takes one element "
+          "across at least; raise that number",
           plan_.radial, plan_.interfaces.size() + 1));
     plan_.inner = tube_.inner_radius;
     plan_.outer = tube_.outer_radius;
@@ -60,7 +61,6 @@ class FePressurisation final : public Test {
     plan_.tolerance = given.number("tolerance");
     plan_.time_limit = given.number("time_limit");
     plan_.steps = static_cast<std::size_t>(given.integer("max_steps"));
-    if (!tube_.time.empty()) tube_.time.clear();  // elastic: time does not matter
     description_.parameters = thick_wall::own_parameters(tube_.layered);
     description_.nulls = thick_wall::own_nulls(tube_.layered);
     description_.diagnostics = {"inner_radius_stretch"};
@@ -70,6 +70,7 @@ class FePressurisation final : public Test {
     for (std::size_t k = 0; k < tube_.columns.size(); ++k)
       rows_.abscissae.push_back({tube_.names[k], tube_.columns[k]});
     rows_.channels = setup.rows.channels;
+    rows_.time = tube_.time;
     for (const Channel channel : tube_.channels) {
       const bool outer = channel == Channel::outer_diameter || channel == Channel::outer_diameter_stretch;
       wanted_[channel == Channel::axial_force ? 2 : outer ? 0 : 1] = true;
@@ -81,11 +82,11 @@ class FePressurisation final : public Test {
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
+    bool history = false;
     for (const Model* model : models_of(input)) {
-      if (model->describe().history_size > 0)
-        return Status::failed(
-            "fe_pressurisation: a model with history cannot be simulated here yet; "
-            "thick_wall_pressurisation can, for sliding ends");
+      history |= model->describe().history_size > 0;
+      if (derivatives && model->describe().history_size > 0)
+        return Status::failed("fe_pressurisation: no exact Jacobian along the path of a model with history");
       if (derivatives && !model->describe().parameter_derivatives)
         return Status::failed("fe_pressurisation: the model has no parameter derivatives");
     }
@@ -96,8 +97,10 @@ class FePressurisation final : public Test {
     if (!simulation || simulation->tube() != at.plan) simulation = std::make_unique<Simulation>(at.plan);
     thread_local std::vector<Sample> samples;
     std::size_t failed_at = 0;
+    const double support = at.wall->tether / at.plan.outer;
     const Status status =
-        simulation->run(*at.material, at.loads, derivatives ? wanted_ : Wanted{}, samples, failed_at, at.wall->tether / at.plan.outer);
+        history ? follow_history(*simulation, *at.material, at.loads, tube_.time, support, samples, failed_at)
+                : simulation->run(*at.material, at.loads, derivatives ? wanted_ : Wanted{}, samples, failed_at, support);
     if (!status.ok())
       return Status::failed(fmt::format(
           "fe_pressurisation: {} is not reached: {}",
@@ -113,6 +116,11 @@ class FePressurisation final : public Test {
 
   Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
                    std::vector<Snapshot>& found) const override {
+    for (const Model* model : models_of(input))
+      if (model->describe().history_size > 0)
+        return Status::failed(
+            "fe_pressurisation shows the wall of a material without history only; take the model without its "
+            "mechanisms of history");
     Setting at;
     if (Status status = prepare(input, false, at); !status.ok()) return status;
     return snapshots_of(at.plan, input, *at.material, at.loads, rows, found);
@@ -149,12 +157,22 @@ class FePressurisation final : public Test {
     for (std::size_t i = 0; i < pressure.size(); ++i) at.loads.push_back({stretch[i], pressure[i]});
     thread_local thick_wall::Sections sections;
     constexpr std::size_t rule = 5;  // 20 points in each piece
-    const thick_wall::Layers layers(input);
+    const std::vector<const Model*> models = models_of(input);
+    // The sector closes at equilibrium, where only the elastic part of a model plays a part.
+    std::vector<const Model*> elastic;
+    std::vector<double> elastic_parameters;
+    std::size_t first = 0;
+    for (const Model* model : models) {
+      elastic.push_back(&model->elastic());
+      const auto own = input.model_parameters.subspan(first, elastic.back()->describe().parameters.size());
+      elastic_parameters.insert(elastic_parameters.end(), own.begin(), own.end());
+      first += model->describe().parameters.size();
+    }
+    const thick_wall::Layers layers({*elastic.front(), elastic_parameters, input.test_parameters, {}, elastic});
     if (Status status = thick_wall::close_sector(tube_, layers, thick_wall::rules()[rule], sections, wall,
                                                  parameters ? &at.sector : nullptr);
         !status.ok())
       return status;
-    const std::vector<const Model*> models = models_of(input);
     const Mesh mesh = mesh_of(at.plan);
     at.closing.emplace(mesh, wall, tube_.layered ? 1 : input.test_parameters[thick_wall::layer_ratio], parameters);
     at.material.emplace(models, input.model_parameters, mesh.columns,

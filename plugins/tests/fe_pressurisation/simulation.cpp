@@ -19,6 +19,13 @@ Mesh mesh_of(const Tube& tube) {
           tube.length / 2, tube.grading, tube.ends,  tube.interfaces};
 }
 
+Support support_of(const Solver& solver, const State& free, double slope) {
+  const Mesh& mesh = solver.mesh();
+  Support support{slope, {}};
+  for (std::size_t k = 0; k < mesh.planes(); ++k) support.free.push_back(free.x[2 * mesh.node(mesh.across() - 1, k)]);
+  return support;
+}
+
 Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
 
 Status Simulation::take(Path& path, const Load& load, Sample& sample) {
@@ -46,9 +53,7 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     if (at->first < 1) order.push_back(at->first);
 
   failed_at = lines[order.front()].front();
-  using std::chrono::duration, std::chrono::steady_clock;
-  solver_.set_deadline(steady_clock::now() +
-                       std::chrono::duration_cast<steady_clock::duration>(duration<double>(tube_.time_limit)));
+  solver_.set_time_limit(tube_.time_limit);
   solver_.assembly().support = {};
   if (Status status = solver_.begin(material); !status.ok()) return status;
   sensitivity_.begin(material, wanted_);
@@ -68,9 +73,7 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     trunk = path.mark();
     Support free;
     if (support != 0 || derivatives_) {
-      free.slope = support;
-      for (std::size_t k = 0; k < solver_.mesh().planes(); ++k)
-        free.free.push_back(path.state().x[solver_.outer() + 2 * solver_.mesh().node(0, k)]);
+      free = support_of(solver_, path.state(), support);
       if (support != 0 && derivatives_)
         if (Status status = sensitivity_.support(path); !status.ok()) return status;
     }

@@ -24,6 +24,8 @@ struct Tube {
 };
 
 Mesh mesh_of(const Tube& tube);
+/// The support that begins to act at a state without pressure.
+Support support_of(const Solver& solver, const State& free, double slope);
 
 /// Observed at each load, with derivatives on demand. Loads of the same axial stretch lie on a line of pressures, which
 /// is solved at Chebyshev points where that takes fewer solutions than rows, their number doubled until the curve is as

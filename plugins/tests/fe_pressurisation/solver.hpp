@@ -44,6 +44,10 @@ class Solver {
   void hold_at(const State& state);
   /// A deadline after which solutions fail.
   void set_deadline(std::chrono::steady_clock::time_point deadline) { deadline_ = deadline; }
+  void set_time_limit(double seconds) {
+    using std::chrono::duration, std::chrono::steady_clock;
+    set_deadline(steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(duration<double>(seconds)));
+  }
 
   /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
   Status solve(const Load& load, State& state, bool full_steps);

@@ -10,10 +10,9 @@ void total_derivatives(const Sample& sample, const thick_wall::Wall& wall, const
     if (factor == 0) return;
     for (std::size_t c = 0; c < 3; ++c) totals[total][c] += factor * sample.by[direction][c];
   };
-  const bool opened = wall.K != 1;  // without an opening angle the sector is the unloaded tube, whatever its material
   for (std::size_t j = 0; j < model_parameters; ++j) {
     add(j, 1, j);
-    if (opened) add(j, sector.by_parameter[j], model_parameters + along_sector);
+    add(j, sector.by_parameter[j], model_parameters + along_sector);
   }
   const std::size_t by = model_parameters;
   add(by + thick_wall::opening_angle, wall.closing_by_angle, by + along_closing);
@@ -23,10 +22,10 @@ void total_derivatives(const Sample& sample, const thick_wall::Wall& wall, const
   // Sampled is by the relative change of the true thickness: V' = 2 Ri (Ro − Ri).
   const double relative = wall.area_by_error / (2 * wall.Ri * (wall.Ro - wall.Ri));
   add(by + thick_wall::thickness_error, relative, by + along_thickness);
-  if (opened) add(by + thick_wall::thickness_error, sector.by_area * wall.area_by_error, by + along_sector);
+  add(by + thick_wall::thickness_error, sector.by_area * wall.area_by_error, by + along_sector);
   if (wall.layered) return;
   add(by + thick_wall::layer_ratio, 1, by + along_ratio);
-  if (opened) add(by + thick_wall::layer_ratio, sector.by_ratio, by + along_sector);
+  add(by + thick_wall::layer_ratio, sector.by_ratio, by + along_sector);
 }
 
 }  // namespace tunica::fe
