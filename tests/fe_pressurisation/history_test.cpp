@@ -44,7 +44,8 @@ class FiniteElementHistory : public ::testing::TestWithParam<Remembering> {
 TEST_P(FiniteElementHistory, ConvergesToTheLongTube) {
   const std::vector<double> own[] = {bare_tube, {70, 0.01, 6, 0.03, 1}};
   for (const auto& imperfections : own)
-    for (const auto& stretches : {std::vector<double>{}, std::vector<double>{1.1, 1.1, 1.2, 1.2, 1.2, 1.15, 1.1, 1.2}}) {
+    for (const auto& stretches :
+         {std::vector<double>{}, std::vector<double>{1.1, 1.1, 1.2, 1.2, 1.2, 1.15, 1.1, 1.2}}) {
       const Inflation exact = inflate(*make_tube(pressure, {.axial_stretches = stretches, .time = time}), *model,
                                       GetParam().parameters, imperfections);
       const Inflation found = inflate(*make_fe_tube(pressure, {.element = "quadrilateral_9",
@@ -56,8 +57,7 @@ TEST_P(FiniteElementHistory, ConvergesToTheLongTube) {
       ASSERT_TRUE(exact.status.ok() && found.status.ok()) << exact.status.reason() << found.status.reason();
       double worst[2] = {0, 0};
       for (std::size_t i = 0; i < 2 * pressure.size(); ++i)
-        worst[i / pressure.size()] =
-            std::max(worst[i / pressure.size()], std::abs(found.values[i] - exact.values[i]));
+        worst[i / pressure.size()] = std::max(worst[i / pressure.size()], std::abs(found.values[i] - exact.values[i]));
       std::printf("  %s: %.1e in D/D0, %.1e mN\n", GetParam().name, worst[0], worst[1]);
       EXPECT_LT(worst[0], 2e-5);
       EXPECT_LT(worst[1], 0.1);
@@ -73,9 +73,9 @@ TEST_P(FiniteElementHistory, FollowsTheClampedTube) {
   const Inflation free = inflate(*make_fe_tube(pressure, {.elements = "[6, 10]", .ends = "sliding", .time = time}),
                                  *model, GetParam().parameters);
   for (std::size_t i = 0; i < pressure.size(); ++i) EXPECT_LT(once.values[i], free.values[i] + 1e-3) << i;
-  const Inflation late = inflate(
-      *make_fe_tube(pressure, {.elements = "[6, 10]", .ends = "clamped_after_stretch", .time = time}), *model,
-      GetParam().parameters);
+  const Inflation late =
+      inflate(*make_fe_tube(pressure, {.elements = "[6, 10]", .ends = "clamped_after_stretch", .time = time}), *model,
+              GetParam().parameters);
   ASSERT_TRUE(late.status.ok()) << late.status.reason();
 }
 
@@ -129,8 +129,8 @@ TEST(FiniteElementHistory, LayersRememberOnTheirOwn) {
   FeSetup setup{.element = "quadrilateral_9", .elements = "[12, 2]", .ends = "sliding", .layers = {0.8, wall - 0.8}};
   setup.time = clock;
   const Inflation found = inflate(*make_fe_tube(loads, setup), *elastic, joined(set_s, memory), own, mixed);
-  const Inflation exact =
-      inflate(*make_tube(loads, {.time = clock, .layers = {0.8, wall - 0.8}}), *elastic, joined(set_s, memory), own, mixed);
+  const Inflation exact = inflate(*make_tube(loads, {.time = clock, .layers = {0.8, wall - 0.8}}), *elastic,
+                                  joined(set_s, memory), own, mixed);
   ASSERT_TRUE(found.status.ok() && exact.status.ok()) << found.status.reason() << exact.status.reason();
   for (std::size_t i = 0; i < loads.size(); ++i) EXPECT_NEAR(found.values[i], exact.values[i], 2e-5) << i;
   EXPECT_GT(found.values[2], found.values[1] + 1e-4);

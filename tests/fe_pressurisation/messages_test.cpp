@@ -69,9 +69,10 @@ TEST(FiniteElementMessages, WithHistoryThereIsNoJacobianAndNoPicture) {
 }
 
 TEST(FiniteElementMessages, WallsThatAreNoneAreRefused) {
-  EXPECT_SAYS(refusal({1}, {.elements = "[2, 4]", .layers = {0.5, 0.5, 1.06}}),
-              "fe_pressurisation: \"elements\" begins with 2, and the wall has 3 layers, each of which takes one element "
-              "across at least; raise that number");
+  EXPECT_SAYS(
+      refusal({1}, {.elements = "[2, 4]", .layers = {0.5, 0.5, 1.06}}),
+      "fe_pressurisation: \"elements\" begins with 2, and the wall has 3 layers, each of which takes one element "
+      "across at least; raise that number");
   EXPECT_EQ(refusal({1}, {.elements = "[3, 4]", .layers = {0.5, 0.5, 1.06}}), "");
   EXPECT_SAYS(refusal({1}, {.layers = {0.97, 2}}),
               "fe_pressurisation: the layers are 2.97 mm thick together, and the wall is 2.06 mm");
@@ -100,7 +101,8 @@ TEST(FiniteElementMessages, ImperfectionsThatLeaveNoTubeAreAStatus) {
   const auto tube = make_fe_tube({1}, {.elements = "[2, 2]", .options = thick});
   EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, 0.4, 1}), "the thickness error leaves no wall or no lumen");
   EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, -1, 1}), "the thickness error leaves no wall or no lumen");
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1.3, 0, 0, 1}), "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1.3, 0, 0, 1}),
+              "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
 }
 
 TEST(FiniteElementMessages, TheTimeLimitIsKept) {

@@ -51,7 +51,8 @@ const std::vector<Wall> walls{{"opened", {120, 0, 0, 0, 1}, {}},
                               {"supported, two layers, opened", {70, 0.02, 15, 0.05}, {0.9, wall - 0.9}}};
 
 struct Materials {
-  std::unique_ptr<Model> fibres = smooth_fibres(), matrix = make_model("neo_hooke"), rubber = make_model("mooney_rivlin");
+  std::unique_ptr<Model> fibres = smooth_fibres(), matrix = make_model("neo_hooke"),
+                         rubber = make_model("mooney_rivlin");
   std::vector<const Model*> layers;
   std::vector<double> parameters;
 
@@ -91,7 +92,8 @@ TEST_P(FiniteElementWall, ConvergesToTheLongTube) {
   const Materials of(GetParam());
   const std::vector<double> pressure{0, 7, 16};
   const Inflation exact = inflate(
-      *make_tube(pressure, {.channels = all_channels, .options = interface_of(GetParam()), .layers = GetParam().thicknesses}),
+      *make_tube(pressure,
+                 {.channels = all_channels, .options = interface_of(GetParam()), .layers = GetParam().thicknesses}),
       of.first(), of.parameters, GetParam().own, of.layers);
   ASSERT_TRUE(exact.status.ok()) << exact.status.reason();
   const auto error = [&](const char* element, std::size_t across) {
@@ -110,8 +112,7 @@ TEST_P(FiniteElementWall, ConvergesToTheLongTube) {
     const auto coarse = error(element, 12), fine = error(element, 24);
     const bool nine = std::string(element) == "quadrilateral_9";
     std::printf("  %s, %s: D/D0 %.1e, %.1e (order %.1f), force %.1e, %.1e (order %.1f)\n", GetParam().name, element,
-                coarse[0], fine[0], std::log2(coarse[0] / fine[0]), coarse[1], fine[1],
-                std::log2(coarse[1] / fine[1]));
+                coarse[0], fine[0], std::log2(coarse[0] / fine[0]), coarse[1], fine[1], std::log2(coarse[1] / fine[1]));
     EXPECT_LT(fine[0], GetParam().cut ? 1e-4 : nine ? 1e-9 : 4e-5);
     EXPECT_LT(fine[1], GetParam().cut ? 2e-4 : nine ? 2e-9 : 4e-5);
     if (GetParam().cut) continue;
@@ -144,7 +145,7 @@ TEST_P(FiniteElementWall, HasExactDerivatives) {
           tube->predict({of.first(), of.parameters, GetParam().own, {}, of.layers}, {{}, jacobian, {}, {}});
       ASSERT_TRUE(status.ok()) << status.reason();
       for (std::size_t j = 0; j < all; ++j) {
-        const double h = j < models ? 1e-3 * std::abs(of.parameters[j])
+        const double h = j < models                    ? 1e-3 * std::abs(of.parameters[j])
                          : j - models == opening_angle ? 0.05
                          : j - models == tethering     ? 0.01
                                                        : 2e-4;
@@ -164,8 +165,8 @@ TEST_P(FiniteElementWall, HasExactDerivatives) {
             off = std::max(off, std::abs(jacobian[j * rows + i] - expected));
           }
           EXPECT_GT(scale, 0) << j;
-          EXPECT_LE(off, 2e-6 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j << ", "
-                                       << all_channels[c];
+          EXPECT_LE(off, 2e-6 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j
+                                       << ", " << all_channels[c];
         }
       }
     }
@@ -194,8 +195,7 @@ TEST(FiniteElementLayers, OfOneMaterialAreOneWall) {
         EXPECT_NEAR(halves.values[i], whole.values[i], 1e-9 * (1 + std::abs(whole.values[i]))) << i;
       // Rows of the Jacobian of both layers add up to those of the wall.
       std::vector<double> of_whole(10 * 15), of_halves(14 * 15);
-      ASSERT_TRUE(
-          make_fe_tube(pressure, one)->predict({*model, set_s, joined(own, {1})}, {{}, of_whole, {}, {}}).ok());
+      ASSERT_TRUE(make_fe_tube(pressure, one)->predict({*model, set_s, joined(own, {1})}, {{}, of_whole, {}, {}}).ok());
       ASSERT_TRUE(make_fe_tube(pressure, two)
                       ->predict({*model, joined(set_s, set_s), own, {}, twice}, {{}, of_halves, {}, {}})
                       .ok());

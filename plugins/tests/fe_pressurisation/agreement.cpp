@@ -41,8 +41,11 @@ Status long_tube(const thick_wall::Wall& wall, const Material& material, double 
       const Status status = stress_differences(material, material.layer_count() == 1 ? 0 : layer,
                                                wall.K * wall.K * r2 / (R * R), stretch * stretch, t, z);
       if (!status.ok()) return status;
-      const double weight = wall.factor(layer) * (k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2) * h / 3 * R /
-                            (wall.K * stretch);
+      const double weight = wall.factor(layer) *
+                            (k == 0 || k == intervals ? 1
+                             : k % 2 == 1             ? 4
+                                                      : 2) *
+                            h / 3 * R / (wall.K * stretch);
       found.pressure += weight * t / r2;
       found.force += std::numbers::pi * weight * (2 * z - t);
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tunica/detail/vector_level.hpp"
+
 namespace tunica::fe {
 namespace {
 
@@ -15,7 +17,14 @@ class AssemblyOf final : public Assembly {
   static constexpr std::size_t nn = E::nodes, ng = E::points, np = E::modes, dofs = 2 * nn;
 
  public:
-  explicit AssemblyOf(const Mesh& mesh) : mesh_(mesh), n_(mesh.radial), row_(mesh) {}
+  explicit AssemblyOf(const Mesh& mesh) : mesh_(mesh), n_(mesh.radial), row_(mesh) {
+    const double h = (mesh_.outer - mesh_.inner) / static_cast<double>(n_);
+    for (std::size_t e = 0; e < n_; ++e) {
+      const double from = mesh_.edge(e), to = mesh_.edge(e + 1);
+      column_.push_back(mesh_.uniform() ? (mesh_.inner + h * (static_cast<double>(e) + 0.5)) * h
+                                        : 0.5 * (to + from) * (to - from));
+    }
+  }
 
   [[nodiscard]] std::size_t pressure_count() const override { return np * n_ * mesh_.axial; }
 
@@ -31,7 +40,8 @@ class AssemblyOf final : public Assembly {
       largest = std::max(largest, scatter(row, tangent, system));
     }
     follow_pressure(state, pressure, tangent, system);
-    if (support.slope != 0) add_support(mesh_, element_, support, state, system.force, tangent ? &system.matrix : nullptr);
+    if (support.slope != 0)
+      add_support(mesh_, element_, support, state, system.force, tangent ? &system.matrix : nullptr);
     for (std::size_t i = 0; i < size; ++i) system.right[i] -= system.force[i];
     system.largest_dilation = largest;
     if (tangent) system.stiffness = stiffness;
@@ -153,13 +163,7 @@ class AssemblyOf final : public Assembly {
  private:
   /// ∫ ψ_m² dV of an element: M up to what R varies within it, which decides nothing (see the class).
   [[nodiscard]] double mass(std::size_t m, std::size_t e, std::size_t row) const {
-    if (!mesh_.uniform()) {
-      const double from = mesh_.edge(e), to = mesh_.edge(e + 1);
-      return 0.5 * (to + from) * (to - from) * row_.height(row) / (m == 0 ? 1 : 3);
-    }
-    const double h = (mesh_.outer - mesh_.inner) / static_cast<double>(n_);
-    const double middle = mesh_.inner + h * (static_cast<double>(e) + 0.5);
-    return middle * h * row_.height(row) / (m == 0 ? 1 : 3);
+    return column_[e] * row_.height(row) / (m == 0 ? 1 : 3);
   }
 
   void prepare(System& system, std::size_t size, bool tangent) const {
@@ -200,17 +204,7 @@ class AssemblyOf final : public Assembly {
         }
       }
     if (!tangent) return largest;
-    for (std::size_t m = 0; m < np; ++m)
-      for (std::size_t j = 0; j < dofs; ++j) {
-        const double* __restrict__ const gj = row_.coupling.data() + (m * dofs + j) * n_;
-        double* __restrict__ const scaled = row_.scratch.data();
-        for (std::size_t e = 0; e < n_; ++e) scaled[e] = system.gamma / mass(m, e, row) * gj[e];
-        for (std::size_t i = 0; i <= j; ++i) {
-          const double* __restrict__ const gi = row_.coupling.data() + (m * dofs + i) * n_;
-          double* __restrict__ const k = row_.k.data() + upper(i, j) * n_;
-          for (std::size_t e = 0; e < n_; ++e) k[e] += gi[e] * scaled[e];
-        }
-      }
+    detail::vectorised([&] { condense(row, system.gamma); });
     for (std::size_t b = 0; b < nn; ++b)
       for (std::size_t a = 0; a <= b; ++a)
         for (std::size_t s = 0; s < 2; ++s)
@@ -221,6 +215,23 @@ class AssemblyOf final : public Assembly {
             for (std::size_t e = 0; e < n_; ++e) system.matrix.column(2 * row_.node(a, e, row) + t)[below] += k[e];
           }
     return largest;
+  }
+
+  /// k += γ G M⁻¹ Gᵀ
+  void condense(std::size_t row, double gamma) {
+    for (std::size_t m = 0; m < np; ++m)
+      for (std::size_t j = 0; j < dofs; ++j) {
+        const double* __restrict__ const gj = row_.coupling.data() + (m * dofs + j) * n_;
+        double* __restrict__ const scaled = row_.scratch.data();
+#pragma GCC ivdep
+        for (std::size_t e = 0; e < n_; ++e) scaled[e] = gamma / mass(m, e, row) * gj[e];
+        for (std::size_t i = 0; i <= j; ++i) {
+          const double* __restrict__ const gi = row_.coupling.data() + (m * dofs + i) * n_;
+          double* __restrict__ const k = row_.k.data() + upper(i, j) * n_;
+#pragma GCC ivdep
+          for (std::size_t e = 0; e < n_; ++e) k[e] += gi[e] * scaled[e];
+        }
+      }
   }
 
   /// V = Σ ∫ ½ r² dz along the inner edge: its gradient, and −P times gradient and Hessian.
@@ -260,6 +271,7 @@ class AssemblyOf final : public Assembly {
   const std::size_t n_;  ///< elements along R
   const E element_;
   Elements row_;
+  std::vector<double> column_;  ///< ∫ R dR over each column of elements
 };
 
 }  // namespace

@@ -64,9 +64,9 @@ class Assembly {
   /// evaluated.
   virtual Status assemble(const Material& material, const State& state, double pressure, bool tangent,
                           System& system) = 0;
-  /// By every parameter of the material and by the relative thickness (x and Ro fixed), with a differentiated closing by
-  /// the rest of Geometry, too, for every weight w: `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation ·
-  /// ∂c/∂p_j.
+  /// By every parameter of the material and by the relative thickness (x and Ro fixed), with a differentiated closing
+  /// by the rest of Geometry, too, for every weight w: `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation
+  /// · ∂c/∂p_j.
   virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
                           std::span<double> by) = 0;
   /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).

@@ -99,8 +99,9 @@ class FePressurisation final : public Test {
     std::size_t failed_at = 0;
     const double support = at.wall->tether / at.plan.outer;
     const Status status =
-        history ? follow_history(*simulation, *at.material, at.loads, tube_.time, support, samples, failed_at)
-                : simulation->run(*at.material, at.loads, derivatives ? wanted_ : Wanted{}, samples, failed_at, support);
+        history
+            ? follow_history(*simulation, *at.material, at.loads, tube_.time, support, samples, failed_at)
+            : simulation->run(*at.material, at.loads, derivatives ? wanted_ : Wanted{}, samples, failed_at, support);
     if (!status.ok())
       return Status::failed(fmt::format(
           "fe_pressurisation: {} is not reached: {}",
@@ -151,7 +152,8 @@ class FePressurisation final : public Test {
     if (!(wall.Ri > 0 && wall.Ri < wall.Ro))
       return Status::failed("fe_pressurisation: the thickness error leaves no wall or no lumen");
     std::vector<double> pressure, stretch;
-    if (Status status = tube_.prescribed(input, input.test_parameters[thick_wall::axial_stretch_error], pressure, stretch);
+    if (Status status =
+            tube_.prescribed(input, input.test_parameters[thick_wall::axial_stretch_error], pressure, stretch);
         !status.ok())
       return status;
     for (std::size_t i = 0; i < pressure.size(); ++i) at.loads.push_back({stretch[i], pressure[i]});

@@ -76,7 +76,8 @@ Status Material::remember(std::size_t n, std::span<const double> C, std::size_t 
   if (history_->after.size() <= row) history_->after.resize(row + 1);
   std::size_t size = 0;
   for (const Layer& layer : layers_)
-    size += layer.model->describe().history_size * (lanes_ == 0 ? n : n / lanes_ * (layer.last_lane - layer.first_lane));
+    size +=
+        layer.model->describe().history_size * (lanes_ == 0 ? n : n / lanes_ * (layer.last_lane - layer.first_lane));
   history_->after[row].resize(size);
   return in_layers({n, C, {}, {}, {}, {}, {}, history_->after[row]}, row);
 }
@@ -150,8 +151,7 @@ Status Material::in_layers(const Call& call, std::size_t row) const {
     if (!call.energy.empty()) copy(my.energy, m, 0, call.energy, n, from, 1);
     if (!call.first.empty()) copy(my.first, m, 0, call.first, n, from, 4);
     if (!call.second.empty()) copy(my.second, m, 0, call.second, n, from, 10);
-    if (count > 0)
-      copy(my.first_dp, m, 0, call.first_dp.subspan(4 * layer.first_parameter * n), n, from, 4 * count);
+    if (count > 0) copy(my.first_dp, m, 0, call.first_dp.subspan(4 * layer.first_parameter * n), n, from, 4 * count);
   }
   if (closing_ != nullptr && !closing_->none()) close(call);
   return {};
@@ -163,12 +163,11 @@ Status Material::respond(const Layer& layer, const Call& call) const {
   if (call.first.empty() && call.second.empty() && call.first_dp.empty()) return {};
   std::vector<double>& by = scratch().gradient_dp;
   if (!call.first_dp.empty()) by.resize(3 * count * n);
-  const Status status = layer.model->evaluate_axes(
-      {n, call.C.first(3 * n), layer.parameters},
-      {{},
-       call.first.empty() ? call.first : call.first.first(3 * n),
-       call.second.empty() ? call.second : call.second.first(6 * n),
-       call.first_dp.empty() ? std::span<double>() : std::span(by)});
+  const Status status = layer.model->evaluate_axes({n, call.C.first(3 * n), layer.parameters},
+                                                   {{},
+                                                    call.first.empty() ? call.first : call.first.first(3 * n),
+                                                    call.second.empty() ? call.second : call.second.first(6 * n),
+                                                    call.first_dp.empty() ? std::span<double>() : std::span(by)});
   for (std::size_t j = 0; j < (call.first_dp.empty() ? 0 : count); ++j) {
     std::copy_n(by.begin() + static_cast<std::ptrdiff_t>(3 * j * n), 3 * n,
                 call.first_dp.begin() + static_cast<std::ptrdiff_t>(4 * j * n));

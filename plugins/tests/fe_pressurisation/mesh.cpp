@@ -8,7 +8,13 @@ namespace tunica::fe {
 
 Mesh::Mesh(std::size_t order_, std::size_t radial_, std::size_t axial_, double inner_, double outer_,
            double half_length, double grading, Ends ends_, std::span<const double> interfaces)
-    : order(order_), radial(radial_), axial(axial_), inner(inner_), outer(outer_), ends(ends_), columns(columns_of(radial_, interfaces)) {
+    : order(order_),
+      radial(radial_),
+      axial(axial_),
+      inner(inner_),
+      outer(outer_),
+      ends(ends_),
+      columns(columns_of(radial_, interfaces)) {
   const auto plane = [&](std::size_t element) {
     const double t = static_cast<double>(element) / static_cast<double>(axial);
     return half_length * (1 - std::pow(1 - t, grading));

@@ -14,8 +14,8 @@ enum class Ends {
 };
 
 /// The wall over half the length: Ri ≤ R ≤ Ro, 0 ≤ Z ≤ length/2, Z = 0 the plane of symmetry, Z = length/2 the end.
-/// Rectangular elements, equal along R within each layer of the wall; node (i, k) of the structured grid has number k · across + i, so that
-/// neighbours along the short direction follow each other and the matrix is a narrow band.
+/// Rectangular elements, equal along R within each layer of the wall; node (i, k) of the structured grid has number k ·
+/// across + i, so that neighbours along the short direction follow each other and the matrix is a narrow band.
 struct Mesh {
   std::size_t order = 1;                ///< 1 = four-node, 2 = nine-node elements
   std::size_t radial = 25, axial = 50;  ///< elements

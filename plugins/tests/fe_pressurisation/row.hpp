@@ -53,8 +53,8 @@ class Row {
   void integrate(bool sees_shear, bool tangent, double& stiffness);
 
   /// `by`[(j · directions + k) · lanes + e] = d(z_k · force)/dp_j for every parameter of the material, then by the
-  /// relative thickness at fixed Ro and x and, where the material has a differentiated closing, by the rest of Geometry;
-  /// the z_k are fields of nodes, as State::x. Needs second derivatives and those by parameters.
+  /// relative thickness at fixed Ro and x and, where the material has a differentiated closing, by the rest of
+  /// Geometry; the z_k are fields of nodes, as State::x. Needs second derivatives and those by parameters.
   void contract(const Material& material, std::span<const std::span<const double>> directions, std::span<double> by);
   /// dc/d(relative thickness) at fixed x: `c`[m · lanes + e].
   void dilate(std::span<double> c);
@@ -66,6 +66,8 @@ class Row {
  private:
   /// Weight of a Gauss point over its R in a mean element.
   [[nodiscard]] double area(std::size_t g) const { return element_.weight[g] * h_ * height(row_) / 4; }
+  void deform();
+  void integrate_lanes(bool sees_shear, bool tangent, double& stiffness);
   void interpolate(std::size_t g, std::span<const double> nodes, std::span<double> f) const;
   void stress(std::size_t g, bool sees_shear);
   void moduli(std::size_t g, bool sees_shear, double& stiffness);

@@ -157,7 +157,8 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
     double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
     // The matrix of a material that remembers is not quite its tangent: see Material.
-    if (full && material_->remembers()) left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
+    if (full && material_->remembers())
+      left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
     if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;

@@ -17,8 +17,8 @@ namespace tunica::fe {
 /// over 2π, with z in the loaded state: a potential, so that the tangent stays symmetric. In a section that does not
 /// vary along the axis it is the support of the long tube.
 struct Support {
-  double slope = 0;                ///< κ, kPa/mm
-  std::vector<double> free;        ///< ρ at the outer nodes, by plane; empty = no support
+  double slope = 0;          ///< κ, kPa/mm
+  std::vector<double> free;  ///< ρ at the outer nodes, by plane; empty = no support
   static double pressed(double r, double rho) { return (r - rho) * r; }  ///< h'(r)/κ
   static double stored(double r, double rho) {                           ///< h/κ
     const double d = r - rho;
