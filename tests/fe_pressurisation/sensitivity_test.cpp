@@ -44,7 +44,7 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
     double worst = 0;
     for (std::size_t j = 0; j < models + own.size(); ++j) {
       const double h = j < models                    ? 1e-3 * std::abs(wall.parameters[j])
-                       : j == models + opening_angle ? 0.02
+                       : j == models + opening_angle ? 0.1
                        : j == models + tethering     ? 0.01
                                                      : 2e-4;
       const auto at = [&](double steps) {
@@ -63,7 +63,9 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
           off = std::max(off, std::abs(jacobian[j * rows + i] - expected));
         }
         EXPECT_GT(scale, 0) << j;
-        EXPECT_LE(off, 1e-6 * scale) << "parameter " << j << ", " << all_channels[c];
+        // What an opening angle does inside and outside nearly cancels in a force: what is left is less exact.
+        const double tolerance = j == models + opening_angle ? 4e-6 : 1e-6;
+        EXPECT_LE(off, tolerance * scale) << "parameter " << j << ", " << all_channels[c];
         worst = std::max(worst, off / scale);
       }
     }

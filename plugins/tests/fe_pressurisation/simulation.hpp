@@ -15,10 +15,10 @@ struct Tube {
   std::size_t order = 1, radial = 25, axial = 100;
   double inner = 0, outer = 0, length = 0, grading = 1.5;
   Ends ends = Ends::clamped;
-  std::vector<double> interfaces;  ///< between layers with models of their own: fractions of the thickness
-  double tolerance = 1e-6;         ///< of interpolated curves, of the outer radius; ten times that of the largest force
-  std::size_t steps = 1000;        ///< load steps at most
-  double time_limit = 60;          ///< s
+  std::vector<double> interfaces = {};  ///< between layers with models of their own: fractions of the thickness
+  double tolerance = 1e-6;   ///< of interpolated curves, of the outer radius; ten times that of the largest force
+  std::size_t steps = 1000;  ///< load steps at most
+  double time_limit = 60;    ///< s
 
   friend bool operator==(const Tube&, const Tube&) = default;
 };
