@@ -76,7 +76,7 @@ TEST_F(Layers, BelongToTestsThatTakeThem) {
   expect_within(refusal(R"("weight": 1,)", R"("layers": [{"model": "gho", "thickness": 1}],)"),
                 "a test of type 'uniaxial' has one model throughout and takes no layers "
                 "(/tests/circumferential_strip/layers, line 25, column 7). Tests that take layers: "
-                "fe_pressurisation, thick_wall_pressurisation.");
+                "thick_wall_pressurisation.");
 }
 
 }  // namespace
