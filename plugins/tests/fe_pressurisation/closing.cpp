@@ -34,8 +34,9 @@ Closing::Closing(const Mesh& mesh, const thick_wall::Wall& wall, double ratio, b
   const auto radius = [&](double fraction) { return wall.Ro - thickness * (1 - fraction); };
   const auto fraction = [&](double R) { return (R - mesh.inner) / (mesh.outer - mesh.inner); };
 
+  if (none() && !derivatives) return;
+  const std::vector<double> place = mesh.order == 1 ? points_of<1>(n) : points_of<2>(n);
   if (opened || derivatives) {
-    const std::vector<double> place = mesh.order == 1 ? points_of<1>(n) : points_of<2>(n);
     for (std::size_t i = 0; i < place.size(); ++i) {
       const std::size_t e = i % n;
       const Vary R = radius(fraction(mesh.edge(e) + place[i] * (mesh.edge(e + 1) - mesh.edge(e))));
@@ -55,14 +56,24 @@ Closing::Closing(const Mesh& mesh, const thick_wall::Wall& wall, double ratio, b
     const Vary end = sqrt(sector2 + K * (wall.Ro * wall.Ro - inner * inner)), at = (1 - f) * sqrt(sector2) + f * end;
     interface2 = inner * inner + (at * at - sector2) / K;
   }
+  std::vector<Vary> mean, slope;  // of the factor in each column, by ξ
+  double farthest = 0;
+  for (const double at : place) farthest = std::max(farthest, std::abs(2 * at - 1));
+  const Vary jump = inside - outside, least = 0.1 * (inside < outside ? inside : outside);
   for (std::size_t e = 0; e < n; ++e) {
     const Vary from = radius(fraction(mesh.edge(e))), to = radius(fraction(mesh.edge(e + 1)));
-    Vary part = (interface2 - from * from) / (to * to - from * from);
-    if (part.a <= 0) part = Vary(0.);
-    if (part.a >= 1) part = Vary(1.);
-    const Vary mixed = part * inside + (1.0 - part) * outside;
-    factor.push_back(mixed.a);
-    if (derivatives) take(log(mixed), log_factor_by);
+    Vary cut = 2.0 * (sqrt(interface2) - from) / (to - from) - 1.0;
+    if (cut.a <= -1) cut = Vary(-1.);
+    if (cut.a >= 1) cut = Vary(1.);
+    mean.push_back(outside + 0.5 * jump * (cut + 1.0));
+    slope.push_back(0.75 * jump * (cut * cut - 1.0));
+    if (mean[e].a - std::abs(slope[e].a) * farthest < least.a)
+      slope[e] = (slope[e].a < 0 ? -1.0 : 1.0) / farthest * (mean[e] - least);
+  }
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const Vary at = mean[i % n] + slope[i % n] * (2 * place[i] - 1);
+    factor.push_back(at.a);
+    if (derivatives) take(log(at), log_factor_by);
   }
 }
 

@@ -18,12 +18,13 @@ enum Geometry : std::size_t { by_thickness, by_closing, by_sector, by_ratio, geo
 ///
 ///   F₀ = diag(λ₀, 1, 1/λ₀) in t, z, r,   λ₀ = K R/R_s,
 ///
-/// and by which factor the two layers of layer_ratio scale the energy in each column of elements. A column that the
-/// interface cuts has the mean over its volume: circumferential and axial strain are continuous there.
+/// and by which factor the two layers of layer_ratio scale the energy there. In a column of elements that the interface
+/// cuts, the factor is linear along R with the same integral and the same first moment, as far as it stays positive:
+/// circumferential and axial strain are continuous there.
 struct Closing {
   bool opened = false, factored = false;  ///< otherwise the vectors below hold derivatives alone
   std::vector<double> square;             ///< λ₀² at the points, lanes last
-  std::vector<double> factor;             ///< of W in each lane
+  std::vector<double> factor;             ///< of W at the points
   std::array<std::vector<double>, geometry_count> log_square_by, log_factor_by;  ///< of their logarithms
 
   /// `derivatives`: whether the last line is wanted. `interface` is that of layer_ratio.

@@ -97,7 +97,7 @@ void Material::open(std::size_t n, std::span<const double> C, std::span<double> 
 void Material::close(const Call& call) const {
   const std::size_t n = call.n, components = sees_shear_ ? 4 : 3;
   for (std::size_t i = 0; i < n; ++i) {
-    const double factor = closing_->factored ? closing_->factor[i % lanes_] : 1;
+    const double factor = closing_->factored ? closing_->factor[i] : 1;
     const double square = closing_->opened ? closing_->square[i] : 1;
     const std::array<double, firsts> by{square, 1, 1 / square, 1 / std::sqrt(square)};
     if (!call.energy.empty()) call.energy[i] *= factor;

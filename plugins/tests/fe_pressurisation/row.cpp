@@ -485,7 +485,7 @@ void Row<Order>::by_closing_of(const Closing& closing, std::size_t g, std::size_
     }
     for (std::size_t v = 0; v < geometry_count; ++v)
       by[v * wanted * n_ + e] +=
-          by_square * closing.log_square_by[v][g * n_ + e] + by_factor * closing.log_factor_by[v][e];
+          by_square * closing.log_square_by[v][g * n_ + e] + by_factor * closing.log_factor_by[v][g * n_ + e];
   }
 }
 
