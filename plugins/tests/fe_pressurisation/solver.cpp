@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
-constexpr double slow = 0.1;               ///< a step of a frozen factor this times the last one is too long
+constexpr double slow = 0.3;               ///< a step of a frozen factor this times the last one is too long
 constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
@@ -45,16 +45,20 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) 
   product_.resize(rest_.x.size());
 }
 
+double Solver::bytes(const Mesh& mesh) { return 2 * Banded::bytes(2 * mesh.nodes(), Assembly::width(mesh)); }
+
 Status Solver::begin(const Material& material) {
   material_ = &material;
   held_ = mesh_.ends == Ends::clamped;
   hold_at(rest_);
   // At rest S = 2 ∂W/∂C − q C⁻¹ has to vanish: q is 2 ∂W/∂C_rr there, all three being equal up to a pressure.
-  const std::vector<double> unit{1, 1, 1, 0};
-  std::vector<double> first(Material::firsts);
-  if (Status status = material.evaluate(1, unit, first, {}, {}); !status.ok()) return status;
+  const std::size_t lanes = mesh_.radial;
+  std::vector<double> unit(4 * lanes, 1), first(Material::firsts * lanes);
+  std::fill_n(unit.begin() + static_cast<std::ptrdiff_t>(3 * lanes), lanes, 0.0);
+  if (Status status = material.evaluate(lanes, unit, first, {}, {}); !status.ok()) return status;
   const std::size_t modes = rest_.q.size() / (mesh_.radial * mesh_.axial);
-  for (std::size_t i = 0; i < rest_.q.size(); ++i) rest_.q[i] = i % modes == 0 ? 2 * first[2] : 0;
+  for (std::size_t i = 0; i < rest_.q.size(); ++i)
+    rest_.q[i] = i % modes == 0 ? 2 * first[2 * lanes + i / modes % lanes] : 0;
   system_.gamma = 1;
   if (Status status = assembly_->assemble(material, rest_, 0, true, system_); !status.ok()) return status;
   system_.gamma = incompressibility * system_.stiffness;
@@ -95,7 +99,7 @@ bool Solver::factorise() {
     for (std::size_t j = row; j < middle_.size() && j - row <= system_.matrix.width(); ++j)
       middle_[j] += system_.matrix.column(row)[j - row];
   }
-  factor_ = system_.matrix;
+  factor_.take(system_.matrix);
   const std::size_t end = mesh_.planes() - 1;
   const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
@@ -113,6 +117,7 @@ bool Solver::factorise() {
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
   const double gamma = system_.gamma;
   Status status = iterate(load, state, full_steps);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {  // what a wild state left behind
     system_.gamma = gamma;
     has_factor_ = false;
@@ -150,9 +155,12 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     }
     assembly_->pressures(system_, dx_, system_.dilation, dq_);
     note_force();
-    move(state, !full && full_steps);
+    move(state, !full);
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
-    const double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
+    double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
+    // The matrix of a material that remembers is not quite its tangent: see Material.
+    if (full && material_->remembers())
+      left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
     if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;
@@ -198,6 +206,7 @@ double Solver::volume(const State& state) const {
 Status Solver::solve_volume(double volume, Load& load, State& state) {
   const double gamma = system_.gamma;
   const Status status = iterate_volume(volume, load, state);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {
     system_.gamma = gamma;
     has_factor_ = false;
@@ -262,35 +271,49 @@ void Solver::derive(std::span<const double> right, std::span<const double> moved
 /// what Gᵀ (z + b) is then adds to h.
 void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights) {
   const std::size_t size = dx_.size(), end = 2 * mesh_.node(0, mesh_.planes() - 1);
+  const std::size_t count = positions.size() + (axial_force ? 1 : 0);
   const double own = 2 * std::numbers::pi;  // b, over the plane of symmetry
-  weights.resize(positions.size() + (axial_force ? 1 : 0));
-  const auto solve_free = [&](std::vector<double>& x) {
-    prescribe(x);
-    factor_.solve(x);
-    prescribe(x);
+  weights.resize(count);
+  spread_.resize(count);
+  std::vector<std::span<double>> together;
+  const auto solve_free = [&] {
+    for (const std::span<double> x : together) prescribe(x);
+    factor_.solve(together);
+    for (const std::span<double> x : together) prescribe(x);
   };
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    const bool is_force = k == positions.size();
-    std::vector<double>& z = weights[k].right;
+  for (std::size_t k = 0; k < count; ++k) {
     std::vector<double>& a = weights[k].moved;
     a.assign(size, 0);
+    if (k < positions.size())
+      a[positions[k]] = 1;
+    else
+      for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
+    if (k == positions.size()) a[outer()] -= own * middle_pressed_;
+    weights[k].right = a;
+    together.emplace_back(weights[k].right);
+  }
+  solve_free();
+  const auto add_own = [&](std::size_t k, double sign) {
+    for (std::size_t i = 0; i < (k == positions.size() ? mesh_.across() : 0); ++i)
+      weights[k].right[2 * mesh_.node(i, 0) + 1] += sign * own;
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    add_own(k, 1);
     weights[k].dilation.resize(dq_.size());
-    if (!is_force) a[positions[k]] = 1;
-    for (std::size_t i = 0; i < (is_force ? middle_.size() : 0); ++i) a[i] = -own * middle_[i];
-    const auto add_own = [&](double sign) {
-      for (std::size_t i = 0; i < (is_force ? mesh_.across() : 0); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
-    };
-    z = a;
-    solve_free(z);
-    add_own(1);
-    assembly_->pressures(system_, z, {}, weights[k].dilation);
-    add_own(-1);
-    assembly_->spread(system_, weights[k].dilation, product_);
-    for (std::size_t i = end; i < size; ++i) a[i] += product_[i];
-    solve_free(product_);
-    for (std::size_t i = 0; i < size; ++i) z[i] += product_[i];
-    for (std::size_t i = end; i < size; ++i) a[i] -= system_.matrix.row_times(i, z);  // only the end is ever moved
-    add_own(1);
+    assembly_->pressures(system_, weights[k].right, {}, weights[k].dilation);
+    add_own(k, -1);
+    spread_[k].resize(size);
+    assembly_->spread(system_, weights[k].dilation, spread_[k]);
+    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] += spread_[k][i];
+    together[k] = spread_[k];
+  }
+  solve_free();
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double>& z = weights[k].right;
+    for (std::size_t i = 0; i < size; ++i) z[i] += spread_[k][i];
+    // only the end is ever moved
+    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] -= system_.matrix.row_times(i, z);
+    add_own(k, 1);
     assembly_->pressures(system_, z, {}, dq_);
     for (std::size_t i = 0; i < dq_.size(); ++i) weights[k].dilation[i] += dq_[i];
   }
@@ -301,6 +324,14 @@ void Solver::note_force() {
   middle_force_ = 0;
   for (std::size_t j = 0; j < middle_.size(); ++j) middle_force_ += middle_[j] * dx_[j];
   for (std::size_t i = 0; i < mesh_.across(); ++i) middle_force_ -= system_.right[2 * mesh_.node(i, 0) + 1];
+}
+
+void Solver::note_support(const State& state) {
+  const Support& support = assembly_->support;
+  middle_support_ = middle_pressed_ = 0;
+  if (support.slope == 0) return;
+  middle_support_ = support.slope * Support::stored(outer_radius(state), support.free.front());
+  middle_pressed_ = support.slope * Support::pressed(outer_radius(state), support.free.front());
 }
 
 }  // namespace tunica::fe
