@@ -16,6 +16,12 @@ namespace tunica {
 ///     σ = ∂W/∂l,   0 = ∂W/∂y                                     (physics: docs/theory.md, uniaxial strip)
 ///
 /// with σ the Cauchy stress along the strip. An empty span means "not wanted". Spans do not overlap.
+///
+/// Where to begin: the nodes and their guesses come from the test (free_strip::Start), which places them once for its
+/// rows. A model may ignore them. The answer must not depend on earlier calls.
+/// Failure: a row without equilibrium fails the call and is told in `lost`; a stress that overflows is written as it
+/// is. Threads: a call reads and writes nothing but this. Ownership: the caller's; everything lives as long as the
+/// call.
 struct StripPath {
   std::size_t loaded = 0;              ///< the axis it is pulled along: 0 = circumferential, 1 = axial
   std::span<const double> parameters;  ///< of the model

@@ -187,8 +187,10 @@ struct EightChain {
   /// Derivatives by hand.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
     const double mu = p[0], links = p[1];
-    // y β + ln(β/sinh β), without overflow
+    // y β + ln(β/sinh β), without overflow; the series about 0 keeps the digits that logarithms would lose
     const auto energy = [](double y, double beta) {
+      const double b = beta * beta;
+      if (beta < 0.1) return y * beta - b * (1. / 6 - b * (1. / 180 - b * (1. / 2835 - b / 37800)));
       return y * beta + std::log(2 * beta) - beta - std::log1p(-std::exp(-2 * beta));
     };
     const double y0 = 1 / std::sqrt(links), beta0 = inverse_langevin(y0), rest = energy(y0, beta0);
