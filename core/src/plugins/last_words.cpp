@@ -5,12 +5,15 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "plugins/calls.hpp"
@@ -30,6 +33,8 @@ constexpr std::array<Fatal, 5> fatal{{{SIGSEGV, "ended the program with a segmen
                                       {SIGILL, "ended the program with an illegal instruction (SIGILL)"},
                                       {SIGABRT, "aborted the program (SIGABRT)"}}};
 
+pid_t process_of_work = 0;
+
 /// Whether this thread is in a plugin, which then is the culprit.
 bool enter_culprit(const char* end) {
   const CallsOfThread* thread = known_calls_of_this_thread;
@@ -48,7 +53,7 @@ void on_fatal(int number) {
 }
 
 void on_exit_in_plugin() {
-  if (enter_culprit("called exit()")) ::_exit(fell);
+  if (enter_exit_in_plugin("called exit()")) ::_exit(fell);
 }
 
 /// A stack for the handlers of this thread, so that an overflow of its own can be told.
@@ -65,6 +70,29 @@ void give_signal_stack() {
 
 using Seconds = std::chrono::duration<double>;
 
+constexpr double gibibyte = 1024.0 * 1024 * 1024;
+
+/// Bytes of this process that are in memory; 0 where the system does not tell.
+double resident_memory() {
+  std::ifstream stream("/proc/self/statm");
+  double all = 0, resident = 0;
+  return stream >> all >> resident ? resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// "max" where the group has no limit of its own.
+double limit_in(const char* file) {
+  std::ifstream stream(file);
+  double value = 0;
+  return stream >> value && value > 0 ? value : std::numeric_limits<double>::infinity();
+}
+
+double limit_of(int resource) {
+  rlimit limit{};
+  const bool known = ::getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
+  return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur)
+                                                  : std::numeric_limits<double>::infinity();
+}
+
 bool is_of_model(const Call& call) {
   return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes");
 }
@@ -74,6 +102,7 @@ struct Watched {
   CallsOfThread* thread;
   std::uint64_t entered = 0;
   Clock::time_point since = Clock::now();
+  double memory = 0;  ///< bytes that the process had when the call was first seen
 };
 
 /// Looks at calls of other threads. A call that has stayed for a second stays while it is read; should it come back in
@@ -85,18 +114,25 @@ class Inspection {
   void look() {
     const auto now = Clock::now();
     const auto threads = calls_of_all_threads();
+    const double memory = resident_memory();
     for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
-    for (Watched& one : watched_) look_at(one, now);
+    for (Watched& one : watched_) look_at(one, now, memory);
+    if (memory > limits_.memory) end_for_want_of_memory(memory);
+  }
+  /// What grows to its limit in less than a second is looked at more often.
+  [[nodiscard]] std::chrono::milliseconds heartbeat() const {
+    return std::chrono::milliseconds(resident_memory() > 0.5 * limits_.memory ? 10 : 100);
   }
 
  private:
-  void look_at(Watched& one, Clock::time_point now) {
+  void look_at(Watched& one, Clock::time_point now, double memory) {
     const std::uint64_t entered = one.thread->entered.load(std::memory_order_acquire);
     const Seconds stayed = now - one.since;
     if (entered != one.entered || one.thread->depth.load(std::memory_order_acquire) == 0) {
       if (evaluations_done.load(std::memory_order_relaxed) > 0) longest_ = std::max(longest_, stayed);
       one.entered = entered;
       one.since = now;
+      one.memory = memory;
       return;
     }
     if (stayed < limits_.grace) return;
@@ -110,6 +146,33 @@ class Inspection {
     const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
                                      : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
     casualties->add(key, call->plugin, call->what, end.c_str(), stayed.count());
+    ::_exit(fell);
+  }
+
+  /// A call is to blame where half of the limit came while it lasted, and while no other call did. Work that needs so
+  /// much without a plugin is not ended: it is told by std::bad_alloc.
+  void end_for_want_of_memory(double memory) {
+    const Watched* culprit = nullptr;
+    unsigned inside = 0, long_ones = 0;
+    for (const Watched& one : watched_) {
+      if (innermost_plugin_call(*one.thread) == nullptr) continue;
+      ++inside;
+      if (one.entered != one.thread->entered.load(std::memory_order_acquire)) continue;
+      if (memory - one.memory < 0.5 * limits_.memory) continue;
+      ++long_ones;
+      culprit = &one;
+    }
+    if (inside == 0) return;
+    const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
+                                        memory / gibibyte, limits_.memory / gibibyte);
+    if (long_ones == 1) {
+      const Call* call = innermost_plugin_call(*culprit->thread);
+      const std::uint64_t key = call->key(*call);
+      if (culprit->thread->entered.load(std::memory_order_acquire) != culprit->entered) return;
+      casualties->add(key, call->plugin, call->what, end.c_str(), 0);
+    } else {
+      casualties->add_leak();
+    }
     ::_exit(fell);
   }
 
@@ -136,8 +199,18 @@ class Inspection {
 
 }  // namespace
 
+double memory_limit() {
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return std::min({machine, limit_in("/sys/fs/cgroup/memory.max"),
+                   limit_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"), limit_of(RLIMIT_AS),
+                   limit_of(RLIMIT_DATA)});
+}
+
+bool enter_exit_in_plugin(const char* end) { return ::getpid() == process_of_work && enter_culprit(end); }
+
 void leave_last_words() {
   if (casualties == nullptr) return;
+  process_of_work = ::getpid();
   prepare_thread = give_signal_stack;
   give_signal_stack();
   for (const Fatal& signal : fatal) {
@@ -153,9 +226,9 @@ void leave_last_words() {
 CallWatch::CallWatch(Limits limits) {
   if (casualties == nullptr) return;
   thread_ = std::thread([this, limits] {
-    constexpr std::chrono::milliseconds heartbeat{100};
     Inspection inspection(limits);
-    for (std::unique_lock lock(mutex_); !wake_.wait_for(lock, heartbeat, [this] { return over_; });) inspection.look();
+    for (std::unique_lock lock(mutex_); !wake_.wait_for(lock, inspection.heartbeat(), [this] { return over_; });)
+      inspection.look();
   });
 }
 

@@ -3,8 +3,10 @@
 
 #define BOOST_DLL_USE_STD_FS
 #include <algorithm>
+#include <cfenv>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "plugins/guarded.hpp"
 #include "plugins/refusals.hpp"
 #include "tunica/error.hpp"
 
@@ -55,6 +58,19 @@ auto shielded(std::string_view doing, const Call& call) {
                     doing));
   }
 }
+
+/// A library that was built with -ffast-math sets the thread that loads it, and all threads after it, to round small
+/// numbers to zero. Every result would change by it.
+class ArithmeticAsBefore {
+ public:
+  ArithmeticAsBefore() { std::fegetenv(&environment_); }
+  ~ArithmeticAsBefore() { std::fesetenv(&environment_); }
+  ArithmeticAsBefore(const ArithmeticAsBefore&) = delete;
+  ArithmeticAsBefore& operator=(const ArithmeticAsBefore&) = delete;
+
+ private:
+  std::fenv_t environment_;
+};
 
 std::vector<fs::path> plugins_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -143,6 +159,12 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
 LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
   if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
   if (const std::string reason = refuse_truncated(file); !reason.empty()) throw LoadError(reason);
+  const ArithmeticAsBefore kept;
+  const std::string name = file.filename().string();
+  const std::uint64_t input = std::hash<std::string>()(fs::absolute(file).string());
+  const Call call{name.c_str(), "load", plain_key, &input};
+  if (const std::string reason = refusal(name, plain_key(call)); !reason.empty()) throw LoadError(reason);
+  const CallScope scope(call);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
     throw LoadError(
