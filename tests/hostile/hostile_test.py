@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""hostile_test.py TUNICA PLUGIN: what a plugin that breaks its promises costs. One evaluation, or itself; never the
+"""hostile_test.py TUNICA PLUGIN [CASE...]: what a plugin that breaks its promises costs. One evaluation, or itself; never the
 result of another run, the end of the program without a word, or a wrong number."""
 import json
 import pathlib
@@ -40,7 +40,7 @@ def laboratory(name, how="honest", since=0, search="lm", search_does="honest", t
                        "bad": {"type": "hostile_search", "how": search_does}},
         "runs": [{"model": "bad", "optimizer": search, "stop": stop}, {"model": "good", "optimizer": "lm"}]}
     if test_does:
-        hostile = {"t": {"type": "hostile_strip", "how": test_does, "data": experiment["tests"]["t"]["data"]}}
+        hostile = {"h": {"type": "hostile_strip", "how": test_does, "data": experiment["tests"]["t"]["data"]}}
         experiment["runs"][0]["tests"] = hostile
     (folder / "experiment.json").write_text(json.dumps(experiment), encoding="utf-8")
     program = Program(sys.argv[1], folder)
@@ -82,7 +82,7 @@ def a_model_that_always_fails_costs_its_own_run():
                "writes_nothing": "returned ok without writing the gradient", "aborts": "aborted the program (SIGABRT)",
                "segfaults": "segmentation fault (SIGSEGV)", "overflows_the_stack": "segmentation fault (SIGSEGV)",
                "exits": "called exit()", "exits_at_once": "called _exit()",
-               "writes_beyond": "wrote beyond the ends of its gradient", "tangent_throws": "no tangent today",
+               "writes_beyond": "wrote beyond the ends of its stress", "tangent_throws": "no tangent today",
                "tangent_throws_42": "threw something that is no std::exception", "loops": "did not come back within"}
     for how, reason in reasons.items():
         folder, tunica = laboratory(f"always_{how}", how)
@@ -106,7 +106,8 @@ def a_crash_costs_one_evaluation():
 
 def a_call_that_takes_all_memory_costs_one_evaluation():
     folder, tunica = laboratory("memory", "allocates_without_end", since=700, search="es", max_evaluations=400)
-    tunica.words += ["--memory-limit", "0.6"]
+    tunica.words[-1] = "20"  # the limit of a call
+    tunica.words += ["--memory-limit", "0.4"]
     said = tunica("run", "experiment.json", "-o", "results", code=None)
     expect("took the memory of the program to" in " ".join(said.split()), said)
     bad, _ = outcome(folder)
@@ -149,7 +150,12 @@ def a_plugin_that_crashes_when_it_is_loaded_is_refused():
 
 
 def a_plugin_that_changes_the_arithmetic_changes_no_number():
-    """A library that was built with -ffast-math does such a thing when it is loaded."""
+    """A library that was built with -ffast-math does such a thing when it is loaded; others do it in a call."""
+    for wishes in ({"how": "rounds_up"}, {"search": "bad", "search_does": "rounds_up"}, {"test_does": "rounds_up"}):
+        name = "_".join(wishes)
+        folder, tunica = laboratory(f"rounds_{name}", **wishes)
+        tunica("run", "experiment.json", "-o", "results", "--quiet", "-j", "1", code=None)
+        expect_others_as_ever(folder, name)
     folder, tunica = laboratory("rounds")
     shell = Program("/bin/sh", folder)
     shell.words = ["/bin/sh", "-c"]
@@ -229,12 +235,14 @@ def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
         expect("stdout" in said, f"{verb}: {said}")
 
 
-run_cases([a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
+chosen = sys.argv[3:]
+cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
            a_call_that_takes_all_memory_costs_one_evaluation, a_leak_costs_nothing_but_time,
            a_test_that_writes_nothing_fails, a_plugin_that_crashes_when_it_is_loaded_is_refused,
            a_plugin_that_changes_the_arithmetic_changes_no_number,
            resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
            what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
-           a_full_disk_at_the_other_end_is_told_and_harms_nothing])
+           a_full_disk_at_the_other_end_is_told_and_harms_nothing]
+run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

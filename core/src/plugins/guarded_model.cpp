@@ -11,6 +11,7 @@
 #include "plugins/casualties.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/unwritten.hpp"
+#include "plugins/usual_arithmetic.hpp"
 
 namespace tunica::plugins {
 
@@ -94,6 +95,7 @@ Status GuardedModel::made(const Call& call, std::span<NamedOutput> outputs, std:
   const auto attempt = [&] {
     mark(outputs, points);
     const CallScope scope(call);
+    const UsualArithmetic arithmetic;
     return verdict(contained(plugin_, body), outputs, plugin_, points);
   };
   const std::size_t kind = OverrunRecord::kind(outputs, points);

@@ -11,6 +11,7 @@
 #include "plugins/casualties.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/unwritten.hpp"
+#include "plugins/usual_arithmetic.hpp"
 
 namespace tunica::plugins {
 
@@ -40,6 +41,7 @@ Status GuardedTest::made(const char* what, const TestInput& input, const Body& b
     if (std::string reason = refusal_of_evaluation(plugin_, test_key(call)); !reason.empty())
       return Status::failed(std::move(reason));
   const CallScope scope(call);
+  const UsualArithmetic arithmetic;
   for (bool again = true;; again = false) {
     try {
       return body();

@@ -44,12 +44,13 @@ bool enter_culprit(const char* end) {
   return true;
 }
 
-/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us.
-void on_fatal(int number) {
+/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us. A
+/// signal that was sent does not.
+void on_fatal(int number, siginfo_t* info, void*) {
   for (const Fatal& signal : fatal)
     if (signal.number == number) enter_culprit(signal.end);
   std::signal(number, SIG_DFL);
-  if (number == SIGABRT) std::raise(number);
+  if (number == SIGABRT || info->si_code <= 0) std::raise(number);
 }
 
 void on_exit_in_plugin() {
@@ -97,12 +98,18 @@ bool is_of_model(const Call& call) {
   return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes");
 }
 
+/// 2: of a model, 1: of a test, 0: of something that calls both.
+int kind_of(const Call& call) {
+  if (is_of_model(call)) return 2;
+  return call.what == std::string_view("predict") ? 1 : 0;
+}
+
 /// A thread as the watch sees it.
 struct Watched {
   CallsOfThread* thread;
   std::uint64_t entered = 0;
   Clock::time_point since = Clock::now();
-  double memory = 0;  ///< bytes that the process had when the call was first seen
+  double memory = 0;  ///< bytes that the process had at the last look before the call
 };
 
 /// Looks at calls of other threads. A call that has stayed for a second stays while it is read; should it come back in
@@ -116,7 +123,8 @@ class Inspection {
     const auto threads = calls_of_all_threads();
     const double memory = resident_memory();
     for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
-    for (Watched& one : watched_) look_at(one, now, memory);
+    for (Watched& one : watched_) look_at(one, now);
+    memory_before_ = memory;
     if (memory > limits_.memory) end_for_want_of_memory(memory);
   }
   /// What grows to its limit in less than a second is looked at more often.
@@ -125,14 +133,14 @@ class Inspection {
   }
 
  private:
-  void look_at(Watched& one, Clock::time_point now, double memory) {
+  void look_at(Watched& one, Clock::time_point now) {
     const std::uint64_t entered = one.thread->entered.load(std::memory_order_acquire);
     const Seconds stayed = now - one.since;
     if (entered != one.entered || one.thread->depth.load(std::memory_order_acquire) == 0) {
       if (evaluations_done.load(std::memory_order_relaxed) > 0) longest_ = std::max(longest_, stayed);
       one.entered = entered;
       one.since = now;
-      one.memory = memory;
+      one.memory = memory_before_;
       return;
     }
     if (stayed < limits_.grace) return;
@@ -149,30 +157,31 @@ class Inspection {
     ::_exit(fell);
   }
 
-  /// A call is to blame where half of the limit came while it lasted, and while no other call did. Work that needs so
-  /// much without a plugin is not ended: it is told by std::bad_alloc.
+  /// A call is to blame where half of the limit came while it lasted, and while no call of its kind into another plugin
+  /// did. A search lasts as long as what it waits for, so a test comes before it, and a model before both. Work that
+  /// needs so much without a plugin is not ended: it is told by std::bad_alloc.
   void end_for_want_of_memory(double memory) {
-    const Watched* culprit = nullptr;
-    unsigned inside = 0, long_ones = 0;
+    std::vector<const Call*> suspects;
+    bool inside = false;
     for (const Watched& one : watched_) {
-      if (innermost_plugin_call(*one.thread) == nullptr) continue;
-      ++inside;
-      if (one.entered != one.thread->entered.load(std::memory_order_acquire)) continue;
-      if (memory - one.memory < 0.5 * limits_.memory) continue;
-      ++long_ones;
-      culprit = &one;
+      const Call* call = innermost_plugin_call(*one.thread);
+      if (call == nullptr) continue;
+      inside = true;
+      const bool stayed = one.entered == one.thread->entered.load(std::memory_order_acquire);
+      if (!stayed || memory - one.memory < 0.5 * limits_.memory) continue;
+      if (!suspects.empty() && kind_of(*call) < kind_of(*suspects.front())) continue;
+      if (!suspects.empty() && kind_of(*call) > kind_of(*suspects.front())) suspects.clear();
+      suspects.push_back(call);
     }
-    if (inside == 0) return;
+    if (!inside) return;
+    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Call* call) {
+      return std::string_view(call->plugin) == suspects.front()->plugin;
+    });
     const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
                                         memory / gibibyte, limits_.memory / gibibyte);
-    if (long_ones == 1) {
-      const Call* call = innermost_plugin_call(*culprit->thread);
-      const std::uint64_t key = call->key(*call);
-      if (culprit->thread->entered.load(std::memory_order_acquire) != culprit->entered) return;
-      casualties->add(key, call->plugin, call->what, end.c_str(), 0);
-    } else {
-      casualties->add_leak();
-    }
+    for (const Call* call : suspects)
+      if (of_one) casualties->add(call->key(*call), call->plugin, call->what, end.c_str(), 0);
+    if (!of_one) casualties->add_leak();
     ::_exit(fell);
   }
 
@@ -193,7 +202,8 @@ class Inspection {
   }
 
   CallWatch::Limits limits_;
-  Seconds longest_{0};  ///< that a call has stayed, as far as it was seen
+  double memory_before_ = resident_memory();  ///< bytes, at the last look
+  Seconds longest_{0};                        ///< that a call has stayed, as far as it was seen
   std::vector<Watched> watched_;
 };
 
@@ -215,8 +225,8 @@ void leave_last_words() {
   give_signal_stack();
   for (const Fatal& signal : fatal) {
     struct sigaction action = {};
-    action.sa_handler = on_fatal;
-    action.sa_flags = SA_ONSTACK | SA_NODEFER;
+    action.sa_sigaction = on_fatal;
+    action.sa_flags = SA_ONSTACK | SA_NODEFER | SA_SIGINFO;
     ::sigaction(signal.number, &action, nullptr);
   }
   std::atexit(on_exit_in_plugin);

@@ -3,7 +3,6 @@
 
 #define BOOST_DLL_USE_STD_FS
 #include <algorithm>
-#include <cfenv>
 #include <cstdlib>
 #include <exception>
 #include <functional>
@@ -18,6 +17,7 @@
 
 #include "plugins/guarded.hpp"
 #include "plugins/refusals.hpp"
+#include "plugins/usual_arithmetic.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::plugins {
@@ -58,19 +58,6 @@ auto shielded(std::string_view doing, const Call& call) {
                     doing));
   }
 }
-
-/// A library that was built with -ffast-math sets the thread that loads it, and all threads after it, to round small
-/// numbers to zero. Every result would change by it.
-class ArithmeticAsBefore {
- public:
-  ArithmeticAsBefore() { std::fegetenv(&environment_); }
-  ~ArithmeticAsBefore() { std::fesetenv(&environment_); }
-  ArithmeticAsBefore(const ArithmeticAsBefore&) = delete;
-  ArithmeticAsBefore& operator=(const ArithmeticAsBefore&) = delete;
-
- private:
-  std::fenv_t environment_;
-};
 
 std::vector<fs::path> plugins_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -159,7 +146,7 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
 LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
   if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
   if (const std::string reason = refuse_truncated(file); !reason.empty()) throw LoadError(reason);
-  const ArithmeticAsBefore kept;
+  const UsualArithmetic kept;
   const std::string name = file.filename().string();
   const std::uint64_t input = std::hash<std::string>()(fs::absolute(file).string());
   const Call call{name.c_str(), "load", plain_key, &input};
