@@ -95,6 +95,7 @@ Session::Session(const GlobalOptions& options) : watch_(limits_of(options)) {
     if (!options.quiet) say_warning(describe(refusal));
     refused_.push_back(std::move(refusal));
   }
+  plugins::leave_last_words();
 }
 
 std::vector<std::string> Session::refusals() const {

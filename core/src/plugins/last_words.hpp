@@ -12,7 +12,8 @@ namespace tunica::plugins {
 
 /// From here on, signals that end the process (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT) and a plugin's exit() are
 /// entered into `casualties` first. Overflow of the stack too: each thread that calls plugins handles signals on a
-/// stack of its own. Call it once, when the plugins are loaded.
+/// stack of its own. Call it before plugins are loaded, and again afterwards: what they register runs at exit in
+/// reverse.
 void leave_last_words();
 
 /// Exit code of a process that was ended because of an entry in `casualties`.

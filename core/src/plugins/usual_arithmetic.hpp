@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#ifdef __SSE2__
+#ifdef __x86_64__
 #include <xmmintrin.h>
 #else
 #include <cfenv>
@@ -24,10 +24,21 @@ class UsualArithmetic {
   UsualArithmetic& operator=(const UsualArithmetic&) = delete;
 
  private:
-#ifdef __SSE2__
-  static constexpr unsigned usual = 0, bits = 0xe040;  // rounding, flush to zero, denormals are zero
-  static unsigned mode() { return _mm_getcsr() & bits; }
-  static void set(unsigned mode) { _mm_setcsr((_mm_getcsr() & ~bits) | mode); }
+#ifdef __x86_64__
+  // Rounding, flush to zero and denormals are zero of the vector unit; rounding of the older one, which has long
+  // double.
+  static constexpr unsigned usual = 0, bits = 0xe040, older_bits = 0x0c00;
+  static unsigned older() {
+    unsigned short word;
+    __asm__ volatile("fnstcw %0" : "=m"(word));
+    return word;
+  }
+  static unsigned mode() { return (_mm_getcsr() & bits) | (older() & older_bits) << 16; }
+  static void set(unsigned mode) {
+    _mm_setcsr((_mm_getcsr() & ~bits) | (mode & bits));
+    const auto word = static_cast<unsigned short>((older() & ~older_bits) | (mode >> 16));
+    __asm__ volatile("fldcw %0" : : "m"(word));
+  }
   unsigned before_;
 #else
   static constexpr int usual = FE_TONEAREST;
