@@ -161,23 +161,26 @@ bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
       status = Status::failed(std::move(reason));
       return true;
     }
-  const Named outputs[] = {{"stress of the strip", strip.stress},
+  NamedOutput outputs[] = {{"stress of the strip", strip.stress},
                            {"lateral stretch", strip.lateral},
                            {"derivatives by parameters", strip.stress_dp},
                            {"lateral derivatives by parameters", strip.lateral_dp},
                            {"derivatives by the stretch", strip.stress_by_l},
                            {"lateral derivatives by the stretch", strip.lateral_by_l}};
-  mark(outputs, strip.stretch.size());
-  bool offered = false;
-  const CallScope scope(call);
-  status = contained(plugin_, [&] {
+  bool declined = false;
+  status = made(call, outputs, strip.stretch.size(), [&] {
+    StripPath path = strip;
+    path.stress = outputs[0].values;
+    path.lateral = outputs[1].values;
+    path.stress_dp = outputs[2].values;
+    path.lateral_dp = outputs[3].values;
+    path.stress_by_l = outputs[4].values;
+    path.lateral_by_l = outputs[5].values;
     Status outcome;
-    offered = model_->solve_strip(strip, outcome);
-    return outcome;
+    declined = !model_->solve_strip(path, outcome);
+    return declined ? Status::failed("declined") : outcome;
   });
-  offered |= !status.ok();
-  if (offered) status = verdict(std::move(status), outputs, plugin_, strip.stretch.size());
-  return offered;
+  return !declined;
 }
 
 const Model& GuardedModel::elastic() const {
