@@ -34,7 +34,9 @@ class OrderOfWork : public testing::Test {
   Status evaluate(const Assembly& assembly, double a, bool skip) {
     simulated_.clear();
     const auto workspace = assembly.evaluator().make_workspace();
-    return assembly.evaluator().evaluate(free(a), objective_, per_test_, {}, {}, *workspace, skip);
+    return assembly.evaluator().evaluate(
+        free(a), objective_, per_test_, {}, {}, *workspace,
+        skip ? assembly::CostlyTests::where_feasible : assembly::CostlyTests::everywhere);
   }
   Bench bench_;
   std::string simulated_;

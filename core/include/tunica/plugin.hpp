@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@
 
 /// Version of the interface. It rises with every change of an interface or of a struct that crosses the boundary. The
 /// host refuses plugins that were built for another number. docs/migration.md says what to change.
-#define TUNICA_PLUGIN_API 6
+#define TUNICA_PLUGIN_API 7
 
 #define TUNICA_TEXT_(x) #x
 /// The value of a macro as text, for TUNICA_ABI_FINGERPRINT.
@@ -56,6 +57,13 @@ struct ModelFactory {
   std::function<std::unique_ptr<Model>(const Options&)> create;
 };
 
+/// A cheaper test that predicts nearly the same rows, for TestFactory::stand_in. Its observables and the parameters
+/// that an experiment may free have the same names.
+struct StandIn {
+  std::string type;  ///< TestFactory::type of the other test
+  Options options;   ///< of the other test; what is missing takes its default there
+};
+
 /// How the host makes a test, and what it prints about the type before there is one.
 struct TestFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all tests.
@@ -76,6 +84,9 @@ struct TestFactory {
   std::vector<Parameter> parameters = {};
   /// Whether it takes a wall of layers with a model each, see TestSetup::layers.
   bool layered = false;
+  /// Optional, for a costly test: the cheaper test that guides a search where an experiment asks for a guide. The
+  /// answer stays that of this test. Empty, or none for these options: there is no guide.
+  std::function<std::optional<StandIn>(const Options&)> stand_in = {};
 };
 
 /// How the host makes an optimizer, and what it prints about the type before there is one.

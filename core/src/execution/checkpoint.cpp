@@ -42,6 +42,9 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"jacobians", result.tally.jacobians},
           {"failures", result.tally.failures},
           {"infeasible", result.tally.infeasible},
+          {"ended_early", result.tally.ended_early},
+          {"simulated", result.tally.simulated},
+          {"guide_evaluations", result.tally.guide_evaluations},
           {"first_failure", result.tally.first_failure},
           {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
@@ -66,6 +69,9 @@ RealisationResult from_json(const json& entry) {
   result.tally.jacobians = entry.at("jacobians");
   result.tally.failures = entry.at("failures");
   result.tally.infeasible = entry.at("infeasible");
+  result.tally.ended_early = entry.at("ended_early");
+  result.tally.simulated = entry.at("simulated");
+  result.tally.guide_evaluations = entry.at("guide_evaluations");
   result.tally.first_failure = entry.at("first_failure");
   for (const auto& kind : entry.value("failure_reasons", json::array()))
     result.tally.reasons.push_back({kind.at("example"), kind.at("count")});

@@ -113,6 +113,12 @@ struct OptimizerEntry {
   std::vector<Stage> stages;
 };
 
+/// What spares simulations of costly tests; docs/optimizers.md explains both.
+struct FewerSimulations {
+  bool early_end = true;  ///< an offspring that its cheap tests put out of question is not simulated
+  bool guide = false;     ///< cheaper tests stand in while the search looks around
+};
+
 struct RunEntry {
   std::string model;  ///< of the tests that name no layers; empty = every one does
   std::string optimizer;
@@ -122,6 +128,7 @@ struct RunEntry {
   ObjectiveType objective = ObjectiveType::standardised_quadratic;
   std::vector<ConstraintEntry> constraints;
   Stop stop;
+  FewerSimulations fewer_simulations;
 };
 
 /// The block "diagnosis"; an absent member leaves the diagnosis its default.

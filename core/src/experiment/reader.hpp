@@ -97,7 +97,9 @@ struct RunDefaults {
   std::vector<ConstraintEntry> constraints;
   Stop stop;
   bool random_start = false;
+  FewerSimulations fewer_simulations;
 };
+FewerSimulations read_fewer_simulations(const Node& node);
 /// "given" or "random": true for random.
 bool read_initial(const Node& node);
 /// Tests that a run defines for itself are added to the experiment.

@@ -192,6 +192,7 @@ Json to_json(const RunEntry& run) {
   json["objective"] = text::code_of(objective_names, run.objective);
   json["constraints"] = std::move(constraints);
   json["stop"] = to_json(run.stop);
+  json["fewer_simulations"] = {{"early_end", run.fewer_simulations.early_end}, {"guide", run.fewer_simulations.guide}};
   return json;
 }
 

@@ -215,6 +215,13 @@ std::vector<Option> options() {
   return all;
 }
 
+/// The long tube with the same wall and stretch.
+std::optional<StandIn> long_tube(const Options& given) {
+  StandIn found{"thick_wall_pressurisation", {}};
+  for (const Option& option : tube_options()) found.options.set(option.name, given.values().at(option.name));
+  return found;
+}
+
 TestFactory factory() {
   return {
       "fe_pressurisation",
@@ -225,7 +232,9 @@ TestFactory factory() {
       options(),
       tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FePressurisation>(setup); },
-      {axial_stretch_error_parameter(), thickness_error_parameter()}};
+      {axial_stretch_error_parameter(), thickness_error_parameter()},
+      false,
+      long_tube};
 }
 
 }  // namespace
