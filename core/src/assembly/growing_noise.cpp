@@ -9,7 +9,7 @@ namespace tunica::assembly {
 namespace {
 
 constexpr double least_fraction = 0.1;  ///< of a variance at the largest level that is worth a word
-constexpr double least_freedom = 1e-9;  ///< degrees of freedom
+constexpr double next_to_none = 1e-9;   ///< degrees of freedom
 
 /// (level/largest level of the group)² of every row; 0 where the variance is known.
 Eigen::VectorXd squared_levels(const VarianceProblem& problem, const Eigen::VectorXd& level, std::size_t groups) {
@@ -32,7 +32,7 @@ double slope_at_none(const VarianceProblem& problem, const Eigen::VectorXd& squa
   std::vector<double> mean(now.variance.size(), 0);
   for (Eigen::Index i = 0; i < squared.size(); ++i)
     if (group_of(i) != known_variance)
-      mean[group_of(i)] += (1 - now.leverage[i]) * squared[i] / std::max(now.freedom[group_of(i)], least_freedom);
+      mean[group_of(i)] += (1 - now.leverage[i]) * squared[i] / std::max(now.freedom[group_of(i)], next_to_none);
   double slope = 0;
   for (Eigen::Index i = 0; i < squared.size(); ++i)
     if (group_of(i) != known_variance)

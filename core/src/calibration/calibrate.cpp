@@ -146,6 +146,8 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
   outcome.result = outcome.directory / "result.json";
   execution::write_atomically(outcome.result, comparison::result_json(outcome.summary, outcome.provenance));
   outcome.report = report::write_report(outcome.directory);
+  if (plan.experiment->kept_evaluations == experiment::KeptEvaluations::improvements)
+    execution::thin_evaluations(plan, outcome.directory);
 }
 
 void refuse_runs_without_data(const execution::Plan& plan) {

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 4;
+constexpr int checkpoint_format = 5;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
@@ -93,12 +93,13 @@ json to_json(const Facts& facts) {
           {"seed", facts.seed},
           {"data", facts.data},
           {"plugins", facts.plugins},
-          {"plugin_interface", facts.plugin_interface}};
+          {"plugin_interface", facts.plugin_interface},
+          {"thinned", facts.thinned}};
 }
 
 Facts facts_from(const json& entry) {
   return {entry.at("experiment"), entry.at("seed"), entry.at("data").get<std::map<std::string, std::string>>(),
-          entry.at("plugins"), entry.at("plugin_interface")};
+          entry.at("plugins"), entry.at("plugin_interface"), entry.at("thinned")};
 }
 
 /// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
@@ -126,6 +127,7 @@ std::string without_analysis(const std::string& input_json) {
   json input = json::parse(input_json, nullptr, false);
   if (input.is_discarded()) return input_json;
   input.erase("analysis");
+  input.erase("keep_evaluations");  // after the search
   return input.dump();
 }
 

@@ -24,6 +24,7 @@
 #include "execution/journal.hpp"
 #include "execution/realisation.hpp"
 #include "execution/recovery.hpp"
+#include "execution/thinning.hpp"
 
 namespace tunica::execution {
 
@@ -104,7 +105,10 @@ void Run::open() {
     std::vector<bool> wanted(plan_.tasks.size(), true);
     for (const auto& [task, result] : before.finished)
       if (task < wanted.size()) wanted[task] = false;
-    auto recovered = recover(directory, table_, plan_.tasks, wanted);
+    facts_.thinned = before.facts.thinned;
+    if (facts_.thinned) refuse_unfinished(directory, before, plan_.tasks.size());
+    auto recovered =
+        facts_.thinned ? thinned_journal(before, plan_.tasks.size()) : recover(directory, table_, plan_.tasks, wanted);
     for (const auto* damages : {&before.damages, &recovered.damages})
       for (const std::string& sentence : *damages) {
         log_->warn("{}", sentence);

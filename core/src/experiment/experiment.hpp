@@ -79,6 +79,8 @@ struct TestEntry {
 
 enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
 enum class OnFailure { penalise, stop, retry };
+/// What evaluations.csv holds once the results are written.
+enum class KeptEvaluations { all, improvements };
 
 /// The factor h of the sub-critical stability constraint over stretch; one row = a constant.
 using StabilityFactor = std::vector<std::pair<double, double>>;
@@ -191,6 +193,7 @@ struct Experiment {
   std::vector<RunEntry> runs;
   OnFailure on_failure = OnFailure::penalise;
   double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
+  KeptEvaluations kept_evaluations = KeptEvaluations::all;
   Analysis analysis;
   std::optional<DiagnosisEntry> diagnosis;
   std::optional<DiscoveryEntry> discovery;

@@ -144,6 +144,10 @@ FewerSimulations read_fewer_simulations(const Node& node) {
 
 bool read_initial(const Node& node) { return node.one_of({"given", "random"}, "start of a search") == "random"; }
 
+KeptEvaluations read_kept_evaluations(const Node& node) {
+  return read_choice(node, kept_evaluations_names, "set of evaluations");
+}
+
 void read_on_failure(const Node& node, Experiment& experiment) {
   if (!node.is_object()) {
     experiment.on_failure = read_choice(node, on_failure_names, "failure policy");

@@ -292,6 +292,10 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["runs"]["minItems"] = 1;
   properties["on_failure"] = on_failure_schema();
   properties["fewer_simulations"] = fewer_simulations_schema();
+  properties["keep_evaluations"] = choice_schema(
+      "Which rows evaluations.csv keeps once the results are written: all, or improvements of the best point only "
+      "(default all).",
+      names_in(kept_evaluations_names));
   properties["analysis"] = analysis_schema();
   properties["diagnosis"] = diagnosis_schema();
   properties["discovery"] = discovery_schema();
