@@ -131,6 +131,9 @@ void Run::open() {
   }
   for (const auto& warning : plan_.warnings) log_->warn("{}", warning.text());
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
+  // Where threads outnumber the searches, one that has nothing to evaluate can write.
+  constexpr std::size_t of_few_searches = 1 << 16;
+  if (plan_.tasks.size() < settings_.threads) journal_->let_wait(of_few_searches / plan_.tasks.size());
   for (const auto& [task, entry] : finished_) {
     const auto& result = results_[task];
     journal_->finish(task);

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "assembly/workspace.hpp"
@@ -238,22 +238,32 @@ Status Oracle::evaluate(std::span<const double> x, double& objective) {
 
 void Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
                             bool bound_only) {
-  const std::size_t n = shared_.parameters;
-  const auto evaluate_range = [&](std::size_t from, std::size_t to) {
+  const std::size_t n = shared_.parameters, count = points.size();
+  // Cheap points come several at a time, so that a thread is worth calling.
+  const std::size_t least = bound_only || !shared_.assembly.layout().has_costly_tests ? 4 : 1;
+  const std::size_t workers =
+      std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), (count + least - 1) / least);
+  // Each worker takes half of its share of what is left, down to one point, so that all end within one evaluation
+  // (guided self-scheduling: C. D. Polychronopoulos, D. J. Kuck, IEEE Trans. Comput. 36 (1987) 1425).
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    std::size_t from = next.load(std::memory_order_relaxed);
+    if (from >= count) return;
     const WorkspacePool::Loan workspace(shared_.pool);
-    for (std::size_t k = from; k < to; ++k)
-      made.statuses[first + points[k]] =
-          evaluate_at(xs.subspan(points[k] * n, n), first + points[k], {}, {}, *workspace, bound_only);
+    while (from < count) {
+      const std::size_t to = from + std::max<std::size_t>(1, (count - from) / (2 * workers));
+      if (!next.compare_exchange_weak(from, to, std::memory_order_relaxed)) continue;
+      for (std::size_t k = from; k < to; ++k)
+        made.statuses[first + points[k]] =
+            evaluate_at(xs.subspan(points[k] * n, n), first + points[k], {}, {}, *workspace, bound_only);
+      from = next.load(std::memory_order_relaxed);
+    }
   };
-  if (points.size() <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
-    evaluate_range(0, points.size());
-    return;
-  }
-  // The partitioner splits only as far as threads ask for work, so that tasks stay long against their overhead.
+  if (workers <= 1) return work();
   // Isolated: a thread that waits here must not begin another search in between.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size()),
-                      [&](const auto& range) { evaluate_range(range.begin(), range.end()); });
+    tbb::parallel_for(
+        std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
   });
 }
 
