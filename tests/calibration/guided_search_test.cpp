@@ -180,8 +180,8 @@ TEST_F(Guided, ACostlyTestWithoutAStandInIsRefused) {
               HasSubstr("run m/o: \"guide\" is true, and none of its costly tests has a cheaper one that stands in for "
                         "it; leave \"guide\" out"));
   fakes::set_stand_in("unheard_of");
-  EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the test 'slow' would be guided by a 'unheard_of', and no "
-                                                 "loaded plugin provides that test; load it, or leave \"guide\" out"));
+  EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the test 'slow' would be guided by a 'unheard_of', which no "
+                                                 "loaded plugin provides; leave \"guide\" out, or load that plugin"));
   fakes::set_stand_in("stack");
   EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the tests that would guide it cannot be made; leave "
                                                  "\"guide\" out. The reason: "));

@@ -45,10 +45,10 @@ std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, c
     if (!found) continue;
     const auto on_shelf = catalogue.tests().find(found->type);
     if (on_shelf == catalogue.tests().end())
-      throw InputError(
-          fmt::format("run {}: the test '{}' would be guided by a '{}', and no loaded plugin provides that test; load "
-                      "it, or leave \"guide\" out",
-                      label, entry.name, found->type));
+      throw InputError(fmt::format(
+          "run {}: the test '{}' would be guided by a '{}', which no loaded plugin provides; leave \"guide\" "
+          "out, or load that plugin",
+          label, entry.name, found->type));
     entry.type = found->type;
     entry.options = completed(std::move(found->options), on_shelf->second.factory.options);
     replaced = true;
