@@ -22,6 +22,7 @@
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "execution/shards.hpp"
+#include "execution/thinning.hpp"
 #include "report/report.hpp"
 #include "tunica/error.hpp"
 
