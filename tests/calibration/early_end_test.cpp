@@ -183,11 +183,11 @@ TEST_F(EarlyEndOfEvaluations, PoliciesThatLookAtFailuresSimulateEverything) {
 /// The neighbourhood asks for the lowest neighbour alone.
 TEST_F(EarlyEndOfEvaluations, TheNeighbourhoodSimulatesWhatMayBeTheLowest) {
   const assembly::Assembly assembly = bench_.assemble();
-  const auto costly = search::probe_neighbourhood(assembly, std::vector<double>{3, 1, 0});
+  const auto costly = search::probe_neighbourhood(assembly, std::vector<double>{3, 1, 1e-3});
   Bench cheap;  // the same, and nothing costly
   cheap.add_test("slow", {0, 1, 2}, {3, 4, 6});
   cheap.add_test("quick", {0, 1, 2, 3, 4}, {3, 4, 5, 6, 7});
-  const auto all = search::probe_neighbourhood(cheap.assemble(), std::vector<double>{3, 1, 0});
+  const auto all = search::probe_neighbourhood(cheap.assemble(), std::vector<double>{3, 1, 1e-3});
   ASSERT_TRUE(costly.lowest && all.lowest);
   EXPECT_EQ(costly.lowest->parameters, all.lowest->parameters);
   EXPECT_NEAR(costly.lowest->objective, all.lowest->objective, 1e-15);

@@ -182,7 +182,10 @@ TEST_F(Guided, ACostlyTestWithoutAStandInIsRefused) {
   fakes::set_stand_in("unheard_of");
   EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the test 'slow' would be guided by a 'unheard_of', which no "
                                                  "loaded plugin provides; leave \"guide\" out, or load that plugin"));
-  fakes::set_stand_in("stack");
+  // A stand-in that knows nothing of a parameter that the test frees.
+  fakes::set_stand_in("rough_curve");
+  bench_.experiment.tests.front().parameters["tilt"].min = -0.5;
+  bench_.experiment.tests.front().parameters["bend"].fixed = 0;
   EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the tests that would guide it cannot be made; leave "
                                                  "\"guide\" out. The reason: "));
 }

@@ -89,8 +89,11 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
   if (const Status status = linearise(centre); status.kind() == Status::Kind::failed)
     return {false, fmt::format("the costly tests cannot be simulated where their guides led: {}", status.reason())};
   double radius = first_radius;
-  int round = 1;
+  int round = 1, idle = 0;
   Correction correction;
+  const auto ended = [&](const char* why) {
+    return fmt::format("guided by cheaper tests: after {} rounds {}", round, why);
+  };
   for (; round <= most_rounds && !costly.should_stop(); ++round) {
     if (!correct(centre, radius, correction))
       return {false, "the tests that guide the search cannot be evaluated at the best point"};
@@ -100,9 +103,12 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     const bool promising =
         found.violation < centre.violation ||
         (found.violation == centre.violation && promised > promise * std::abs(centre.objective) + perfect);
-    if (!promising)
-      return {true,
-              fmt::format("guided by cheaper tests: after {} rounds the corrected problem promises no more", round)};
+    if (!promising) {
+      if (++idle == most_idle) return {true, ended("the corrected problem promises no more")};
+      radius /= 4;
+      continue;
+    }
+    idle = 0;
     guide_.box().to_unit(found.parameters, trial.x);
     const Status status = linearise(trial);
     const bool usable = status.kind() != Status::Kind::failed;
@@ -116,8 +122,7 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     } else if (kept > 0.75) {
       radius = std::min(2 * radius, 1.0);
     }
-    if (radius < least_radius)
-      return {true, fmt::format("guided by cheaper tests: after {} rounds the trust region vanished", round)};
+    if (radius < least_radius) return {true, ended("the trust region vanished")};
   }
   if (costly.should_stop()) return {false, "guided by cheaper tests: stopped"};
   return {false, fmt::format("guided by cheaper tests: {} rounds did not suffice", most_rounds)};

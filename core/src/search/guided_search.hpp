@@ -21,9 +21,10 @@ namespace tunica::search {
 ///      |x − x₀| ≤ Δ, and the costly problem is linearised at its best point x₁.
 ///   4. With q = (f(x₀) − f(x₁)) / (f(x₀) − m(x₁)), m the corrected problem: where f(x₁) < f(x₀), x₁ is the new centre;
 ///      Δ is halved where q < 1/4, quartered where the point was no better, and doubled where q > 3/4.
-///   5. Again from 3, until a corrected search promises less than `promise` of the objective (and `perfect`, for
-///   perfect
-///      fits), Δ < `least_radius`, or the costly problem has to stop.
+///   5. Again from 3, until Δ < `least_radius`, the costly problem has to stop, or `most_idle` corrected searches in
+///   turn
+///      promised less than `promise` of the objective (and `perfect`, for perfect fits). Such a search costs no
+///      simulation; the next one has a quarter of Δ, where random numbers find more.
 ///
 /// Values and derivatives of the corrected problem are those of the costly one at every centre, so that the end is a
 /// stationary point of the costly problem: of it alone are all points that count, and the answer. Which of several
@@ -34,9 +35,9 @@ namespace tunica::search {
 class GuidedSearch {
  public:
   static constexpr double first_radius = 0.25, least_radius = 1e-7, promise = 1e-8, perfect = 1e-14;
-  static constexpr int most_rounds = 40;
+  static constexpr int most_rounds = 40, most_idle = 3;
   /// Evaluations of a corrected search: a tenth of the limit of the whole, at least so many.
-  static constexpr std::uint64_t least_evaluations = 2000;
+  static constexpr std::uint64_t least_evaluations = 4000;
 
   /// Minimises with a new object of the chosen optimizer.
   using Minimise = std::function<Optimizer::Outcome(Problem&)>;
