@@ -134,6 +134,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
 /// From the searches to the results.
 void conclude(const execution::Plan& plan, const std::vector<execution::RunResult>& found,
               const plugins::Catalogue& catalogue, const Options& options, Outcome& outcome) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
   outcome.summary = comparison::summarise(plan, found, options.refusals);
   outcome.provenance = comparison::provenance_of(plan);
