@@ -16,7 +16,11 @@ namespace tunica::bench {
 inline const plugins::Catalogue& catalogue() {
   static const plugins::Catalogue loaded = [] {
     plugins::Catalogue catalogue;
+#ifdef TUNICA_AUTOMATIC_DIR  // the models of automatic_gho
+    static_cast<void>(plugins::load_all({{TUNICA_PLUGIN_DIR, TUNICA_AUTOMATIC_DIR}, true}, catalogue));
+#else
     static_cast<void>(plugins::load_all({{TUNICA_PLUGIN_DIR}, true}, catalogue));
+#endif
     return catalogue;
   }();
   return loaded;

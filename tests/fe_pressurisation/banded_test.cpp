@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "levels.hpp"
+
 namespace tunica::testing::banded_test {
 namespace {
 
@@ -65,6 +67,31 @@ TEST_P(BandedMatrix, SolvesAndCountsNegativePivotsLikeEigen) {
   }
 }
 
+/// Every level to rounding, several right sides as each of them alone to the last bit.
+TEST_P(BandedMatrix, SolvesTheSameOnEveryVectorLevelAndForSeveralRightSides) {
+  for_every_level([&] {
+    Pair pair(GetParam(), dominant(GetParam()), 7);
+    const Eigen::LDLT<Eigen::MatrixXd> exact(pair.dense);
+    pair.banded.factorise();
+    std::vector<std::vector<double>> x, alone;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x.emplace_back(GetParam().size, static_cast<double>(k));
+      x[k][GetParam().size / 2] = -1;
+    }
+    alone = x;
+    std::vector<std::span<double>> all(x.begin(), x.end());
+    pair.banded.solve(all);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::VectorXd expected =
+          exact.solve(Eigen::Map<const Eigen::VectorXd>(alone[k].data(), pair.dense.rows()));
+      for (std::size_t i = 0; i < x[k].size(); ++i)
+        EXPECT_NEAR(x[k][i], expected[static_cast<Eigen::Index>(i)], 1e-13 * expected.cwiseAbs().maxCoeff()) << i;
+      pair.banded.solve(alone[k]);
+      EXPECT_EQ(alone[k], x[k]);
+    }
+  });
+}
+
 /// What is asked in between decides, and only for matrices that take a while.
 TEST(Banded, GivesUpWhereTheTimeIsOver) {
   fe::Banded matrix;
@@ -104,9 +131,10 @@ TEST_P(BandedMatrix, FixesARowAndItsColumn) {
     EXPECT_NEAR(y[i], expected[static_cast<Eigen::Index>(i)], 1e-13 * dominant(is));
 }
 
-// Widths as four- and nine-node meshes have them, sizes of every remainder by the block of four, one block alone.
+// Widths as four- and nine-node meshes have them, sizes of every remainder by the panel of eight, one panel alone.
 INSTANTIATE_TEST_SUITE_P(Sizes, BandedMatrix,
-                         ::testing::Values(Case{24, 7}, Case{25, 7}, Case{26, 7}, Case{27, 8}, Case{4, 3}, Case{5, 4},
+                         ::testing::Values(Case{24, 7}, Case{25, 7}, Case{26, 7}, Case{27, 8}, Case{28, 9},
+                                           Case{29, 15}, Case{30, 16}, Case{31, 17}, Case{4, 3}, Case{5, 4}, Case{8, 7},
                                            Case{7, 3}, Case{6, 9}, Case{201, 57}, Case{322, 105}));
 
 TEST(BandedMatrix, AZeroPivotLeavesNumbersThatAreNotFinite) {

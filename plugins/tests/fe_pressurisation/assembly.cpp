@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tunica/detail/vector_level.hpp"
+
 namespace tunica::fe {
 namespace {
 
@@ -180,17 +182,7 @@ class AssemblyOf final : public Assembly {
         }
       }
     if (!tangent) return largest;
-    for (std::size_t m = 0; m < np; ++m)
-      for (std::size_t j = 0; j < dofs; ++j) {
-        const double* __restrict__ const gj = row_.coupling.data() + (m * dofs + j) * n_;
-        double* __restrict__ const scaled = row_.scratch.data();
-        for (std::size_t e = 0; e < n_; ++e) scaled[e] = system.gamma / mass(m, e, row) * gj[e];
-        for (std::size_t i = 0; i <= j; ++i) {
-          const double* __restrict__ const gi = row_.coupling.data() + (m * dofs + i) * n_;
-          double* __restrict__ const k = row_.k.data() + upper(i, j) * n_;
-          for (std::size_t e = 0; e < n_; ++e) k[e] += gi[e] * scaled[e];
-        }
-      }
+    detail::vectorised([&] { condense(row, system.gamma); });
     for (std::size_t b = 0; b < nn; ++b)
       for (std::size_t a = 0; a <= b; ++a)
         for (std::size_t s = 0; s < 2; ++s)
@@ -201,6 +193,23 @@ class AssemblyOf final : public Assembly {
             for (std::size_t e = 0; e < n_; ++e) system.matrix.column(2 * row_.node(a, e, row) + t)[below] += k[e];
           }
     return largest;
+  }
+
+  /// k += γ G M⁻¹ Gᵀ
+  void condense(std::size_t row, double gamma) {
+    for (std::size_t m = 0; m < np; ++m)
+      for (std::size_t j = 0; j < dofs; ++j) {
+        const double* __restrict__ const gj = row_.coupling.data() + (m * dofs + j) * n_;
+        double* __restrict__ const scaled = row_.scratch.data();
+#pragma GCC ivdep
+        for (std::size_t e = 0; e < n_; ++e) scaled[e] = gamma / mass(m, e, row) * gj[e];
+        for (std::size_t i = 0; i <= j; ++i) {
+          const double* __restrict__ const gi = row_.coupling.data() + (m * dofs + i) * n_;
+          double* __restrict__ const k = row_.k.data() + upper(i, j) * n_;
+#pragma GCC ivdep
+          for (std::size_t e = 0; e < n_; ++e) k[e] += gi[e] * scaled[e];
+        }
+      }
   }
 
   /// V = Σ ∫ ½ r² dz along the inner edge: its gradient, and −P times gradient and Hessian.

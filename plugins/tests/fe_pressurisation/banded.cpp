@@ -1,10 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "banded.hpp"
 
-#include <algorithm>
-#include <utility>
+#include "tunica/detail/vector_level.hpp"
 
 namespace tunica::fe {
+namespace {
+
+using Pair = double __attribute__((vector_size(16), may_alias));
+using Four = double __attribute__((vector_size(32), may_alias));
+using Eight = double __attribute__((vector_size(64), may_alias));
+
+template <class Vector>
+constexpr std::size_t lanes = sizeof(Vector) / sizeof(double);
+
+template <class Vector>
+[[gnu::always_inline]] inline Vector& at(double* place) {
+  return *reinterpret_cast<Vector*>(place);
+}
+template <class Vector>
+[[gnu::always_inline]] inline const Vector& at(const double* place) {
+  return *reinterpret_cast<const Vector*>(place);
+}
+
+/// to −= Σ over `count` panels of L W, L being Vectors · lanes rows by 8 columns of a panel, W 8 rows by Columns; the
+/// sums stay in registers.
+template <class Vector, std::size_t Vectors, std::size_t Columns>
+[[gnu::always_inline]] inline void subtract_products(double* to, std::size_t height, const double* L,
+                                                     std::size_t next_L, const double* W, std::size_t count) {
+  constexpr std::size_t panel = 8;
+  Vector sum[Vectors][Columns] = {};
+  for (std::size_t s = 0; s < count; ++s, L += next_L, W += panel * panel) {
+    const double* l = L;
+    const double* w = W;
+    for (std::size_t k = 0; k < panel; ++k, l += height, w += panel) {
+      Vector x[Vectors];
+      for (std::size_t i = 0; i < Vectors; ++i) x[i] = at<Vector>(l + i * lanes<Vector>);
+      for (std::size_t q = 0; q < Columns; ++q)
+        for (std::size_t i = 0; i < Vectors; ++i) sum[i][q] += x[i] * w[q];
+    }
+  }
+  for (std::size_t q = 0; q < Columns; ++q)
+    for (std::size_t i = 0; i < Vectors; ++i) at<Vector>(to + q * height + i * lanes<Vector>) -= sum[i][q];
+}
+
+/// Operations between two questions whether it is late: some hundredths of a second.
+constexpr double between_questions = 5e7;
+
+}  // namespace
+
+void Banded::resize(std::size_t size, std::size_t width) {
+  size_ = size;
+  width_ = width;
+  height_ = (width + panel - 1) / panel * panel + panel;
+  a_.assign(panels() * panel * height_, 0.0);
+  scaled_.resize(height_ * panel);
+}
 
 void Banded::multiply(std::span<const double> x, std::span<double> y) const {
   std::fill(y.begin(), y.end(), 0.0);
@@ -27,91 +77,183 @@ double Banded::row_times(std::size_t i, std::span<const double> x) const {
 
 void Banded::fix(std::size_t i, double diagonal) {
   std::fill_n(column(i), width_ + 1, 0.0);
-  for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) a_[j * stride_ + i - j] = 0;
+  for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) column(j)[i - j] = 0;
   *column(i) = diagonal;
 }
 
-std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) {
-  constexpr double between = 5e7;  // operations between two questions: some hundredths of a second
-  const double cost = 2.0 * block * static_cast<double>(width_ * width_);
-  const auto every = static_cast<std::size_t>(between / cost) + 1;
-  std::size_t negative = 0, asked = 0;
-  // Entries of column j beyond the band are zero up to the stride, so that a block of columns has equal lengths.
-  for (std::size_t j = 0; j < size_; j += block) {
-    if (late && ++asked % every == 0 && late()) return {};
-    double* __restrict__ const l0 = column(j);
-    double* __restrict__ const l1 = column(j + 1);
-    double* __restrict__ const l2 = column(j + 2);
-    double* __restrict__ const l3 = column(j + 3);
-    double d[block];
-    double* const panel[block] = {l0, l1, l2, l3};
-    for (std::size_t q = 0; q < block; ++q) {
-      double* const l = panel[q];
-      for (std::size_t p = 0; p < q; ++p) {
-        const double w = d[p] * panel[p][q - p];
-        const double* const other = panel[p] + (q - p);
-        for (std::size_t i = 0; i <= width_ - (q - p); ++i) l[i] -= w * other[i];
-      }
-      d[q] = j + q < size_ ? l[0] : 1;
-      negative += d[q] < 0;
-      const double inverse = 1 / d[q];
-      for (std::size_t i = 1; i <= width_; ++i) l[i] *= inverse;
+/// Panel `at` becomes that of L and D, its share of the panels before being subtracted already: the block on the
+/// diagonal column by column, then X L₁₁ᵀ D = A below. Returns the number of negative pivots.
+template <class Vector>
+std::size_t Banded::factorise_panel(std::size_t at_panel) {
+  constexpr std::size_t wide = lanes<Vector>, parts = panel / wide;
+  const std::size_t height = height_;
+  double* const a = a_.data() + at_panel * panel * height;
+  std::size_t negative = 0;
+  double inverse[panel];
+  for (std::size_t q = 0; q < panel; ++q) {
+    double* const l = a + q * height;
+    const bool exists = at_panel * panel + q < size_;
+    if (!exists) l[q] = 1;
+    negative += l[q] < 0;
+    inverse[q] = 1 / l[q];
+    const double pivot = l[q];
+    for (std::size_t i = q / wide; i < parts; ++i) at<Vector>(l + i * wide) *= inverse[q];
+    for (std::size_t c = q + 1; c < panel; ++c) {
+      const double w = pivot * l[c];
+      for (std::size_t i = c / wide; i < parts; ++i)
+        at<Vector>(a + c * height + i * wide) -= at<Vector>(l + i * wide) * w;
     }
-    const std::size_t last = std::min(j + block - 1 + width_, size_ - 1);
-    for (std::size_t c = j + block; c <= last; ++c) {
-      const std::size_t at = c - j;
-      const double w0 = d[0] * l0[at], w1 = d[1] * l1[at - 1], w2 = d[2] * l2[at - 2], w3 = d[3] * l3[at - 3];
-      double* __restrict__ const a = column(c);
-      const double* __restrict__ const p0 = l0 + at;
-      const double* __restrict__ const p1 = l1 + at - 1;
-      const double* __restrict__ const p2 = l2 + at - 2;
-      const double* __restrict__ const p3 = l3 + at - 3;
-      const std::size_t m = width_ + block - at;  // rows c … j + 3 + width
-      for (std::size_t i = 0; i < m; ++i) a[i] -= (w0 * p0[i] + w1 * p1[i]) + (w2 * p2[i] + w3 * p3[i]);
+    l[q] = pivot;
+  }
+  for (std::size_t r = panel; r < height; r += wide) {
+    Vector x[panel];
+    for (std::size_t q = 0; q < panel; ++q) x[q] = at<Vector>(a + q * height + r);
+    for (std::size_t q = 0; q < panel; ++q) {
+      for (std::size_t c = q + 1; c < panel; ++c) x[c] -= x[q] * a[q * height + c];
+      at<Vector>(a + q * height + r) = x[q] * inverse[q];
     }
   }
   return negative;
 }
 
-void Banded::solve(std::span<double> x) const {
-  thread_local std::vector<double> padded;
-  padded.assign(size_ + width_ + 2 * block, 0.0);
-  std::copy(x.begin(), x.end(), padded.begin());
-  const std::size_t blocks = (size_ + block - 1) / block;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const double* const l0 = column(block * b);
-    const double* const l1 = column(block * b + 1);
-    const double* const l2 = column(block * b + 2);
-    const double* const l3 = column(block * b + 3);
-    double* __restrict__ const y = padded.data() + block * b;
-    y[1] -= l0[1] * y[0];
-    y[2] -= l0[2] * y[0] + l1[1] * y[1];
-    y[3] -= l0[3] * y[0] + l1[2] * y[1] + l2[1] * y[2];
-    const double y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3];
-    for (std::size_t i = block; i < width_ + block; ++i)
-      y[i] -= (l0[i] * y0 + l1[i - 1] * y1) + (l2[i - 2] * y2 + l3[i - 3] * y3);
+/// Each panel takes from those before at once: L D Lᵀ of a block of rows is summed up in registers.
+template <class Vector, std::size_t Vectors, std::size_t Columns>
+std::optional<std::size_t> Banded::by_blocks(const std::function<bool()>& late) {
+  constexpr std::size_t rows = Vectors * lanes<Vector>;
+  const std::size_t height = height_, each = panel * height, blocks = height / panel, count = panels();
+  const auto every = static_cast<std::size_t>(between_questions / (panel * static_cast<double>(width_ * width_))) + 1;
+  double* const a = a_.data();
+  double* const scaled = scaled_.data();
+  std::size_t negative = 0, asked = 0;
+  for (std::size_t J = 0; J < count; ++J) {
+    if (late && ++asked % every == 0 && late()) return {};
+    const std::size_t first = J + 1 > blocks ? J + 1 - blocks : 0;
+    for (std::size_t K = first; K < J; ++K) {
+      const double* const l = a + K * each + (J - K) * panel;
+      double* const w = scaled + (K - first) * panel * panel;
+      for (std::size_t k = 0; k < panel; ++k)
+        for (std::size_t q = 0; q < panel; ++q) w[k * panel + q] = a[K * each + k * (height + 1)] * l[k * height + q];
+    }
+    for (std::size_t I = J; I < J + blocks; ++I) {
+      const std::size_t from = std::max(first, I + 1 > blocks ? I + 1 - blocks : 0);
+      if (from >= J) break;
+      for (std::size_t r = 0; r < panel; r += rows)
+        for (std::size_t q = 0; q < panel; q += Columns)
+          subtract_products<Vector, Vectors, Columns>(a + J * each + (I - J) * panel + r + q * height, height,
+                                                      a + from * each + (I - from) * panel + r, each - panel,
+                                                      scaled + (from - first) * panel * panel + q, J - from);
+    }
+    negative += factorise_panel<Vector>(J);
   }
-  for (std::size_t j = 0; j < size_; ++j) padded[j] /= *column(j);
-  for (std::size_t b = blocks; b-- > 0;) {
-    const double* const l0 = column(block * b);
-    const double* const l1 = column(block * b + 1);
-    const double* const l2 = column(block * b + 2);
-    const double* const l3 = column(block * b + 3);
-    double* const y = padded.data() + block * b;
-    double s0[2] = {}, s1[2] = {}, s2[2] = {}, s3[2] = {};
-    for (std::size_t i = block; i < width_ + block; i += 2)
-      for (std::size_t k = 0; k < 2; ++k) {  // beyond the band both L and y are zero, or belong to nobody
-        s0[k] += l0[i + k] * y[i + k];
-        s1[k] += l1[i + k - 1] * y[i + k];
-        s2[k] += l2[i + k - 2] * y[i + k];
-        s3[k] += l3[i + k - 3] * y[i + k];
+  return negative;
+}
+
+/// What the columns of a panel take from those after it. With few registers it is faster than by_blocks().
+void Banded::subtract_panel(std::size_t at_panel) {
+  const std::size_t height = height_, first = at_panel * panel;
+  const double* const l = a_.data() + first * height;
+  const std::size_t end = std::min(panels() * panel, first + height);
+  for (std::size_t c = first + panel; c < end; ++c) {
+    const std::size_t below = c - first, m = height - below;
+    double* __restrict__ const to = column(c);
+    for (std::size_t q = 0; q < panel; q += 4) {
+      const double* __restrict__ const p0 = l + q * height + below;
+      const double* __restrict__ const p1 = p0 + height;
+      const double* __restrict__ const p2 = p1 + height;
+      const double* __restrict__ const p3 = p2 + height;
+      const double w0 = l[q * (height + 1)] * *p0, w1 = l[(q + 1) * (height + 1)] * *p1,
+                   w2 = l[(q + 2) * (height + 1)] * *p2, w3 = l[(q + 3) * (height + 1)] * *p3;
+      for (std::size_t i = 0; i < m; ++i) to[i] -= (w0 * p0[i] + w1 * p1[i]) + (w2 * p2[i] + w3 * p3[i]);
+    }
+  }
+}
+
+std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) {
+  using detail::VectorLevel;
+  std::optional<std::size_t> negative;
+  switch (detail::vector_level()) {
+    case VectorLevel::avx512:
+      detail::vectorised([&] { negative = by_blocks<Eight, 1, 8>(late); });
+      return negative;
+    case VectorLevel::avx2:
+      detail::vectorised([&] { negative = by_blocks<Four, 2, 4>(late); });
+      return negative;
+    case VectorLevel::baseline:
+      break;
+  }
+  const auto every = static_cast<std::size_t>(between_questions / (panel * static_cast<double>(width_ * width_))) + 1;
+  negative = 0;
+  for (std::size_t J = 0; J < panels(); ++J) {
+    if (late && (J + 1) % every == 0 && late()) return {};
+    *negative += factorise_panel<Pair>(J);
+    subtract_panel(J);
+  }
+  return negative;
+}
+
+/// Forward, by D, and backward; x has zeros beyond the matrix.
+template <class Vector>
+void Banded::substitute(std::span<double* const> x) const {
+  constexpr std::size_t wide = lanes<Vector>;
+  const std::size_t height = height_, count = panels();
+  for (std::size_t J = 0; J < count; ++J) {
+    const double* const l = a_.data() + J * panel * height;
+    for (double* const whole : x) {
+      double* const y = whole + J * panel;
+      for (std::size_t q = 0; q < panel; ++q)
+        for (std::size_t c = q + 1; c < panel; ++c) y[c] -= l[q * height + c] * y[q];
+      Vector part[panel];
+      for (std::size_t q = 0; q < panel; ++q) part[q] = y[q] - Vector{};
+      for (std::size_t r = panel; r < height; r += wide) {
+        Vector even = at<Vector>(l + r) * part[0], odd = at<Vector>(l + height + r) * part[1];
+        for (std::size_t q = 2; q < panel; q += 2) {
+          even += at<Vector>(l + q * height + r) * part[q];
+          odd += at<Vector>(l + (q + 1) * height + r) * part[q + 1];
+        }
+        at<Vector>(y + r) -= even + odd;
       }
-    y[3] -= s3[0] + s3[1];
-    y[2] -= s2[0] + s2[1] + l2[1] * y[3];
-    y[1] -= s1[0] + s1[1] + l1[1] * y[2] + l1[2] * y[3];
-    y[0] -= s0[0] + s0[1] + l0[1] * y[1] + l0[2] * y[2] + l0[3] * y[3];
+    }
   }
-  std::copy_n(padded.data(), size_, x.begin());
+  for (std::size_t J = count; J-- > 0;) {
+    const double* const l = a_.data() + J * panel * height;
+    for (double* const whole : x) {
+      double* const y = whole + J * panel;
+      Vector sum[panel] = {};
+      for (std::size_t r = panel; r < height; r += wide)
+        for (std::size_t q = 0; q < panel; ++q) sum[q] += at<Vector>(l + q * height + r) * at<Vector>(y + r);
+      for (std::size_t q = panel; q-- > 0;) {
+        double total = 0;
+        for (std::size_t e = 0; e < wide; ++e) total += sum[q][e];
+        for (std::size_t c = q + 1; c < panel; ++c) total += l[q * height + c] * y[c];
+        y[q] = y[q] / l[q * (height + 1)] - total;
+      }
+    }
+  }
+}
+
+void Banded::solve(std::span<const std::span<double>> x) const {
+  thread_local std::vector<double, Aligned<double>> padded;
+  thread_local std::vector<double*> places;
+  const std::size_t each = panels() * panel + height_;
+  padded.assign(each * x.size(), 0.0);
+  places.clear();
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    places.push_back(padded.data() + k * each);
+    std::copy(x[k].begin(), x[k].end(), places[k]);
+  }
+  const std::span<double* const> all(places);
+  using detail::VectorLevel;
+  switch (detail::vector_level()) {
+    case VectorLevel::avx512:
+      detail::vectorised([&] { substitute<Eight>(all); });
+      break;
+    case VectorLevel::avx2:
+      detail::vectorised([&] { substitute<Four>(all); });
+      break;
+    case VectorLevel::baseline:
+      substitute<Pair>(all);
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) std::copy_n(places[k], x[k].size(), x[k].begin());
 }
 
 }  // namespace tunica::fe

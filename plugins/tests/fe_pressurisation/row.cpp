@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tunica/detail/vector_level.hpp"
+
 namespace tunica::fe {
 
 template <std::size_t Order>
@@ -48,6 +50,7 @@ void Row<Order>::interpolate(std::size_t g, std::span<const double> nodes, std::
     by_z[a] = element_.by_eta[g][a] * to_z;
   }
   const std::size_t n = n_;
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n; ++e) {
     double r_R = 0, r_Z = 0, z_R = 0, z_Z = 0, t = 0;
     for (std::size_t a = 0; a < nn; ++a) {
@@ -70,13 +73,21 @@ template <std::size_t Order>
 void Row<Order>::take(const State& state, std::size_t row) {
   row_ = row;
   for (std::size_t a = 0; a < nn; ++a)
+#pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) {
       const std::size_t dof = 2 * node(a, e, row);
       x_[2 * a * n_ + e] = state.x[dof];
       x_[(2 * a + 1) * n_ + e] = state.x[dof + 1];
     }
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e)
     for (std::size_t m = 0; m < np; ++m) q_[m * n_ + e] = state.q[(row * n_ + e) * np + m];
+  detail::vectorised([&] { deform(); });
+}
+
+/// f and C at every point of the lanes.
+template <std::size_t Order>
+void Row<Order>::deform() {
   const std::size_t all = ng * n_;
   for (std::size_t g = 0; g < ng; ++g) {
     interpolate(g, x_, f);
@@ -86,6 +97,7 @@ void Row<Order>::take(const State& state, std::size_t row) {
     const double* __restrict__ const f3 = f2 + all;
     const double* __restrict__ const f4 = f3 + all;
     double* __restrict__ const to = C.data() + g * n_;
+#pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) {
       to[e] = f4[e] * f4[e];
       to[all + e] = f1[e] * f1[e] + f3[e] * f3[e];
@@ -111,18 +123,28 @@ void Row<Order>::stress(std::size_t g, bool sees_shear) {
   double* __restrict__ const p = p_.data();
   const double weight = area(g);
   const double* __restrict__ const R = radius_.data() + g * n_;
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
     const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
-    const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e], ws = sees_shear ? w[3 * all + e] : 0;
+    const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e];
     double q = q_[e];
     if constexpr (np == 3) q += element_.xi[g] * q_[n_ + e] + element_.eta[g] * q_[2 * n_ + e];
     const double dV = weight * R[e], qf = q * f4;
     // ∂C by f, and J = f4 (f0 f3 − f1 f2)
-    p[e] = dV * (wr * f0 + ws * f1 - qf * f3);
-    p[n_ + e] = dV * (wz * f1 + ws * f0 + qf * f2);
-    p[2 * n_ + e] = dV * (wr * f2 + ws * f3 + qf * f1);
-    p[3 * n_ + e] = dV * (wz * f3 + ws * f2 - qf * f0);
+    p[e] = dV * (wr * f0 - qf * f3);
+    p[n_ + e] = dV * (wz * f1 + qf * f2);
+    p[2 * n_ + e] = dV * (wr * f2 + qf * f1);
+    p[3 * n_ + e] = dV * (wz * f3 - qf * f0);
     p[4 * n_ + e] = dV * (wt * f4 - q * (f0 * f3 - f1 * f2));
+  }
+  if (!sees_shear) return;
+#pragma GCC ivdep
+  for (std::size_t e = 0; e < n_; ++e) {
+    const double ws = weight * R[e] * w[3 * all + e];
+    p[e] += ws * at[all + e];
+    p[n_ + e] += ws * at[e];
+    p[2 * n_ + e] += ws * at[3 * all + e];
+    p[3 * n_ + e] += ws * at[2 * all + e];
   }
 }
 
@@ -136,7 +158,8 @@ void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
   double* __restrict__ const a = a_.data();
   const double weight = area(g);
   const double* __restrict__ const R = radius_.data() + g * n_;
-  double largest = 0, sum = 0;
+  double* __restrict__ const modulus = scratch.data();
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
     const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
     const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e];
@@ -161,9 +184,13 @@ void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
     a[upper(3, 3) * n_ + e] = dV * (zz * f3 * f3 + wz);
     a[upper(3, 4) * n_ + e] = dV * (tz * f3 * f4 - q * f0);
     a[upper(4, 4) * n_ + e] = dV * (tt * f4 * f4 + wt);
-    const double modulus = tt * f4 * f4 + zz * f3 * f3 + rr * f0 * f0 + std::abs(wt);
-    largest = std::max(largest, modulus);
-    sum += modulus;
+    modulus[e] = tt * f4 * f4 + zz * f3 * f3 + rr * f0 * f0 + std::abs(wt);
+  }
+  double largest = 0, sum = 0;
+#pragma GCC ivdep
+  for (std::size_t e = 0; e < n_; ++e) {
+    largest = std::max(largest, modulus[e]);
+    sum += modulus[e];
   }
   stiffness = std::isfinite(sum) ? std::max(stiffness, largest) : sum;
   if (sees_shear) add_shear(g);
@@ -173,6 +200,7 @@ void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
 template <std::size_t Order>
 void Row<Order>::add_shear(std::size_t g) {
   const std::size_t all = ng * n_;
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
     const auto at = [&](std::size_t i) { return f[i * all + g * n_ + e]; };
     const auto h = [&](std::size_t i) { return second[i * all + g * n_ + e]; };
@@ -198,6 +226,7 @@ void Row<Order>::add_force(std::size_t g) {
     const double* __restrict__ const t = over_radius_.data() + (g * nn + a) * n_;
     double* __restrict__ const r = force.data() + 2 * a * n_;
     double* __restrict__ const z = r + n_;
+#pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) {
       r[e] += by_r * p[e] + by_z * p[n_ + e] + t[e] * p[4 * n_ + e];
       z[e] += by_r * p[2 * n_ + e] + by_z * p[3 * n_ + e];
@@ -223,6 +252,7 @@ void Row<Order>::add_stiffness(std::size_t g) {
       const double* __restrict__ const a4 = A + upper(i, 4) * n;
       double* __restrict__ const tr = T + i * n;
       double* __restrict__ const tz = T + (5 + i) * n;
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n; ++e) {
         tr[e] = a0[e] * br + a1[e] * bz + a4[e] * bt[e];
         tz[e] = a2[e] * br + a3[e] * bz;
@@ -235,12 +265,14 @@ void Row<Order>::add_stiffness(std::size_t g) {
       double* __restrict__ const zr = k.data() + upper(2 * a + 1, 2 * b) * n;
       double* __restrict__ const rz = k.data() + upper(2 * a, 2 * b + 1) * n;
       double* __restrict__ const zz = k.data() + upper(2 * a + 1, 2 * b + 1) * n;
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n; ++e) {
         rr[e] += ar * T[e] + az * T[n + e] + at[e] * T[4 * n + e];
         rz[e] += ar * T[5 * n + e] + az * T[6 * n + e] + at[e] * T[9 * n + e];
         zz[e] += ar * T[7 * n + e] + az * T[8 * n + e];
       }
       if (a < b)
+#pragma GCC ivdep
         for (std::size_t e = 0; e < n; ++e) zr[e] += ar * T[2 * n + e] + az * T[3 * n + e];
     }
   }
@@ -254,6 +286,7 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
   const double* __restrict__ const at = f.data() + g * n_;
   const double* __restrict__ const R = radius_.data() + g * n_;
   double* __restrict__ const j = scratch.data();  // ∂J/∂f · dV, and (J − 1) dV
+#pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
     const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
     const double dV = weight * R[e], plane = f0 * f3 - f1 * f2;
@@ -267,12 +300,14 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
   for (std::size_t m = 0; m < np; ++m) {
     const double mode = element_.mode[g][m];
     double* __restrict__ const mean = c.data() + m * n_;
+#pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) mean[e] += mode * j[5 * n_ + e];
     for (std::size_t a = 0; a < (tangent ? nn : 0); ++a) {
       const double by_r = mode * element_.by_xi[g][a] * to_r, by_z = mode * element_.by_eta[g][a] * to_z;
       const double* __restrict__ const t = over_radius_.data() + (g * nn + a) * n_;
       double* __restrict__ const r = coupling.data() + (m * dofs + 2 * a) * n_;
       double* __restrict__ const z = r + n_;
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n_; ++e) {
         r[e] += by_r * j[e] + by_z * j[n_ + e] + mode * t[e] * j[4 * n_ + e];
         z[e] += by_r * j[2 * n_ + e] + by_z * j[3 * n_ + e];
@@ -283,6 +318,11 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
 
 template <std::size_t Order>
 void Row<Order>::integrate(bool sees_shear, bool tangent, double& stiffness) {
+  detail::vectorised([&] { integrate_lanes(sees_shear, tangent, stiffness); });
+}
+
+template <std::size_t Order>
+void Row<Order>::integrate_lanes(bool sees_shear, bool tangent, double& stiffness) {
   std::fill(force.begin(), force.end(), 0.0);
   std::fill(c.begin(), c.end(), 0.0);
   if (tangent) {
@@ -310,16 +350,18 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
   const std::size_t components = material.sees_shear() ? 4 : 3;
   z_.resize(dofs * n_);
   phi_.resize(5 * all);
+  thickened_.resize(5 * all);
   std::fill(by.begin(), by.end(), 0.0);
   double unused = 0;
   for (std::size_t d = 0; d < wanted; ++d) {
     for (std::size_t a = 0; a < nn; ++a)
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n_; ++e) {
         const std::size_t dof = 2 * node(a, e, row_);
         z_[2 * a * n_ + e] = directions[d][dof];
         z_[(2 * a + 1) * n_ + e] = directions[d][dof + 1];
       }
-    for (std::size_t g = 0; g < ng; ++g) {
+    const auto integrate_along = [&](std::size_t g) {
       interpolate(g, z_, phi_);
       if (d == 0) thicken(g, material.sees_shear(), unused);
       const double* __restrict__ const at = f.data() + g * n_;
@@ -329,6 +371,7 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
       double* __restrict__ const strain = scratch.data();
       double* __restrict__ const thickness = by.data() + (count * wanted + d) * n_;
       const double weight = area(g);
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n_; ++e) {
         const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
         const double h0 = phi[e], h1 = phi[all + e], h2 = phi[2 * all + e], h3 = phi[3 * all + e],
@@ -344,10 +387,14 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
         for (std::size_t i = 0; i < components; ++i) {
           const double* __restrict__ const w = first_dp.data() + (4 * j + i) * all + g * n_;
           const double* __restrict__ const along = strain + i * n_;
+#pragma GCC ivdep
           for (std::size_t e = 0; e < n_; ++e) sum[e] += w[e] * along[e];
         }
       }
-    }
+    };
+    detail::vectorised([&] {
+      for (std::size_t g = 0; g < ng; ++g) integrate_along(g);
+    });
   }
 }
 
@@ -355,7 +402,6 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
 template <std::size_t Order>
 void Row<Order>::thicken(std::size_t g, bool sees_shear, double& unused) {
   const std::size_t all = ng * n_;
-  thickened_.resize(5 * all);
   stress(g, sees_shear);
   moduli(g, sees_shear, unused);
   const double* __restrict__ const at = f.data() + g * n_;
@@ -366,9 +412,12 @@ void Row<Order>::thicken(std::size_t g, bool sees_shear, double& unused) {
     const double* __restrict__ const a4 = a_.data() + upper(i, 4) * n_;
     const double* __restrict__ const p = p_.data() + i * n_;
     double* __restrict__ const to = thickened_.data() + (5 * g + i) * n_;
+    // ρ, or 1 + ρ, or 1 times p
+    const double constant = i == 4 || i % 2 == 1 ? 1 : 0, linear = i == 4 ? 0 : 1;
+#pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) {
       const double rho = 1 - mesh_.outer / R[e];
-      const double kept = i == 4 ? 1 : i % 2 == 0 ? rho : 1 + rho;
+      const double kept = constant + linear * rho;
       to[e] = kept * p[e] - (a0[e] * at[e] + a2[e] * at[2 * all + e] + a4[e] * rho * at[4 * all + e]);
     }
   }
@@ -380,6 +429,7 @@ void Row<Order>::dilate(std::span<double> by) {
   std::fill(by.begin(), by.end(), 0.0);
   for (std::size_t g = 0; g < ng; ++g)
     for (std::size_t m = 0; m < np; ++m)
+#pragma GCC ivdep
       for (std::size_t e = 0; e < n_; ++e)
         by[m * n_ + e] -= area(g) * (2 * radius_[g * n_ + e] - mesh_.outer) * element_.mode[g][m];
 }

@@ -64,6 +64,8 @@ class Row {
   std::vector<double> scratch;                        ///< 10 lanes, of no meaning between calls
 
  private:
+  void deform();
+  void integrate_lanes(bool sees_shear, bool tangent, double& stiffness);
   void interpolate(std::size_t g, std::span<const double> nodes, std::span<double> f) const;
   void stress(std::size_t g, bool sees_shear);
   void moduli(std::size_t g, bool sees_shear, double& stiffness);

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pressurised tube by finite elements (gho with set S, clamped, axial stretch 1.2, 35 pressures from 0 to 170 mmHg)
+// by mesh: values alone, with all sensitivities of one and of three observables; and the band factor beside the
+// operations that it needs and beside a library's.
+#include <array>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+#include <Eigen/SparseCholesky>
+#include <fmt/format.h>
+
+#include "rows.hpp"
+#include "simulation.hpp"
+#include "tools.hpp"
+
+namespace tunica::bench {
+namespace {
+
+struct Mesh {
+  std::size_t order, radial, axial;
+
+  [[nodiscard]] std::string name() const {
+    return fmt::format("fe/{}/{}x{}/", order == 1 ? "four_node" : "nine_node", radial, axial);
+  }
+};
+constexpr std::array<Mesh, 10> meshes{{{1, 10, 40},
+                                       {1, 25, 50},
+                                       {1, 25, 100},
+                                       {1, 50, 200},
+                                       {1, 100, 400},
+                                       {2, 5, 20},
+                                       {2, 12, 25},
+                                       {2, 10, 40},
+                                       {2, 25, 100},
+                                       {2, 50, 200}}};
+
+/// Model, loads and a simulation that lives on, as in a calibration: parameters walk by ±1 % from run to run.
+struct Tube {
+  std::unique_ptr<Model> model = make_model("gho");
+  std::vector<double> parameters = centre;  ///< set S of Canales et al. (2023)
+  std::unique_ptr<fe::Material> material;
+  std::vector<fe::Load> loads;
+  fe::Simulation simulation;
+  std::vector<fe::Sample> samples;
+  std::size_t step = 0;
+
+  inline static const std::vector<double> centre{18.668, 0.1367, 24.905, 0.2912, 46.44};
+
+  explicit Tube(const Mesh& mesh)
+      : material(std::make_unique<fe::Material>(*model, parameters)),
+        simulation({.order = mesh.order,
+                    .radial = mesh.radial,
+                    .axial = mesh.axial,
+                    .inner = 3.71,
+                    .outer = 5.77,
+                    .length = 14}) {
+    for (int k = 0; k < 35; ++k) loads.push_back({1.2, 22.66474 * k / 34});
+  }
+  void run(const fe::Wanted& wanted, bool walks) {
+    ++step;
+    for (std::size_t j = 0; walks && j < parameters.size(); ++j)
+      parameters[j] = centre[j] * (1 + 0.02 * (static_cast<double>((step * (j + 3)) % 97) / 97 - 0.5));
+    material = std::make_unique<fe::Material>(*model, parameters);
+    std::size_t failed_at = 0;
+    check(simulation.run(*material, loads, wanted, samples, failed_at));
+  }
+};
+
+/// The outer diameter stretches of the reference, 24 x 50 nine-node elements.
+std::vector<double> reference() {
+  std::ifstream in(TUNICA_SOURCE_DIR "/examples/cn_pressurisation/s_tube.csv");
+  std::vector<double> values;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty() && (std::isdigit(static_cast<unsigned char>(line[0])) != 0))
+      values.push_back(std::strtod(line.c_str() + line.find(',') + 1, nullptr));
+  return values;
+}
+
+/// Multiply–adds of the program's own factors and solutions, at the rate of this machine: what is left if elements,
+/// iterations that decide nothing and memory cost nothing.
+std::vector<Floor> operations(double count, const std::string& what) {
+  std::vector<Floor> floors;
+  for (const floors::Kernels* const kernels : levels()) {
+    const auto to = std::make_shared<std::vector<double>>(128, 1.),
+               from = std::make_shared<std::vector<double>>(512, 1e-9);
+    // A call does a fixed part of the operations, so that a sample of the floor stays short.
+    constexpr std::size_t repeats = 2000;
+    floors.push_back({what,
+                      kernels->level,
+                      {[=] { kernels->multiply_add(to->data(), from->data(), repeats); }, 512. * repeats / count}});
+  }
+  return floors;
+}
+
+Prepared curve(const Mesh& mesh, const fe::Wanted& wanted) {
+  const auto tube = std::make_shared<Tube>(mesh);
+  tube->run(wanted, false);
+  Prepared row;
+  double off = 0;
+  const std::vector<double> expected = reference();
+  for (std::size_t k = 0; k < expected.size() && k < tube->samples.size(); ++k)
+    off = std::max(off, std::abs(tube->samples[k].value[0] / 5.77 - expected[k]));
+  const fe::Effort effort = tube->simulation.solver().effort();
+  const fe::Banded& matrix = tube->simulation.solver().system().matrix;
+  const double n = static_cast<double>(matrix.size()), w = static_cast<double>(matrix.width());
+  row.facts = {{"unknowns", n},
+               {"half_band", w},
+               {"load_points", static_cast<double>(tube->simulation.solutions())},
+               {"factors", static_cast<double>(effort.factorisations)},
+               {"iterations", static_cast<double>(effort.iterations)},
+               {"off_reference", off}};
+  row.work = {[tube, wanted] { tube->run(wanted, true); }};
+  row.floors = operations(
+      static_cast<double>(effort.factorisations) * n * w * w / 2 + static_cast<double>(effort.iterations) * 2 * n * w,
+      "multiply-adds of its factors and solutions");
+  return row;
+}
+
+/// The matrix of the last load, its prescribed rows taken out.
+fe::Banded matrix_of(Tube& tube) {
+  tube.run({}, false);
+  fe::Solver& solver = tube.simulation.solver();
+  fe::Banded matrix = solver.system().matrix;
+  const fe::Mesh& mesh = solver.mesh();
+  const std::size_t end = mesh.planes() - 1;
+  const double diagonal = *matrix.column(2 * mesh.node(mesh.across() / 2, end / 2));
+  for (std::size_t i = 0; i < mesh.across(); ++i)
+    for (const std::size_t held : {2 * mesh.node(i, 0) + 1, 2 * mesh.node(i, end) + 1, 2 * mesh.node(i, end)})
+      matrix.fix(held, diagonal);
+  return matrix;
+}
+
+/// The band factor and one solution. The library's factor is timed as a floor of its own kind: a peer.
+Prepared factor(const Mesh& mesh) {
+  Tube tube(mesh);
+  struct FactorMemory {
+    fe::Banded matrix, factor;
+    std::vector<double> x;
+    Eigen::SparseMatrix<double> sparse;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> library;
+  };
+  const auto memory = std::make_shared<FactorMemory>();
+  memory->matrix = matrix_of(tube);
+  const fe::Banded& a = memory->matrix;
+  memory->x.resize(a.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < a.size(); ++j)
+    for (std::size_t i = 0; i <= a.width() && j + i < a.size(); ++i)
+      if (a.column(j)[i] != 0) entries.emplace_back(static_cast<int>(j + i), static_cast<int>(j), a.column(j)[i]);
+  memory->sparse.resize(static_cast<int>(a.size()), static_cast<int>(a.size()));
+  memory->sparse.setFromTriplets(entries.begin(), entries.end());
+  memory->library.analyzePattern(memory->sparse);
+
+  const double n = static_cast<double>(a.size()), w = static_cast<double>(a.width());
+  Prepared row;
+  row.work = {[memory] {
+    memory->factor = memory->matrix;
+    static_cast<void>(memory->factor.factorise());
+    std::fill(memory->x.begin(), memory->x.end(), 1.);
+    memory->factor.solve(memory->x);
+  }};
+  row.work.call();
+  const std::vector<double> own = memory->x;
+  row.floors = operations(n * w * w / 2 + 2 * n * w, "multiply-adds of the band factor and a solution");
+  row.peers = {{"Eigen SimplicialLDLT (AMD), factor and solution", "", {[memory] {
+                  memory->library.factorize(memory->sparse);
+                  Eigen::Map<Eigen::VectorXd>(memory->x.data(), static_cast<Eigen::Index>(memory->x.size())) =
+                      memory->library.solve(Eigen::VectorXd::Ones(memory->sparse.rows()));
+                }}}};
+  row.peers.front().work.call();
+  row.facts = {{"unknowns", n}, {"half_band", w}, {"peer_differs", difference(own, memory->x)}};
+  return row;
+}
+
+}  // namespace
+
+std::vector<Row> fe_rows() {
+  std::vector<Row> rows;
+  for (const Mesh& mesh : meshes) {
+    const std::string what =
+        fmt::format("{}-node {}x{}, 35 pressures", mesh.order == 1 ? "four" : "nine", mesh.radial, mesh.axial);
+    const std::size_t nodes = (mesh.order * mesh.radial + 1) * (mesh.order * mesh.axial + 1);
+    const auto add = [&](const char* name, const std::string& words, const fe::Wanted& wanted) {
+      rows.push_back({.name = mesh.name() + name,
+                      .what = what + words,
+                      .unit = "curve",
+                      .by = "nodes",
+                      .sizes = {nodes},
+                      .make = [=](std::size_t) { return curve(mesh, wanted); },
+                      .shows_memory = true});
+    };
+    add("values", "", {});
+    add("one_channel", ", all sensitivities of one observable", {true, false, false});
+    add("three_channels", ", all sensitivities of three observables", {true, true, true});
+  }
+  for (const Mesh& mesh : {meshes[1], meshes[6]})
+    rows.push_back({.name = mesh.name() + "factor",
+                    .what = "band factor and a solution",
+                    .unit = "factor",
+                    .by = "",
+                    .sizes = {1},
+                    .make = [=](std::size_t) { return factor(mesh); }});
+  return rows;
+}
+
+}  // namespace tunica::bench
