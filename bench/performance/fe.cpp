@@ -10,6 +10,7 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
+#include "energies.hpp"
 #include "rows.hpp"
 #include "simulation.hpp"
 #include "tools.hpp"
@@ -59,8 +60,8 @@ struct Tube {
   }
   void run(const fe::Wanted& wanted, bool walks) {
     ++step;
-    for (std::size_t j = 0; walks && j < parameters.size(); ++j)
-      parameters[j] = centre[j] * (1 + 0.02 * (static_cast<double>((step * (j + 3)) % 97) / 97 - 0.5));
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      parameters[j] = centre[j] * (1 + (walks ? 0.02 * (static_cast<double>((step * (j + 3)) % 97) / 97 - 0.5) : 0));
     material = std::make_unique<fe::Material>(*model, parameters);
     std::size_t failed_at = 0;
     check(simulation.run(*material, loads, wanted, samples, failed_at));
@@ -93,7 +94,63 @@ std::vector<Floor> operations(double count, const std::string& what) {
   return floors;
 }
 
-Prepared curve(const Mesh& mesh, const fe::Wanted& wanted) {
+/// Mesh and state of a solved tube, as the fused kernel of four-node elements reads them.
+struct Elements {
+  fe::Mesh mesh;
+  fe::State state;
+  std::vector<double> force, matrix;
+  double gamma;
+
+  explicit Elements(fe::Simulation& simulation)
+      : mesh(simulation.solver().mesh()), state(simulation.last()), gamma(simulation.solver().system().gamma) {
+    force.resize(2 * mesh.nodes());
+    matrix.resize(force.size() * (2 * (mesh.radial + 2) + 2));
+  }
+  [[nodiscard]] floors::Elements floor(bool tangent) {
+    return {mesh.radial,    mesh.axial,     mesh.inner, mesh.outer,   mesh.layer.data(),
+            state.x.data(), state.q.data(), gamma,      force.data(), tangent ? matrix.data() : nullptr};
+  }
+  /// How far force and matrix are from those of the program at the same state, of the largest.
+  double deviation(const fe::Material& material, fe::Solver& solver, const floors::Energy& energy) {
+    fe::System system;
+    system.gamma = gamma;
+    check(solver.assembly().assemble(material, state, 0, true, system));
+    floors::baseline().elements(energy, floor(true));
+    const std::size_t stride = 2 * (mesh.radial + 2) + 2;
+    std::vector<double> own, kernel;
+    for (std::size_t j = 0; j < force.size(); ++j)
+      for (std::size_t i = 0; i < stride && j + i < force.size(); ++i) {
+        own.push_back(system.matrix.column(j)[i]);
+        kernel.push_back(matrix[j * stride + i]);
+      }
+    return std::max(difference(system.force, force), difference(own, kernel));
+  }
+};
+
+/// The program's own numbers of factors and iterations, by fused elements and multiply–adds at the rate of the machine.
+std::vector<Floor> newton(const std::shared_ptr<Elements>& elements, const floors::Energy& energy,
+                          const fe::Effort& effort, double unknowns, double half_band) {
+  std::vector<Floor> floors;
+  const auto to = std::make_shared<std::vector<double>>(128, 1.),
+             from = std::make_shared<std::vector<double>>(512, 1e-9);
+  const auto multiply_adds =
+      static_cast<std::size_t>((static_cast<double>(effort.factorisations) * unknowns * half_band * half_band / 2 +
+                                static_cast<double>(effort.iterations) * 2 * unknowns * half_band) /
+                               512);
+  for (const floors::Kernels* const kernels : levels())
+    floors.push_back({"its factors and iterations by fused elements, and multiply-adds", kernels->level, {[=] {
+                        for (std::size_t k = 0; k < effort.factorisations; ++k)
+                          kernels->elements(energy, elements->floor(true));
+                        for (std::size_t k = effort.factorisations; k < effort.iterations; ++k)
+                          kernels->elements(energy, elements->floor(false));
+                        kernels->multiply_add(to->data(), from->data(), multiply_adds);
+                      }}});
+  return floors;
+}
+
+enum class Start { parameters_before, nothing };
+
+Prepared curve(const Mesh& mesh, const fe::Wanted& wanted, Start start) {
   const auto tube = std::make_shared<Tube>(mesh);
   tube->run(wanted, false);
   Prepared row;
@@ -101,6 +158,8 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted) {
   const std::vector<double> expected = reference();
   for (std::size_t k = 0; k < expected.size() && k < tube->samples.size(); ++k)
     off = std::max(off, std::abs(tube->samples[k].value[0] / 5.77 - expected[k]));
+  if (start == Start::parameters_before)  // counts of a run that may use the one before
+    for (int k = 0; k < 3; ++k) tube->run(wanted, true);
   const fe::Effort effort = tube->simulation.solver().effort();
   const fe::Banded& matrix = tube->simulation.solver().system().matrix;
   const double n = static_cast<double>(matrix.size()), w = static_cast<double>(matrix.width());
@@ -110,10 +169,21 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted) {
                {"factors", static_cast<double>(effort.factorisations)},
                {"iterations", static_cast<double>(effort.iterations)},
                {"off_reference", off}};
-  row.work = {[tube, wanted] { tube->run(wanted, true); }};
-  row.floors = operations(
-      static_cast<double>(effort.factorisations) * n * w * w / 2 + static_cast<double>(effort.iterations) * 2 * n * w,
-      "multiply-adds of its factors and solutions");
+  if (start == Start::nothing)
+    row.work = {[mesh, wanted] { Tube(mesh).run(wanted, false); }};
+  else
+    row.work = {[tube, wanted] { tube->run(wanted, true); }};
+  if (mesh.order == 1) {
+    const floors::Energy energy = *fibre_energy("gho", Tube::centre);
+    tube->run({}, false);
+    const auto elements = std::make_shared<Elements>(tube->simulation);
+    row.facts.emplace_back("floor_differs", elements->deviation(*tube->material, tube->simulation.solver(), energy));
+    row.floors = newton(elements, energy, effort, n, w);
+  } else {
+    row.floors = operations(
+        static_cast<double>(effort.factorisations) * n * w * w / 2 + static_cast<double>(effort.iterations) * 2 * n * w,
+        "multiply-adds of its factors and solutions");
+  }
   return row;
 }
 
@@ -181,17 +251,20 @@ std::vector<Row> fe_rows() {
     const std::string what =
         fmt::format("{}-node {}x{}, 35 pressures", mesh.order == 1 ? "four" : "nine", mesh.radial, mesh.axial);
     const std::size_t nodes = (mesh.order * mesh.radial + 1) * (mesh.order * mesh.axial + 1);
-    const auto add = [&](const char* name, const std::string& words, const fe::Wanted& wanted) {
+    const auto add = [&](const char* name, const std::string& words, const fe::Wanted& wanted,
+                         Start start = Start::parameters_before) {
       rows.push_back({.name = mesh.name() + name,
                       .what = what + words,
                       .unit = "curve",
                       .by = "nodes",
                       .sizes = {nodes},
-                      .make = [=](std::size_t) { return curve(mesh, wanted); },
+                      .make = [=](std::size_t) { return curve(mesh, wanted, start); },
                       .shows_memory = true});
     };
     add("values", "", {});
     add("one_channel", ", all sensitivities of one observable", {true, false, false});
+    if (mesh.radial == 25 || mesh.radial == 12)
+      add("from_nothing", ", nothing kept from a run before", {}, Start::nothing);
     add("three_channels", ", all sensitivities of three observables", {true, true, true});
   }
   for (const Mesh& mesh : {meshes[1], meshes[6]})

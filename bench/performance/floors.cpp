@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once a level with TUNICA_FLOOR_LEVEL = baseline, avx2 or avx512 and the flags of that level: see CMakeLists.
-#include "floors.hpp"
-
-// As <math.h> of glibc declares it, without what else comes with that header: libmvec has it for vectors.
-extern "C" __attribute__((simd("notinbranch"))) double exp(double) noexcept;
+#include "floor_elements.hpp"
 
 namespace tunica::bench::floors {
 namespace {
 
 #define TUNICA_TEXT_(word) #word
 #define TUNICA_TEXT(word) TUNICA_TEXT_(word)
-
-inline double exponential(double x) { return ::exp(x); }
 
 /// g = ∂W/∂c without the matrix: f e_a, with f = 2 k1 E exp(k2 E²) and its slope by E.
 struct Fibre {
@@ -189,30 +184,30 @@ double sheet(const Energy& w, const Sheet& s) {
 /// Lanes across pressures, a block of them at a time, so that no pressure waits for another one.
 template <bool wants_jacobian, int steps>
 double tube_of(const Energy& energy, const Tube& t) {
-  constexpr std::size_t lanes = 8;
+  constexpr std::size_t block = 8;
   const Energy w = energy;
   const std::size_t n = t.n;
   const double cz = t.cz, lz = __builtin_sqrt(cz), wall = t.outer * t.outer - t.inner * t.inner;
   const double span = __builtin_log(t.outer / t.inner);
-  alignas(64) double y[lanes], wanted[lanes], ri2[lanes], p[lanes], slope[lanes], by[5][lanes];
+  alignas(64) double y[block], wanted[block], ri2[block], p[block], slope[block], by[5][block];
   double sum = 0;
-  for (std::size_t first = 0; first < n; first += lanes) {
+  for (std::size_t first = 0; first < n; first += block) {
     const auto at = [&](std::size_t l) { return first + l < n ? first + l : n - 1; };
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < block; ++l) {
       y[l] = t.y[at(l)];
       wanted[l] = t.pressure[at(l)];
       for (int j = 0; j < 5; ++j) by[j][l] = 0;
     }
     for (int step = 0; step < steps; ++step) {
 #pragma omp simd
-      for (std::size_t l = 0; l < lanes; ++l) {
+      for (std::size_t l = 0; l < block; ++l) {
         ri2[l] = exponential(2 * y[l]);
         p[l] = slope[l] = 0;
       }
       for (std::size_t k = 0; k < t.sections; ++k) {
         const double R2 = t.node[k], gained = (R2 - t.inner * t.inner) / lz, weight = t.weight[k] * span * R2 / lz;
 #pragma omp simd
-        for (std::size_t l = 0; l < lanes; ++l) {
+        for (std::size_t l = 0; l < block; ++l) {
           const double r2 = ri2[l] + gained, ct = r2 / R2, cr = 1 / (ct * cz), wt = weight / r2;
           const Fibre x = fibre(w, ct, cz, cr);
           const double turn = x.E > 0 ? x.slope : 0, gt = w.mu / 2 + x.f * w.e[0], gr = w.mu / 2 + x.f * w.e[2],
@@ -235,9 +230,9 @@ double tube_of(const Energy& energy, const Tube& t) {
           }
         }
       }
-      for (std::size_t l = 0; l < lanes; ++l) y[l] -= (p[l] - wanted[l]) / slope[l];
+      for (std::size_t l = 0; l < block; ++l) y[l] -= (p[l] - wanted[l]) / slope[l];
     }
-    for (std::size_t l = 0; l < lanes && first + l < n; ++l) {
+    for (std::size_t l = 0; l < block && first + l < n; ++l) {
       const std::size_t i = first + l;
       t.y[i] = y[l];
       const double ro = __builtin_sqrt(exponential(2 * y[l]) + wall / lz), r = ro / t.outer - t.measured[i];
@@ -260,6 +255,10 @@ double tube(const Energy& w, const Tube& t) {
   return t.steps <= 2 ? tube_in<2>(w, t) : t.steps == 3 ? tube_in<3>(w, t) : tube_in<4>(w, t);
 }
 
+void elements(const Energy& w, const Elements& m) {
+  return m.matrix == nullptr ? elements_of<false>(w, m) : elements_of<true>(w, m);
+}
+
 /// Four columns into one of 128 rows, as a band factor does.
 void multiply_add(double* to, const double* from, std::size_t repeats) {
   constexpr std::size_t n = 128;
@@ -275,7 +274,7 @@ void multiply_add(double* to, const double* from, std::size_t repeats) {
 }  // namespace
 
 const Kernels& TUNICA_FLOOR_LEVEL() {
-  static constexpr Kernels kernels{TUNICA_TEXT(TUNICA_FLOOR_LEVEL), strip, points, sheet, tube, multiply_add};
+  static constexpr Kernels kernels{TUNICA_TEXT(TUNICA_FLOOR_LEVEL), strip, points, sheet, tube, elements, multiply_add};
   return kernels;
 }
 

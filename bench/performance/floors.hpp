@@ -61,6 +61,18 @@ struct Tube {
   double *residual, *jacobian;
 };
 
+/// Four-node elements of a tube with constant pressures, `radial` by `axial` of them, over half the length. Node (i, k)
+/// is k (radial + 1) + i and has r, z at [2 · node]. The wall's potential is ∫ [W(C) − q (J − 1)] R dR dZ.
+struct Elements {
+  std::size_t radial, axial;
+  double inner, outer;  ///< mm
+  const double* layer;  ///< Z of the axial + 1 planes of nodes
+  const double *x, *q;  ///< positions; pressures, element e of row k at [k · radial + e]
+  double gamma;         ///< weight of G Gᵀ/M in the matrix
+  double* force;        ///< first derivatives by x
+  double* matrix;       ///< lower half by columns of width + 1, width = 2 (radial + 2) + 1; nullptr: not wanted
+};
+
 /// The kernels for one set of instructions.
 struct Kernels {
   const char* level;
@@ -68,6 +80,7 @@ struct Kernels {
   void (*points)(const Energy&, const Points&);
   double (*sheet)(const Energy&, const Sheet&);
   double (*tube)(const Energy&, const Tube&);
+  void (*elements)(const Energy&, const Elements&);
   void (*multiply_add)(double* to, const double* from, std::size_t repeats);  ///< 512 multiply–adds a repeat, in cache
 };
 

@@ -124,7 +124,7 @@ int run(std::span<char*> arguments) {
   if (effort.rounds == 0) effort.rounds = 1;
   effort.floors = !bare;
   const std::regex wanted(only);
-  for (const auto& rows : {point_rows(), test_rows(), fe_rows(), search_rows(), journal_rows()})
+  for (const auto& rows : {point_rows(), test_rows(), fe_rows(), extension_rows(), search_rows(), journal_rows()})
     for (const Row& row : rows) {
       if (once.empty() ? !std::regex_search(row.name, wanted) : row.name != once) continue;
       if (list) {

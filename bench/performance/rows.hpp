@@ -11,11 +11,12 @@
 /// The rows of the benchmark by what they are about. Making a row costs nothing: only its `make` loads and prepares.
 namespace tunica::bench {
 
-std::vector<Row> point_rows();    ///< material points, a model each
-std::vector<Row> test_rows();     ///< strips, sheet, long tube
-std::vector<Row> fe_rows();       ///< tube by finite elements
-std::vector<Row> search_rows();   ///< optimisers, threads, constraint
-std::vector<Row> journal_rows();  ///< evaluations.csv
+std::vector<Row> point_rows();      ///< material points, a model each
+std::vector<Row> test_rows();       ///< strips, sheet, long tube
+std::vector<Row> fe_rows();         ///< tube by finite elements
+std::vector<Row> extension_rows();  ///< composed models, memory
+std::vector<Row> search_rows();     ///< optimisers, threads, constraint
+std::vector<Row> journal_rows();    ///< evaluations.csv
 
 /// Kernels for the levels that this machine has.
 std::vector<const floors::Kernels*> levels();

@@ -12,6 +12,7 @@
 #include "lamb_aorta.hpp"
 #include "rows.hpp"
 #include "search/calibration_problem.hpp"
+#include "strip_memory.hpp"
 #include "tools.hpp"
 
 namespace tunica::bench {
@@ -129,6 +130,16 @@ Prepared stability(bool jacobian) {
     at[0] *= 1 + 1e-3 * (++k % 7 - 3);
     check(assembly->constraints().evaluate(at, *values, *J));
   }};
+  const auto& channels = assembly->layout().channels;
+  const auto t = std::make_shared<StripMemory>(channels.at(0)), z = std::make_shared<StripMemory>(channels.at(1));
+  for (const floors::Kernels* const kernels : levels())
+    row.floors.push_back({"fused kernel of the strips", kernels->level, {[=, k = 0]() mutable {
+                            std::vector<double> at = p;
+                            at[0] *= 1 + 1e-3 * (++k % 7 - 3);
+                            const floors::Energy energy = *fibre_energy("gho", at);
+                            kernels->strip(energy, t->strip(false, jacobian, 2));
+                            kernels->strip(energy, z->strip(true, jacobian, 2));
+                          }}});
   row.facts = {{"values", static_cast<double>(count)}};
   return row;
 }

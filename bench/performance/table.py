@@ -5,7 +5,8 @@ BEGIN, END = "<!-- begin of the table: bench/bench.py --page -->", "<!-- end of 
 GROUPS = [("point/", "Material points", "a batch of 40 points, per point"), ("strip/", "Two strips", "40 points each"),
           ("sheet/", "Biaxial sheet", "40 points, two stresses each"), ("tube/", "Long tube", "35 pressures"),
           ("fe/", "Tube by finite elements", "gho, clamped, 35 pressures, one core"),
-          ("optimizer/", "Optimisers", "per evaluation of a function that costs nothing"),
+          ("composed/", "Composed models", "a batch of 40 points, per point, beside the built-in model"),
+          ("history/", "Memory", "beside the model alone"), ("optimizer/", "Optimisers", "per evaluation of a function that costs nothing"),
           ("search/", "Search through the host", "per evaluation of two strips"), ("constraint/", "Constraint", "transverse stability at 82 stretches"),
           ("journal/", "Journal", ""), ("startup/", "Start of the program", ""),
           ("study/", "Whole studies", "wall time, all threads"), ("diagnosis/", "Diagnosis", "wall time, all threads")]
@@ -18,12 +19,18 @@ def seconds(value):
     return f"{value * 1e9:.3g} ns"
 
 
+def floors(row):
+    """Those that may be compared with the row: of its own vector level where it is held to one, else all."""
+    level = row["name"].partition("@")[2]
+    return [one for one in row["floors"] if not level or one["level"] in ("", level)]
+
+
 def floor_words(row):
-    return ", ".join(f"{seconds(one['time_s'])}{' ' + one['level'] if one['level'] else ''}" for one in row["floors"])
+    return ", ".join(f"{seconds(one['time_s'])}{' ' + one['level'] if one['level'] else ''}" for one in floors(row))
 
 
 def ratio_words(row):
-    return ", ".join(f"{one['ratio']:.2f}" for one in row["floors"])
+    return ", ".join(f"{one['ratio']:.2f}" for one in floors(row))
 
 
 def peer_words(row):
@@ -72,7 +79,7 @@ def markdown(document):
             continue
         parts.append(f"### {title}\n" + (f"{of[0].upper()}{of[1:]}.\n" if of else ""))
         parts.append("| row | what | time | floor | time/floor | growth | peer | beside |\n|---|---|---|---|---|---|---|---|")
-        for row in rows:
+        for row in sorted(rows, key=lambda row: row["name"].partition("@")[0] if prefix != "fe/" else ""):  # levels together
             parts.append("| " + " | ".join([f"`{row['name']}`", row["what"], seconds(row["time_s"]), floor_words(row), ratio_words(row),
                                             growth_words(row), peer_words(row), fact_words(row)]) + " |")
         parts.append("")
