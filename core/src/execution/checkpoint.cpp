@@ -98,8 +98,12 @@ json to_json(const Facts& facts) {
 }
 
 Facts facts_from(const json& entry) {
-  return {entry.at("experiment"), entry.at("seed"), entry.at("data").get<std::map<std::string, std::string>>(),
-          entry.at("plugins"), entry.at("plugin_interface"), entry.at("thinned")};
+  return {entry.at("experiment"),
+          entry.at("seed"),
+          entry.at("data").get<std::map<std::string, std::string>>(),
+          entry.at("plugins"),
+          entry.at("plugin_interface"),
+          entry.at("thinned")};
 }
 
 /// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
