@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
+#include "plugins/usual_arithmetic.hpp"
 #include "search/guided_search.hpp"
 #include "tunica/random.hpp"
 
@@ -102,6 +103,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     Optimizer::Outcome outcome;
     std::string fault;
     try {
+      const plugins::UsualArithmetic arithmetic;
       if (run.guide) {
         search::GuidedSearch guided(*run.guide, settings, [&](Problem& cheap) {
           return minimise(*plugins::create(*stage.optimizer, stage.entry->options), cheap);
