@@ -53,10 +53,11 @@ std::string command(const GlobalOptions& global, const RunOptions& options, cons
                     const std::vector<std::string>& how) {
   std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
   words.insert(words.end(), how.begin(), how.end());
-  const auto& [seed, profiles, draws] = options.overrides;
+  const auto& [seed, profiles, draws, kept] = options.overrides;
   if (seed) words.insert(words.end(), {"--seed", fmt::format("{}", *seed)});
   if (!profiles.empty()) words.insert(words.end(), {"--profiles", fmt::format("{}", fmt::join(profiles, ","))});
   if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
+  if (!kept.empty()) words.insert(words.end(), {"--keep-evaluations", kept});
   if (!options.certificate) words.emplace_back("--no-certificate");
   const auto plugins = plugin_words(global);
   words.insert(words.end(), plugins.begin(), plugins.end());
@@ -205,6 +206,9 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
                    "Residual bootstrap with this many draws (at least 40)")
       ->check(CLI::Range(40, 1000000))
       ->type_name("N");
+  verb->add_option("--keep-evaluations", options->overrides.keep_evaluations,
+                   "Rows of evaluations.csv once the results are written: all, or improvements of the best point only")
+      ->type_name("all|improvements");
   verb->add_flag("!--no-certificate", options->certificate,
                  "Do not check the best points and their neighbours in a fresh process");
   verb->add_flag("--quiet", global.quiet, "Print only errors on stderr");

@@ -15,6 +15,7 @@ namespace tunica::fakes {
 namespace {
 
 Behaviour behaviour;
+std::string stand_in = "rough_curve";
 
 /// S_tt = Σ p_j basis_j(x).
 class LinearModel : public Model {
@@ -171,6 +172,24 @@ class Curve : public Test {
 };
 
 /// y = gain Σ thickness S(x) over layers, each with its model.
+/// A curve that is 3 % too high, and bends a little with what it is made of.
+class RoughCurve final : public Curve {
+ public:
+  using Curve::Curve;
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    Status status = Curve::predict(input, output);
+    for (double& value : output.values) value = 1.03 * value + 0.002 * value * value;
+    if (!output.jacobian.empty()) {
+      const std::size_t size = output.values.size();
+      for (std::size_t i = 0; i < output.jacobian.size(); ++i) {
+        // value = 1.03 v + 0.002 v², so that ∂value/∂v = √(1.03² + 0.008 value).
+        output.jacobian[i] *= std::sqrt(1.03 * 1.03 + 0.008 * output.values[i % size]);
+      }
+    }
+    return status;
+  }
+};
+
 class Stack final : public Test {
  public:
   explicit Stack(const TestSetup& setup) : thickness_(setup.layers) {
@@ -288,6 +307,7 @@ void add_test_mechanism(plugins::Catalogue::Registration& stage, const std::stri
 }  // namespace
 
 void set_behaviour(Behaviour wanted) { behaviour = std::move(wanted); }
+void set_stand_in(std::string type) { stand_in = std::move(type); }
 
 void register_all(plugins::Catalogue::Registration& stage) {
   stage.add(ModelFactory{"parabola", "", "", {}, parabola});
@@ -301,8 +321,20 @@ void register_all(plugins::Catalogue::Registration& stage) {
                                                {"z", "kPa", Observable::Role::channel, false, "ten times the height"}};
   stage.add(TestFactory{
       "curve", "", "", {}, observables, [](const TestSetup& setup) { return std::make_unique<Curve>(setup); }});
-  stage.add(TestFactory{"costly_curve", "", "", {}, observables, [](const TestSetup& setup) {
-                          return std::make_unique<Curve>(setup, true);
+  TestFactory costly{"costly_curve",
+                     "",
+                     "",
+                     {},
+                     observables,
+                     [](const TestSetup& setup) {
+                       return std::make_unique<Curve>(setup, true); }};
+  costly.stand_in = [](const Options&) -> std::optional<StandIn> {
+    if (stand_in.empty()) return std::nullopt;
+    return StandIn{stand_in, {}};
+  };
+  stage.add(std::move(costly));
+  stage.add(TestFactory{"rough_curve", "", "", {}, observables, [](const TestSetup& setup) {
+                          return std::make_unique<RoughCurve>(setup);
                         }});
   stage.add(TestFactory{
       "stack",
@@ -345,6 +377,7 @@ Bench::Bench(std::string model_type) {
 Bench::~Bench() {
   std::filesystem::remove_all(folder_);
   set_behaviour({});
+  set_stand_in("rough_curve");
 }
 
 experiment::ParameterSetting& Bench::parameter(const std::string& name) {

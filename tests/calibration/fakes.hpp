@@ -29,6 +29,9 @@ plugins::Catalogue catalogue();
 /// What the fake test does at a given model parameter a, to provoke failures; thread-safe only if the function is.
 using Behaviour = std::function<void(double a, std::span<double> values, Status& status)>;
 void set_behaviour(Behaviour behaviour);  ///< {} = none
+/// The test that stands in for "costly_curve": "rough_curve", which is a few per cent off, unless told otherwise; empty
+/// = none.
+void set_stand_in(std::string type);
 
 /// An experiment with one model entry "m" and tests whose data are written to a temporary folder.
 class Bench {

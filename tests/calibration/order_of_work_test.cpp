@@ -34,7 +34,9 @@ class OrderOfWork : public testing::Test {
   Status evaluate(const Assembly& assembly, double a, bool skip) {
     simulated_.clear();
     const auto workspace = assembly.evaluator().make_workspace();
-    return assembly.evaluator().evaluate(free(a), objective_, per_test_, {}, {}, *workspace, skip);
+    return assembly.evaluator().evaluate(
+        free(a), objective_, per_test_, {}, {}, *workspace,
+        skip ? assembly::CostlyTests::where_feasible : assembly::CostlyTests::everywhere);
   }
   Bench bench_;
   std::string simulated_;
@@ -78,8 +80,11 @@ TEST_F(OrderOfWork, ResidualsAreThoseOfAllTests) {
   const auto workspace = assembly.evaluator().make_workspace();
   std::vector<double> residuals(assembly.layout().residual_count);
   simulated_.clear();
-  EXPECT_EQ(assembly.evaluator().evaluate(free(1), objective_, per_test_, residuals, {}, *workspace, true).kind(),
-            Status::Kind::infeasible);
+  EXPECT_EQ(
+      assembly.evaluator()
+          .evaluate(free(1), objective_, per_test_, residuals, {}, *workspace, assembly::CostlyTests::where_feasible)
+          .kind(),
+      Status::Kind::infeasible);
   EXPECT_EQ(simulated_, "qs");
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -16,10 +18,17 @@ struct Line {
   double objective;
   Status::Kind kind;
   std::string reason;
+  bool ended_early = false;
+  /// NaN marks a test that was left out.
+  static bool same(const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+  }
   bool operator==(const Line& other) const {
     const bool failed = kind == Status::Kind::failed;  // then objective and costs are undefined
-    return index == other.index && parameters == other.parameters && kind == other.kind && reason == other.reason &&
-           (failed || (objective == other.objective && per_test == other.per_test));
+    return index == other.index && ended_early == other.ended_early && parameters == other.parameters &&
+           kind == other.kind && reason == other.reason &&
+           (failed || (objective == other.objective && same(per_test, other.per_test)));
   }
 };
 inline void PrintTo(const Line& line, std::ostream* out) { *out << '#' << line.index << ' ' << line.objective; }
@@ -33,7 +42,8 @@ struct Recording {
                        {record.per_test.begin(), record.per_test.end()},
                        record.objective,
                        record.status.kind(),
-                       record.status.reason()});
+                       record.status.reason(),
+                       record.ended_early});
     };
   }
   /// A journal of the first `count` lines.
@@ -41,9 +51,12 @@ struct Recording {
     return [lines = lines, count](std::uint64_t index, search::JournalEntry& entry) {
       if (index >= count) return false;
       const Line& line = lines.at(index);
-      entry = {line.parameters, line.per_test, line.objective,
+      entry = {line.parameters,
+               line.per_test,
+               line.objective,
                line.kind == Status::Kind::failed ? Status::failed(line.reason) : Status{},
-               0.001 * static_cast<double>(index)};
+               0.001 * static_cast<double>(index),
+               line.ended_early};
       return true;
     };
   }

@@ -22,7 +22,7 @@ struct Summarised {
     results.resize(2);
     results[0].realisations = {realisation(1, {2.5, 1, 3}), realisation(2, {2, 1, 3})};
     execution::RealisationResult failed;
-    failed.tally = {150, 0, 150, 0, "row 1: no root"};
+    failed.tally = {150, 0, 150, 0, 0, 150, 0, "row 1: no root"};
     failed.stopped_by = search::StopReason::nothing_succeeded;
     failed.stop_sentence = "nothing succeeded";
     results[1].realisations = {failed};
@@ -39,7 +39,7 @@ struct Summarised {
     static_cast<void>(
         plan->runs[0].assembly->evaluator().evaluate(at, result.best.objective, per_test, {}, {}, *workspace));
     result.trace = {{2, 1e6}, {result.best.index + 1, result.best.objective}};
-    result.tally = {100, 20, 4, 0, "row 2: overflow"};
+    result.tally = {100, 20, 4, 0, 0, 100, 0, "row 2: overflow"};
     result.seconds = 0.5;
     return result;
   }
@@ -168,7 +168,7 @@ TEST(Summary, WarnsOfEqualCoursesBesideAnOptimiserThatCrashed) {
   auto first = made.realisation(1, {2, 1, 3}), second = made.realisation(2, {2, 1, 3});
   second.trace = first.trace;
   crashed.trace.clear();
-  for (auto* one : {&first, &second, &crashed}) one->tally = {100, 20, 0, 0, ""};
+  for (auto* one : {&first, &second, &crashed}) one->tally = {100, 20, 0, 0, 0, 100, 0, ""};
   made.results[0].realisations = {first, second, crashed};
   const auto warnings = sentences(made.summarise());
   EXPECT_THAT(warnings, Contains(HasSubstr("an error of the optimiser ended 1 of 3 realisations: thrown")));

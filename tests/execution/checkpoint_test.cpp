@@ -21,12 +21,12 @@ std::string refusal(const std::filesystem::path& folder) {
 TEST(Checkpoint, ReadsBackWhatItWrote) {
   const trial::Folder folder;
   Checkpoint checkpoint;
-  checkpoint.facts = {"abc", "7", {{"a.csv", "x"}}, "es 0.1.0", "9"};
+  checkpoint.facts = {"abc", "7", {{"a.csv", "x"}}, "es 0.1.0", "9", true};
   execution::RealisationResult result;
   result.realisation = 4;
   result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};
   result.trace = {{3, 1e300}, {18, 66.1}};
-  result.tally = {120, 30, 5, 2, "row 3: \"no\" root", {{"row 3: \"no\" root", 5}}};
+  result.tally = {120, 30, 5, 2, 40, 70, 900, "row 3: \"no\" root", {{"row 3: \"no\" root", 5}}};
   result.converged = true;
   result.reason = "step below tolerance";
   result.stopped_by = search::StopReason::failure_rate;
@@ -51,6 +51,9 @@ TEST(Checkpoint, ReadsBackWhatItWrote) {
   EXPECT_EQ(back.tally.jacobians, 30u);
   EXPECT_EQ(back.tally.failures, 5u);
   EXPECT_EQ(back.tally.infeasible, 2u);
+  EXPECT_EQ(back.tally.ended_early, 40u);
+  EXPECT_EQ(back.tally.simulated, 70u);
+  EXPECT_EQ(back.tally.guide_evaluations, 900u);
   EXPECT_EQ(back.tally.first_failure, result.tally.first_failure);
   ASSERT_EQ(back.tally.reasons.size(), 1u);
   EXPECT_EQ(back.tally.reasons[0].example, result.tally.first_failure);
@@ -68,7 +71,7 @@ TEST(Checkpoint, SaysWhatIsWrongWithAFile) {
   folder.write("checkpoint.json", "{\"format\": 1,");
   EXPECT_THAT(refusal(folder.path()), HasSubstr("cannot be understood"));
   folder.write("checkpoint.json", "{\"format\": 9, \"facts\": {}, \"finished\": []}");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 4"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 5"));
 }
 
 TEST(Checkpoint, NamesEveryChange) {

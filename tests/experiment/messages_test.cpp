@@ -11,8 +11,8 @@ TEST_F(Messages, NameTheNearestKeyOfAnUnknownOne) {
   EXPECT_EQ(refusal(R"("seed": 7)", R"("sead": 7)"),
             "experiment.json: unknown key 'sead' in the experiment file (/sead, line 3, column 38). Did you mean "
             "'seed'? Known: $schema, format, "
-            "name, seed, models, tests, objective, constraints, optimizers, stop, initial, runs, on_failure, analysis, "
-            "diagnosis, discovery.");
+            "name, seed, models, tests, objective, constraints, optimizers, stop, initial, runs, on_failure, "
+            "fewer_simulations, keep_evaluations, analysis, diagnosis, discovery.");
   expect_within(refusal(R"("rows": )", R"("row": )"),
                 "unknown key 'row' in the data of test 'circumferential_strip' (/tests/circumferential_strip/data/row, "
                 "line 22, column 9). Did you mean 'rows'?");
@@ -100,6 +100,12 @@ TEST_F(Messages, AnswerUnknownTypesWithTheNearest) {
                 "unknown objective 'sum_of_norm' (/objective, line 37, column 3). Did you mean 'sum_of_norms'?");
   expect_within(refusal(R"("on_failure": "penalise")", R"("on_failure": "penalize")"),
                 "unknown failure policy 'penalize' (/on_failure, line 49, column 3). Did you mean 'penalise'?");
+  expect_within(refusal(R"("on_failure": "penalise")", R"("keep_evaluations": "improvement")"),
+                "unknown set of evaluations 'improvement' (/keep_evaluations, line 49, column 3). Did you mean "
+                "'improvements'?");
+  expect_within(refusal(R"("on_failure": "penalise")", R"("fewer_simulations": {"early_ends": true})"),
+                "unknown key 'early_ends' in \"fewer_simulations\" (/fewer_simulations/early_ends, line 49");
+  expect_within(refusal(R"("on_failure": "penalise")", R"("fewer_simulations": {"guide": "long"})"), "true or false");
   expect_within(refusal("transverse_stability", "transverse_stabilty"),
                 "unknown constraint 'transverse_stabilty' (/constraints/0/type, line 38, column 21). Did you mean "
                 "'transverse_stability'?");

@@ -35,8 +35,8 @@ struct ResidualBlock {
 /// `infeasible`; Status::violation() is the sum of its positive c(x). Once should_stop() is true, the host refuses
 /// further evaluations with status `failed` and does not count them.
 ///
-/// Threads: not thread-safe. Parallel work goes through evaluate_batch() or for_each_start(), whose results are the
-/// same for any number of threads.
+/// Threads: not thread-safe. Parallel work goes through evaluate_batch(), evaluate_best() or for_each_start(), whose
+/// results are the same for any number of threads.
 class Problem {
  public:
   static constexpr double root_smoothing = 1e-9;        ///< ε in ρ(s) = √(s + ε²) − ε, in base units
@@ -61,6 +61,15 @@ class Problem {
   /// Evaluates k points in parallel. `xs` has k·n entries, one point a row; the outputs have k entries. The budget
   /// counts every point.
   virtual void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) = 0;
+  /// The same for a search that ranks the points and keeps at most `best` of them, 1 or more.
+  ///
+  /// The host may end the evaluation of a feasible point early, once its cheap tests alone make it worse than `best`
+  /// others of the batch. Its status is `ok`, and its objective a lower bound that is above those of the `best`
+  /// lowest. So these and their order are as evaluate_batch() gives them. The budget counts every point.
+  virtual void evaluate_best(std::span<const double> xs, [[maybe_unused]] std::size_t best,
+                             std::span<double> objectives, std::span<Status> statuses) {
+    evaluate_batch(xs, objectives, statuses);
+  }
   /// Evaluates one point with its residuals and, unless `jacobian` is empty, ∂r_i/∂x_j at [i·n + j] (row-major, as
   /// Ceres wants it). A Jacobian is counted besides the evaluation.
   virtual Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
@@ -100,7 +109,7 @@ class Optimizer {
     bool residuals = false;    ///< calls linearise() and uses the residual blocks
     bool gradient = false;     ///< wants Jacobians from linearise() or constraints()
     bool constraints = false;  ///< handles constraint_count() > 0; else a run with constraints is refused
-    bool batch = false;        ///< calls evaluate_batch()
+    bool batch = false;        ///< calls evaluate_batch() or evaluate_best()
     bool random = false;       ///< gives other results with another seed
     /// Compares or combines objectives of feasible and infeasible points, as augmented Lagrangians and stochastic
     /// ranking do. Without it evaluate() leaves out costly tests where a constraint is violated; linearise() never

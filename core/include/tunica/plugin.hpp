@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,13 @@ struct ModelFactory {
   std::function<std::unique_ptr<Model>(const Options&)> create;
 };
 
+/// A cheaper test that predicts nearly the same rows, for TestFactory::stand_in. Its observables and the parameters
+/// that an experiment may free have the same names.
+struct StandIn {
+  std::string type;  ///< TestFactory::type of the other test
+  Options options;   ///< of the other test; what is missing takes its default there
+};
+
 /// How the host makes a test, and what it prints about the type before there is one.
 struct TestFactory {
   /// Name in experiment files: lower case, with underscores. It must be unique among all tests.
@@ -76,6 +84,9 @@ struct TestFactory {
   std::vector<Parameter> parameters = {};
   /// Whether it takes a wall of layers with a model each, see TestSetup::layers.
   bool layered = false;
+  /// Optional, for a costly test: the cheaper test that guides a search where an experiment asks for a guide. The
+  /// answer stays that of this test. Empty, or none for these options: there is no guide.
+  std::function<std::optional<StandIn>(const Options&)> stand_in = {};
 };
 
 /// How the host makes an optimizer, and what it prints about the type before there is one.

@@ -211,13 +211,14 @@ void Evaluator::add_priors(std::span<const double> at, double& total, const Want
 
 Status Evaluator::evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
                            std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
-                           bool skip_costly) const {
+                           CostlyTests costly) const {
   const Wanted wanted{per_test, residuals, jacobian};
   double total = 0;
   if (Status status = add_costs(false, free, total, wanted, workspace); !status.ok()) return status;
   Status verdict = constraints_.feasibility(free, workspace);
   if (verdict.kind() == Status::Kind::failed) return verdict;
-  if (verdict.ok() || !skip_costly || !residuals.empty()) {
+  const bool simulated = costly == CostlyTests::everywhere || (costly == CostlyTests::where_feasible && verdict.ok());
+  if (simulated || !residuals.empty()) {
     if (Status status = add_costs(true, free, total, wanted, workspace); !status.ok()) return status;
   } else if (!per_test.empty()) {
     for (std::size_t t = 0; t < tests_.size(); ++t)

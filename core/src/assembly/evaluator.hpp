@@ -28,6 +28,13 @@ struct WorkspaceDeleter {
 };
 using WorkspacePointer = std::unique_ptr<Workspace, WorkspaceDeleter>;
 
+/// Where costly tests are simulated.
+enum class CostlyTests {
+  everywhere,
+  where_feasible,  ///< not where a constraint is violated
+  nowhere          ///< the objective is then a lower bound
+};
+
 /// From free parameter values, in base units, to predictions, residuals and objective of a run. Const and thread-safe;
 /// each thread brings a workspace, and evaluation allocates nothing. Refers to what it was made with.
 class Evaluator {
@@ -49,12 +56,12 @@ class Evaluator {
   /// Jacobian by the free parameters, row-major. Never NaN under ok. Infeasible, with all of these set, where a
   /// constraint exceeds Problem::constraint_tolerance; the reason names the one that is broken most.
   ///
-  /// Cheap tests come first, then the constraints, costly tests last (Canales et al. 2023, Figure 7). With
-  /// `skip_costly` and no residuals asked for, an infeasible point is not simulated in costly tests: their per_test is
-  /// NaN and the objective that of the others.
+  /// Cheap tests come first, then the constraints, costly tests last (Canales et al. 2023, Figure 7). Where `costly`
+  /// leaves them out and no residuals are asked for, their per_test is NaN and the objective that of the others. It is
+  /// at most the whole objective, rounding included, since no test costs less than 0 and terms are added in one order.
   Status evaluate(std::span<const double> free, double& objective, std::span<double> per_test,
                   std::span<double> residuals, std::span<double> jacobian, Workspace& workspace,
-                  bool skip_costly = false) const;
+                  CostlyTests costly = CostlyTests::everywhere) const;
 
   /// From now on evaluate() in this workspace compares with these values, in the layout of the predictions, instead of
   /// the data: draws of a bootstrap, synthetic data. σ and ranges stay those of the data. Empty = the data again.

@@ -15,6 +15,22 @@ UnitBox::UnitBox(const std::vector<FreeParameter>& parameters) {
   }
 }
 
+UnitBox UnitBox::between(std::span<const double> lower, std::span<const double> upper) const {
+  std::vector<double> least(axes_.size()), largest(axes_.size());
+  from_unit(lower, least);
+  from_unit(upper, largest);
+  UnitBox part = *this;
+  for (std::size_t j = 0; j < axes_.size(); ++j) {
+    Axis& axis = part.axes_[j];
+    axis.min = least[j];
+    axis.max = largest[j];
+    axis.log_min += lower[j] * axis.log_span;
+    axis.log_span *= upper[j] - lower[j];
+    part.initial_[j] = std::clamp(initial_[j], axis.min, axis.max);
+  }
+  return part;
+}
+
 void UnitBox::from_unit(std::span<const double> x, std::span<double> free) const {
   for (std::size_t j = 0; j < axes_.size(); ++j) {
     const Axis& axis = axes_[j];

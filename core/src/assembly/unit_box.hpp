@@ -14,6 +14,9 @@ class UnitBox {
  public:
   explicit UnitBox(const std::vector<FreeParameter>& parameters);
 
+  /// The part of the box between two corners of it, as a unit box of its own.
+  [[nodiscard]] UnitBox between(std::span<const double> lower, std::span<const double> upper) const;
+
   void from_unit(std::span<const double> x, std::span<double> free) const;
   void to_unit(std::span<const double> free, std::span<double> x) const;
   [[nodiscard]] std::vector<double> initial() const;

@@ -22,6 +22,7 @@
 #include "execution/run_directory.hpp"
 #include "execution/runner.hpp"
 #include "execution/shards.hpp"
+#include "execution/thinning.hpp"
 #include "report/report.hpp"
 #include "tunica/error.hpp"
 
@@ -133,6 +134,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
 /// From the searches to the results.
 void conclude(const execution::Plan& plan, const std::vector<execution::RunResult>& found,
               const plugins::Catalogue& catalogue, const Options& options, Outcome& outcome) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
   outcome.summary = comparison::summarise(plan, found, options.refusals);
   outcome.provenance = comparison::provenance_of(plan);
@@ -146,6 +148,8 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
   outcome.result = outcome.directory / "result.json";
   execution::write_atomically(outcome.result, comparison::result_json(outcome.summary, outcome.provenance));
   outcome.report = report::write_report(outcome.directory);
+  if (plan.experiment->kept_evaluations == experiment::KeptEvaluations::improvements)
+    execution::thin_evaluations(plan, outcome.directory);
 }
 
 void refuse_runs_without_data(const execution::Plan& plan) {

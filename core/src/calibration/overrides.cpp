@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "data/nearest.hpp"
+#include "experiment/enum_names.hpp"
 #include "experiment/limits.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::calibration {
 
 void apply(const Overrides& overrides, experiment::Experiment& experiment) {
-  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws) return;
+  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws && overrides.keep_evaluations.empty())
+    return;
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
   auto& analysis = experiment.analysis;
   if (overrides.seed) {
@@ -30,6 +33,14 @@ void apply(const Overrides& overrides, experiment::Experiment& experiment) {
                                    *overrides.bootstrap_draws, least_draws, draws));
     analysis.bootstrap_draws = *overrides.bootstrap_draws;
     input["analysis"]["bootstrap"]["draws"] = *overrides.bootstrap_draws;
+  }
+  if (!overrides.keep_evaluations.empty()) {
+    const auto kept = text::value_of(experiment::kept_evaluations_names, overrides.keep_evaluations);
+    if (!kept)
+      throw InputError(fmt::format("--keep-evaluations: found '{}'; expected all or improvements",
+                                   data::excerpt(overrides.keep_evaluations)));
+    experiment.kept_evaluations = *kept;
+    input["keep_evaluations"] = overrides.keep_evaluations;
   }
   experiment.input_json = input.dump(2) + '\n';
 }

@@ -233,6 +233,9 @@ json run_json(const RunSummary& run) {
       {"ended_by", run.stop_sentence.empty() ? run.reason : run.stop_sentence},
       {"stop_reason", run.stopped_by == search::StopReason::none ? json(nullptr) : json(search::code(run.stopped_by))},
       {"seconds", run.seconds}};
+  if (run.has_costly_tests)
+    document["full_simulations"] = {
+        {"count", run.simulated}, {"ended_early", run.ended_early}, {"guide_evaluations", run.guide_evaluations}};
   if (!counted.empty()) document["efforts"] = std::move(counted);
   return document;
 }

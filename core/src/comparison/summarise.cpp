@@ -59,6 +59,9 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
   summary.jacobians = total.jacobians;
   summary.failures = total.failures;
   summary.infeasible = total.infeasible;
+  summary.simulated = total.simulated;
+  summary.ended_early = total.ended_early;
+  summary.guide_evaluations = total.guide_evaluations;
   summary.first_failure = total.first_failure;
   summary.failure_reasons = total.reasons;
   std::stable_sort(summary.failure_reasons.begin(), summary.failure_reasons.end(),
@@ -79,6 +82,16 @@ void add_effort_notes(RunSummary& summary) {
     }
     if (!words.empty()) summary.notes.push_back(fmt::format("test '{}': {} until the search had ended", test, words));
   }
+}
+
+/// "1200 evaluations took 310 full simulations; 850 ended early, …"
+std::string words_on_simulations(const RunSummary& summary) {
+  std::string words = fmt::format("{} evaluations took {} full simulations", summary.evaluations, summary.simulated);
+  if (summary.ended_early > 0) words += fmt::format("; {} ended early at their cheap tests", summary.ended_early);
+  if (summary.guide_evaluations > 0)
+    words +=
+        fmt::format("; the cheaper tests that guided the search were evaluated {} times", summary.guide_evaluations);
+  return words;
 }
 
 RunSummary summarise_run(const experiment::Experiment& experiment, const execution::PlannedRun& run,
@@ -112,6 +125,8 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.objective = best->best.objective;
   estimate(*run.assembly, *best, result, summary, warnings);
   add_effort_notes(summary);
+  summary.has_costly_tests = run.assembly->layout().has_costly_tests;
+  if (summary.has_costly_tests) summary.notes.push_back(words_on_simulations(summary));
   summary.information = information(*run.assembly, run.entry->objective, best->best.parameters);
   if (best->best.feasible())
     add_agreement(*run.assembly, result, summary.objective, run.entry->stop.target, summary.certificate);

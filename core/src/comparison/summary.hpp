@@ -131,6 +131,8 @@ struct RunSummary {
   Certificate certificate;
   std::optional<StabilitySummary> stability;  ///< with a result
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
+  bool has_costly_tests = false;
+  std::uint64_t simulated = 0, ended_early = 0, guide_evaluations = 0;  ///< see search::Tally; of costly tests
   std::string first_failure;
   /// What each test counted until the search had ended, by test; empty for tests that count nothing.
   std::vector<std::pair<std::string, std::vector<Effort>>> efforts;

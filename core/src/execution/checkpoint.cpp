@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 4;
+constexpr int checkpoint_format = 5;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
@@ -42,6 +42,9 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"jacobians", result.tally.jacobians},
           {"failures", result.tally.failures},
           {"infeasible", result.tally.infeasible},
+          {"ended_early", result.tally.ended_early},
+          {"simulated", result.tally.simulated},
+          {"guide_evaluations", result.tally.guide_evaluations},
           {"first_failure", result.tally.first_failure},
           {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
@@ -66,6 +69,9 @@ RealisationResult from_json(const json& entry) {
   result.tally.jacobians = entry.at("jacobians");
   result.tally.failures = entry.at("failures");
   result.tally.infeasible = entry.at("infeasible");
+  result.tally.ended_early = entry.at("ended_early");
+  result.tally.simulated = entry.at("simulated");
+  result.tally.guide_evaluations = entry.at("guide_evaluations");
   result.tally.first_failure = entry.at("first_failure");
   for (const auto& kind : entry.value("failure_reasons", json::array()))
     result.tally.reasons.push_back({kind.at("example"), kind.at("count")});
@@ -87,12 +93,17 @@ json to_json(const Facts& facts) {
           {"seed", facts.seed},
           {"data", facts.data},
           {"plugins", facts.plugins},
-          {"plugin_interface", facts.plugin_interface}};
+          {"plugin_interface", facts.plugin_interface},
+          {"thinned", facts.thinned}};
 }
 
 Facts facts_from(const json& entry) {
-  return {entry.at("experiment"), entry.at("seed"), entry.at("data").get<std::map<std::string, std::string>>(),
-          entry.at("plugins"), entry.at("plugin_interface")};
+  return {entry.at("experiment"),
+          entry.at("seed"),
+          entry.at("data").get<std::map<std::string, std::string>>(),
+          entry.at("plugins"),
+          entry.at("plugin_interface"),
+          entry.at("thinned")};
 }
 
 /// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
@@ -120,6 +131,7 @@ std::string without_analysis(const std::string& input_json) {
   json input = json::parse(input_json, nullptr, false);
   if (input.is_discarded()) return input_json;
   input.erase("analysis");
+  input.erase("keep_evaluations");  // after the search
   return input.dump();
 }
 

@@ -19,6 +19,7 @@ struct Facts {
   std::map<std::string, std::string> data = {};  ///< hashes by the name of the file
   std::string plugins = {};                      ///< "es 0.1.0, gho 0.1.0"
   std::string plugin_interface = {};             ///< TUNICA_PLUGIN_API
+  bool thinned = false;                          ///< evaluations.csv holds improvements only, see thinning.hpp
 
   bool operator==(const Facts&) const = default;
 };

@@ -37,6 +37,8 @@ void unite(const std::vector<std::vector<std::string>>& per_run, std::vector<std
   }
 }
 
+constexpr std::string_view ended_early = "ended_early";  // stands in the column "status"
+
 constexpr std::size_t longest_number = 26;  // "-1.7976931348623157e+308,", the longest double with its comma, has 25
 
 char* put(char* at, std::string_view text) { return std::copy(text.begin(), text.end(), at); }
@@ -121,7 +123,7 @@ void EvaluationTable::append_row(fmt::memory_buffer& buffer, std::size_t run, st
   *at++ = ',';
   if (!failed) at = put_number(at, record.objective);
   *at++ = ',';
-  at = put(at, name(record.status.kind()));
+  at = put(at, record.ended_early ? ended_early : name(record.status.kind()));
   *at++ = ',';
   if (record.status.kind() == Status::Kind::infeasible) at = put_number(at, record.status.violation());
   *at++ = ',';
@@ -174,7 +176,8 @@ void EvaluationTable::values(const Row& row, search::JournalEntry& entry) const 
   entry.objective = read_number(row.cells[cell], none);
   const std::string_view word = row.cells[cell + 1];
   std::string reason = unquoted(row.cells[cell + 3]);
-  if (word == "ok")
+  entry.ended_early = word == ended_early;
+  if (word == "ok" || entry.ended_early)
     entry.status = Status();
   else if (word == "infeasible")
     entry.status = Status::infeasible(std::move(reason), read_number(row.cells[cell + 2], none));

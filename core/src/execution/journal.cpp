@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "execution/journal.hpp"
 
+#include <span>
 #include <system_error>
 #include <utility>
 
 namespace tunica::execution {
 
-namespace {
-constexpr std::size_t buffered_bytes = 1 << 16;
+void Journal::Pending::add(const search::Record& record) {
+  if (!record.status.ok()) other_than_ok.emplace_back(indices.size(), record.status);
+  indices.push_back(record.index);
+  ended_early.push_back(record.ended_early ? 1 : 0);
+  numbers.insert(numbers.end(), record.parameters.begin(), record.parameters.end());
+  numbers.insert(numbers.end(), record.per_test.begin(), record.per_test.end());
+  numbers.insert(numbers.end(), {record.objective, record.seconds});
+}
+
+void Journal::Pending::clear() {
+  numbers.clear();
+  other_than_ok.clear();
+  indices.clear();
+  ended_early.clear();
 }
 
 std::filesystem::path Journal::main_file(const std::filesystem::path& directory) {
@@ -51,11 +64,40 @@ std::string Journal::failure() const {
 
 void Journal::record(std::size_t task, const search::Record& record) {
   Sink& sink = *sinks_[task];
-  const std::lock_guard lock(sink.mutex);
-  if (record.index < sink.next || failed()) return;
-  sink.next = record.index + 1;
-  table_.append_row(sink.rows, tasks_[task].run, tasks_[task].realisation, record);
-  if (sink.rows.size() < buffered_bytes) return;
+  {
+    const std::lock_guard lock(sink.mutex);
+    if (record.index < sink.next || failed()) return;
+    sink.next = record.index + 1;
+    sink.pending.add(record);
+    if (sink.pending.indices.size() < most_pending_) return;
+  }
+  drain(task);
+}
+
+void Journal::drain(std::size_t task) {
+  Sink& sink = *sinks_[task];
+  const std::lock_guard order(sink.order);
+  {
+    const std::lock_guard lock(sink.mutex);
+    std::swap(sink.pending, sink.formatted);
+  }
+  Pending& rows = sink.formatted;
+  if (rows.indices.empty()) return;
+  const auto [run, realisation] = tasks_[task];
+  const std::size_t each = rows.numbers.size() / rows.indices.size(), tests = table_.runs()[run].tests.size();
+  const std::size_t parameters = each - tests - 2;
+  const Status ok;
+  auto other = rows.other_than_ok.begin();
+  for (std::size_t k = 0; k < rows.indices.size(); ++k) {
+    const auto numbers = std::span<const double>(rows.numbers).subspan(k * each, each);
+    const bool is_other = other != rows.other_than_ok.end() && other->first == k;
+    table_.append_row(
+        sink.rows, run, realisation,
+        {rows.indices[k], numbers.first(parameters), numbers[each - 2], numbers.subspan(parameters, tests),
+         is_other ? other->second : ok, numbers[each - 1], rows.ended_early[k] != 0});
+    if (is_other) ++other;
+  }
+  rows.clear();
   write(task, {sink.rows.data(), sink.rows.size()});
   sink.rows.clear();
 }
@@ -75,13 +117,7 @@ void Journal::write(std::size_t task, std::string_view rows) {
 }
 
 void Journal::flush(bool durable) {
-  for (std::size_t task = 0; task < sinks_.size(); ++task) {
-    Sink& sink = *sinks_[task];
-    const std::lock_guard lock(sink.mutex);
-    if (sink.rows.size() == 0) continue;
-    write(task, {sink.rows.data(), sink.rows.size()});
-    sink.rows.clear();
-  }
+  for (std::size_t task = 0; task < sinks_.size(); ++task) drain(task);
   if (!durable) return;
   const std::lock_guard lock(files_);
   keep_failure([&] {
@@ -91,10 +127,9 @@ void Journal::flush(bool durable) {
 }
 
 void Journal::finish(std::size_t task) {
+  drain(task);
   Sink& sink = *sinks_[task];
-  const std::lock_guard lock(sink.mutex);
-  if (sink.rows.size() > 0) write(task, {sink.rows.data(), sink.rows.size()});
-  sink.rows.clear();
+  const std::lock_guard order(sink.order);
   const std::lock_guard files_lock(files_);
   sink.finished = true;
   if (failed()) return;

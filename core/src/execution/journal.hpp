@@ -31,7 +31,8 @@ struct Task {
 ///
 /// The rows of evaluations.csv are in the order of run, realisation, id, whatever the number of threads: the first
 /// unfinished realisation appends to it; those that run ahead of it append to `parts/<n>.csv` and are moved over
-/// when their turn comes. Rows are buffered; flush() is to be called every 0.2 s or less. A failed write is kept in
+/// when their turn comes. Rows are buffered as numbers; flush() makes text of them and is to be called every 0.2 s or
+/// less. A search does that by itself only once `most_pending` rows wait. A failed write is kept in
 /// failure() and stops the recording, for it happens inside an optimiser, where no exception of ours belongs.
 /// Threads: one task's record() from one thread at a time; everything else from any.
 class Journal {
@@ -47,6 +48,8 @@ class Journal {
 
   /// Appends a row; rows that are stored already are passed over.
   void record(std::size_t task, const search::Record& record);
+  /// Rows that wait before the search that records them has to write them; fewer where many searches share the memory.
+  void let_wait(std::size_t rows) { most_pending_ = rows; }
   void finish(std::size_t task);
   /// Writes what is buffered; `durable` waits until it is on the disk.
   void flush(bool durable = false);
@@ -58,13 +61,28 @@ class Journal {
   static std::filesystem::path part_file(const std::filesystem::path& directory, std::size_t task);
 
  private:
+  /// Rows of one task that are no text yet.
+  struct Pending {
+    std::vector<double> numbers;  ///< of each row its parameters, costs, objective and seconds
+    std::vector<std::pair<std::size_t, Status>> other_than_ok;
+    std::vector<std::uint64_t> indices;
+    std::vector<char> ended_early;
+
+    void add(const search::Record& record);
+    void clear();
+  };
   struct Sink {
-    std::mutex mutex;
-    fmt::memory_buffer rows;
-    std::uint64_t next = 0;  ///< index of the first row that is not stored
+    std::mutex order;  ///< held while rows become text and are written, so that they keep their order; taken first
+    std::mutex mutex;  ///< of `pending` and `next`
+    Pending pending;
+    Pending formatted;        ///< being written; under `order`
+    fmt::memory_buffer rows;  ///< under `order`
+    std::uint64_t next = 0;   ///< index of the first row that is not stored
     AppendFile part;
     bool finished = false;
   };
+  /// Makes text of what is pending and writes it.
+  void drain(std::size_t task);
   void write(std::size_t task, std::string_view rows);
   void advance();
   template <class Action>
@@ -74,11 +92,12 @@ class Journal {
   const EvaluationTable& table_;
   std::vector<Task> tasks_;
   std::vector<std::unique_ptr<Sink>> sinks_;
-  mutable std::mutex files_;  ///< taken after a sink's mutex, never before
+  mutable std::mutex files_;  ///< taken after a sink's mutexes, never before
   AppendFile main_;
   std::size_t head_ = 0;
   std::string failure_;
   std::atomic<bool> failed_ = false;
+  std::size_t most_pending_ = 512;
 };
 
 }  // namespace tunica::execution

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/guide.hpp"
 #include "assembly/memory.hpp"
 #include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
@@ -188,6 +189,8 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
     run.seed = derive_seed(experiment.seed, fmt::format("run {}#{}", pair, occurrence));
     run.stages = plan_stages(experiment, entry, catalogue);
     run.assembly = std::make_unique<assembly::Assembly>(experiment, entry, catalogue);
+    if (entry.fewer_simulations.guide)
+      run.guide = assembly::make_guide(experiment, entry, run.label, catalogue, *run.assembly);
     check_needs(run, plan.warnings);
     warn_of_assumed_orders(experiment, run, catalogue, plan.warnings);
     for (std::uint64_t realisation = 1; realisation <= entry.realisations; ++realisation)

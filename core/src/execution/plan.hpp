@@ -27,6 +27,7 @@ struct PlannedRun {
   std::string label;  ///< "gho/es"; a second run of the same pair is "gho/es#2"
   const experiment::RunEntry* entry = nullptr;
   std::unique_ptr<assembly::Assembly> assembly;
+  std::unique_ptr<assembly::Assembly> guide;  ///< cheaper tests in place of costly ones, where the run asks for them
   std::vector<PlannedStage> stages;
   std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
 };

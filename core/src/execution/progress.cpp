@@ -31,7 +31,7 @@ Meter::Meter() : best(std::numeric_limits<double>::infinity()) {}
 
 void Meter::count(const search::Record& record) {
   evaluations.store(record.index + 1, std::memory_order_relaxed);
-  if (record.status.ok() && record.objective < best.load(std::memory_order_relaxed))
+  if (record.status.ok() && !record.ended_early && record.objective < best.load(std::memory_order_relaxed))
     best.store(record.objective, std::memory_order_relaxed);
 }
 

@@ -8,6 +8,7 @@
 
 #include "plugins/guarded.hpp"
 #include "plugins/usual_arithmetic.hpp"
+#include "search/guided_search.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::execution {
@@ -68,7 +69,8 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
   const auto& shared = run.entry->stop;
   const auto record = [&](const search::Record& entry) {
     result.seconds = std::max(result.seconds, entry.seconds);
-    if (entry.status.ok() && (result.trace.empty() || entry.objective < result.trace.back().objective))
+    if (entry.status.ok() && !entry.ended_early &&
+        (result.trace.empty() || entry.objective < result.trace.back().objective))
       result.trace.push_back({entry.index + 1, entry.objective});
     surroundings.record(entry);
   };
@@ -92,13 +94,25 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     }
     const auto optimizer = plugins::create(*stage.optimizer, stage.entry->options);
     settings.skip_costly = !plugins::needs(stage.optimizer->plugin, *optimizer).infeasible;
-    search::CalibrationProblem problem(*run.assembly, std::move(settings));
+    settings.end_early = run.entry->fewer_simulations.early_end;
+    search::CalibrationProblem problem(*run.assembly, settings);
+    const auto minimise = [&](Optimizer& with, Problem& what) {
+      return plugins::guarded(
+          stage.optimizer->plugin, "minimise", [&] { return with.minimise(what); }, problem.seed("call"));
+    };
     Optimizer::Outcome outcome;
     std::string fault;
     try {
       const plugins::UsualArithmetic arithmetic;
-      outcome = plugins::guarded(
-          stage.optimizer->plugin, "minimise", [&] { return optimizer->minimise(problem); }, problem.seed("call"));
+      if (run.guide) {
+        search::GuidedSearch guided(*run.guide, settings, [&](Problem& cheap) {
+          return minimise(*plugins::create(*stage.optimizer, stage.entry->options), cheap);
+        });
+        outcome = guided.run(problem, result.best.found());
+        result.tally.guide_evaluations += guided.evaluations();
+      } else {
+        outcome = minimise(*optimizer, problem);
+      }
     } catch (const plugins::HostFault&) {
       throw;
     } catch (const InputError& problem_of_plugin) {

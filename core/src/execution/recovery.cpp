@@ -19,6 +19,7 @@ void StoredEvaluations::add(const search::JournalEntry& entry) {
   numbers_.insert(numbers_.end(), entry.per_test.begin(), entry.per_test.end());
   numbers_.insert(numbers_.end(), {entry.objective, entry.seconds});
   if (!entry.status.ok()) other_than_ok_.emplace(size_, entry.status);
+  if (entry.ended_early) ended_early_.insert(size_);
   ++size_;
 }
 
@@ -31,6 +32,7 @@ bool StoredEvaluations::get(std::uint64_t index, search::JournalEntry& entry) co
   entry.seconds = numbers[parameters_ + tests_ + 1];
   const auto other = other_than_ok_.find(index);
   entry.status = other == other_than_ok_.end() ? Status() : other->second;
+  entry.ended_early = ended_early_.contains(index);
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "execution/journal.hpp"
@@ -24,6 +25,7 @@ class StoredEvaluations {
   std::uint64_t size_ = 0;
   std::vector<double> numbers_;  ///< parameters, costs, objective, seconds of each evaluation
   std::map<std::uint64_t, Status> other_than_ok_;
+  std::unordered_set<std::uint64_t> ended_early_;
 };
 
 /// What the journal of a killed run holds. Reading repairs it: a torn last line is cut off, and rows that were being

@@ -24,6 +24,7 @@
 #include "execution/journal.hpp"
 #include "execution/realisation.hpp"
 #include "execution/recovery.hpp"
+#include "execution/thinning.hpp"
 
 namespace tunica::execution {
 
@@ -104,7 +105,10 @@ void Run::open() {
     std::vector<bool> wanted(plan_.tasks.size(), true);
     for (const auto& [task, result] : before.finished)
       if (task < wanted.size()) wanted[task] = false;
-    auto recovered = recover(directory, table_, plan_.tasks, wanted);
+    facts_.thinned = before.facts.thinned;
+    if (facts_.thinned) refuse_unfinished(directory, before, plan_.tasks.size());
+    auto recovered =
+        facts_.thinned ? thinned_journal(before, plan_.tasks.size()) : recover(directory, table_, plan_.tasks, wanted);
     for (const auto* damages : {&before.damages, &recovered.damages})
       for (const std::string& sentence : *damages) {
         log_->warn("{}", sentence);
@@ -127,6 +131,9 @@ void Run::open() {
   }
   for (const auto& warning : plan_.warnings) log_->warn("{}", warning.text());
   journal_ = std::make_unique<Journal>(directory, table_, plan_.tasks, std::move(stored));
+  // Where threads outnumber the searches, one that has nothing to evaluate can write.
+  constexpr std::size_t of_few_searches = 1 << 16;
+  if (plan_.tasks.size() < settings_.threads) journal_->let_wait(of_few_searches / plan_.tasks.size());
   for (const auto& [task, entry] : finished_) {
     const auto& result = results_[task];
     journal_->finish(task);

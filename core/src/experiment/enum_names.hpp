@@ -19,6 +19,9 @@ inline constexpr text::Codes<ObjectiveType, 3> objective_names{
 inline constexpr text::Codes<OnFailure, 3> on_failure_names{
     {{OnFailure::penalise, "penalise"}, {OnFailure::stop, "stop"}, {OnFailure::retry, "retry"}}};
 
+inline constexpr text::Codes<KeptEvaluations, 2> kept_evaluations_names{
+    {{KeptEvaluations::all, "all"}, {KeptEvaluations::improvements, "improvements"}}};
+
 inline constexpr text::Codes<Scale, 2> scale_names{{{Scale::linear, "linear"}, {Scale::log, "log"}}};
 
 /// All names, in the order of the table.

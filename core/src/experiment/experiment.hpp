@@ -79,6 +79,8 @@ struct TestEntry {
 
 enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
 enum class OnFailure { penalise, stop, retry };
+/// What evaluations.csv holds once the results are written.
+enum class KeptEvaluations { all, improvements };
 
 /// The factor h of the sub-critical stability constraint over stretch; one row = a constant.
 using StabilityFactor = std::vector<std::pair<double, double>>;
@@ -113,6 +115,12 @@ struct OptimizerEntry {
   std::vector<Stage> stages;
 };
 
+/// What spares simulations of costly tests; docs/optimizers.md explains both.
+struct FewerSimulations {
+  bool early_end = true;  ///< an offspring that its cheap tests put out of question is not simulated
+  bool guide = false;     ///< cheaper tests stand in while the search looks around
+};
+
 struct RunEntry {
   std::string model;  ///< of the tests that name no layers; empty = every one does
   std::string optimizer;
@@ -122,6 +130,7 @@ struct RunEntry {
   ObjectiveType objective = ObjectiveType::standardised_quadratic;
   std::vector<ConstraintEntry> constraints;
   Stop stop;
+  FewerSimulations fewer_simulations;
 };
 
 /// The block "diagnosis"; an absent member leaves the diagnosis its default.
@@ -184,6 +193,7 @@ struct Experiment {
   std::vector<RunEntry> runs;
   OnFailure on_failure = OnFailure::penalise;
   double max_failure_rate = 1;  ///< share of failed evaluations above which a run stops
+  KeptEvaluations kept_evaluations = KeptEvaluations::all;
   Analysis analysis;
   std::optional<DiagnosisEntry> diagnosis;
   std::optional<DiscoveryEntry> discovery;

@@ -90,6 +90,7 @@ std::vector<OptimizerEntry> read_optimizers(const Node& node, const plugins::Cat
 ObjectiveType read_objective(const Node& node);
 std::vector<ConstraintEntry> read_constraints(const Node& node);
 void read_on_failure(const Node& node, Experiment& experiment);
+KeptEvaluations read_kept_evaluations(const Node& node);
 /// What a run takes where it overrides nothing.
 struct RunDefaults {
   std::vector<std::string> tests;
@@ -97,7 +98,9 @@ struct RunDefaults {
   std::vector<ConstraintEntry> constraints;
   Stop stop;
   bool random_start = false;
+  FewerSimulations fewer_simulations;
 };
+FewerSimulations read_fewer_simulations(const Node& node);
 /// "given" or "random": true for random.
 bool read_initial(const Node& node);
 /// Tests that a run defines for itself are added to the experiment.

@@ -134,7 +134,19 @@ std::vector<ConstraintEntry> read_constraints(const Node& node) {
   return constraints;
 }
 
+FewerSimulations read_fewer_simulations(const Node& node) {
+  node.allow_only({"early_end", "guide"}, "\"fewer_simulations\"");
+  FewerSimulations fewer;
+  if (const auto early_end = node.find("early_end")) fewer.early_end = early_end->flag("true or false");
+  if (const auto guide = node.find("guide")) fewer.guide = guide->flag("true or false");
+  return fewer;
+}
+
 bool read_initial(const Node& node) { return node.one_of({"given", "random"}, "start of a search") == "random"; }
+
+KeptEvaluations read_kept_evaluations(const Node& node) {
+  return read_choice(node, kept_evaluations_names, "set of evaluations");
+}
 
 void read_on_failure(const Node& node, Experiment& experiment) {
   if (!node.is_object()) {
@@ -158,7 +170,8 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
   if (entries.empty()) node.fail("no run is given", "Give at least one: {\"model\": …, \"optimizer\": …}.");
   std::uint64_t all_realisations = 0;
   for (const Node& entry : entries) {
-    entry.allow_only({"model", "optimizer", "realisations", "initial", "tests", "objective", "constraints", "stop"},
+    entry.allow_only({"model", "optimizer", "realisations", "initial", "tests", "objective", "constraints", "stop",
+                      "fewer_simulations"},
                      "a run");
     RunEntry run;
     run.optimizer = entry.require("optimizer", "a run").one_of(entry_names(experiment.optimizers), "optimizer");
@@ -173,6 +186,8 @@ void read_runs(const Node& node, const RunDefaults& defaults, const plugins::Cat
     run.objective = objective ? read_objective(*objective) : defaults.objective;
     run.constraints = constraints ? read_constraints(*constraints) : defaults.constraints;
     run.stop = stop ? read_stop(*stop) : defaults.stop;
+    const auto fewer = entry.find("fewer_simulations");
+    run.fewer_simulations = fewer ? read_fewer_simulations(*fewer) : defaults.fewer_simulations;
     const auto any = [&](const auto& of_test) {
       return std::any_of(run.tests.begin(), run.tests.end(),
                          [&](const std::string& name) { return of_test(experiment.test(name)); });

@@ -155,6 +155,20 @@ Json initial_schema() {
       {"given", "random"});
 }
 
+Json fewer_simulations_schema() {
+  return object_schema(
+      "What spares simulations of costly tests.",
+      {{"early_end",
+        {{"description",
+          "Whether an evaluation ends where cheap tests show that a search will drop the point (default true); results "
+          "stay the same."},
+         {"type", "boolean"}}},
+       {"guide",
+        {{"description",
+          "Whether cheaper tests stand in while a search looks around, corrected by simulations (default false)."},
+         {"type", "boolean"}}}});
+}
+
 Json run_schema() {
   Json tests = {{"description", "The tests of this run: names, or tests of its own (default: all)."}};
   tests["anyOf"] =
@@ -168,7 +182,8 @@ Json run_schema() {
        {"tests", std::move(tests)},
        {"objective", reference("objective")},
        {"constraints", reference("constraints")},
-       {"stop", reference("stop")}},
+       {"stop", reference("stop")},
+       {"fewer_simulations", fewer_simulations_schema()}},
       {"optimizer"});
 }
 
@@ -276,6 +291,11 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["runs"] = list_schema("What to calibrate; the runs are compared.", run_schema());
   properties["runs"]["minItems"] = 1;
   properties["on_failure"] = on_failure_schema();
+  properties["fewer_simulations"] = fewer_simulations_schema();
+  properties["keep_evaluations"] = choice_schema(
+      "Which rows evaluations.csv keeps once the results are written: all, or improvements of the best point only "
+      "(default all).",
+      names_in(kept_evaluations_names));
   properties["analysis"] = analysis_schema();
   properties["diagnosis"] = diagnosis_schema();
   properties["discovery"] = discovery_schema();

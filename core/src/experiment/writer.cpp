@@ -192,6 +192,7 @@ Json to_json(const RunEntry& run) {
   json["objective"] = text::code_of(objective_names, run.objective);
   json["constraints"] = std::move(constraints);
   json["stop"] = to_json(run.stop);
+  json["fewer_simulations"] = {{"early_end", run.fewer_simulations.early_end}, {"guide", run.fewer_simulations.guide}};
   return json;
 }
 
@@ -247,6 +248,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const RunEntry& run : experiment.runs) json["runs"].push_back(to_json(run));
   json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)},
                         {"max_rate", experiment.max_failure_rate}};
+  json["keep_evaluations"] = text::code_of(kept_evaluations_names, experiment.kept_evaluations);
   if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);
   if (experiment.discovery) json["discovery"] = to_json(*experiment.discovery);

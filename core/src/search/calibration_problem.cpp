@@ -28,7 +28,8 @@ struct CalibrationProblem::Parts {
     if (!settings.record) return;
     const std::size_t n = shared.parameters, tests = shared.tests;
     settings.record({index, std::span(made.parameters).subspan(slot * n, n), made.objectives[slot],
-                     std::span(made.per_test).subspan(slot * tests, tests), made.statuses[slot], made.seconds[slot]});
+                     std::span(made.per_test).subspan(slot * tests, tests), made.statuses[slot], made.seconds[slot],
+                     made.ended_early[slot] != 0});
   }
 
   static void check(const Evaluations& made, std::size_t slot) {
@@ -56,7 +57,7 @@ struct CalibrationProblem::Parts {
         check(made, slot);
         const std::uint64_t index = oracle.ledger.next_index();
         oracle.ledger.add(std::span(made.parameters).subspan(slot * n, n), made.objectives[slot], made.statuses[slot],
-                          call.jacobian);
+                          call.jacobian, made.extent(slot, shared.tests));
         record(made, slot, index);
       }
     }
@@ -96,6 +97,12 @@ Status CalibrationProblem::evaluate(std::span<const double> x, double& objective
 void CalibrationProblem::evaluate_batch(std::span<const double> xs, std::span<double> objectives,
                                         std::span<Status> statuses) {
   parts_->oracle.evaluate_batch(xs, objectives, statuses);
+  parts_->deliver();
+}
+
+void CalibrationProblem::evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
+                                       std::span<Status> statuses) {
+  parts_->oracle.evaluate_best(xs, best, objectives, statuses);
   parts_->deliver();
 }
 

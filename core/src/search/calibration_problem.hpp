@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "search/correction.hpp"
 #include "search/stop_reason.hpp"
 #include "tunica/optimizer.hpp"
 
@@ -22,7 +23,8 @@ struct Record {
   double objective;                    ///< undefined when failed
   std::span<const double> per_test;
   const Status& status;
-  double seconds;  ///< since the realisation began
+  double seconds;            ///< since the realisation began
+  bool ended_early = false;  ///< the objective is a lower bound, see Problem::evaluate_best
 };
 
 /// What the best evaluated point is, at any time: the feasible one of least objective; while none is feasible, the
@@ -51,6 +53,7 @@ struct JournalEntry {
   double objective;
   Status status;
   double seconds;
+  bool ended_early = false;
 };
 using Replay = std::function<bool(std::uint64_t index, JournalEntry& entry)>;
 
@@ -62,6 +65,9 @@ struct FailureKind {
 
 struct Tally {
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
+  std::uint64_t ended_early = 0;  ///< of the evaluations, see Problem::evaluate_best
+  std::uint64_t simulated = 0;    ///< evaluations for which costly tests were simulated, those that failed included
+  std::uint64_t guide_evaluations = 0;    ///< of the tests that stand in, counted beside; see guided.hpp
   std::string first_failure = {};         ///< reason of the first failed evaluation
   std::vector<FailureKind> reasons = {};  ///< in order of appearance, the first `most_reasons`
   static constexpr std::size_t most_reasons = 20;
@@ -91,7 +97,9 @@ class CalibrationProblem : public Problem {
     std::function<bool()> interrupted = {};  ///< Ctrl-C; called from any thread
     std::uint64_t first_index = 0;           ///< of a later stage
     double elapsed_before = 0;               ///< s, counted against max_time
-    bool skip_costly = false;                ///< at infeasible points, see Evaluator::evaluate
+    bool skip_costly = false;                ///< at infeasible points, see CostlyTests
+    const Correction* correction = nullptr;  ///< of the residuals, and the part of the box that is searched
+    bool end_early = false;                  ///< evaluations in evaluate_best() that cheap tests decide
   };
   CalibrationProblem(const assembly::Assembly& assembly, Settings settings);
   ~CalibrationProblem() override;
@@ -109,6 +117,8 @@ class CalibrationProblem : public Problem {
   [[nodiscard]] std::size_t constraint_count() const override;
   Status evaluate(std::span<const double> x, double& objective) override;
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override;
+  void evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
+                     std::span<Status> statuses) override;
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian) override;
   Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override;

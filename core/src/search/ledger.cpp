@@ -39,15 +39,22 @@ void Tally::add(const Tally& part) {
   jacobians += part.jacobians;
   failures += part.failures;
   infeasible += part.infeasible;
+  ended_early += part.ended_early;
+  simulated += part.simulated;
+  guide_evaluations += part.guide_evaluations;
   if (first_failure.empty()) first_failure = part.first_failure;
   for (const FailureKind& kind : part.reasons) add_failure(kind.example, kind.count);
 }
 
-void Ledger::add(std::span<const double> parameters, double objective, const Status& status, bool jacobian) {
+void Ledger::add(std::span<const double> parameters, double objective, const Status& status, bool jacobian,
+                 Extent extent) {
   const std::uint64_t index = next_index();
   ++tally_.evaluations;
   if (jacobian) ++tally_.jacobians;
-  if (status.kind() == Status::Kind::failed) {
+  if (extent == Extent::whole) ++tally_.simulated;
+  if (extent == Extent::ended_early) {
+    ++tally_.ended_early;
+  } else if (status.kind() == Status::Kind::failed) {
     ++tally_.failures;
     tally_.add_failure(status.reason());
   } else {

@@ -12,6 +12,13 @@
 
 namespace tunica::search {
 
+/// How much of an evaluation was done.
+enum class Extent {
+  whole,
+  without_costly_tests,  ///< of an infeasible point
+  ended_early            ///< the objective is a lower bound; it counts, and is never the best
+};
+
 /// Counts evaluations in the order of their index, keeps the best point (strictly better; of equals the first) and
 /// says when the search must stop:
 ///
@@ -37,7 +44,8 @@ class Ledger {
 
   explicit Ledger(Rules rules) : rules_(rules) {}
 
-  void add(std::span<const double> parameters, double objective, const Status& status, bool jacobian);
+  void add(std::span<const double> parameters, double objective, const Status& status, bool jacobian,
+           Extent extent = Extent::whole);
   /// Stops for a reason from outside, as max_time and interrupted are. The first reason stays. The sentence is for
   /// people; without one it is the code of the reason.
   void stop(StopReason reason, std::string sentence = {});

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "numerics/eigenpairs.hpp"
+#include "search/early_end.hpp"
 
 namespace tunica::search {
 namespace {
@@ -25,6 +27,7 @@ struct Neighbour {
   std::vector<double> free;
   Status status;
   double objective = 0;
+  bool simulated = true;  ///< false: the objective is a lower bound, and another neighbour is lower
 };
 
 /// Eigenvectors of JᵀJ; none where the Jacobian cannot be had.
@@ -77,6 +80,37 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
   return found;
 }
 
+/// Side by side. Only the lowest counts: where its cheap tests put a neighbour above another one, and where it is
+/// infeasible, costly tests are left out.
+void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours) {
+  const auto evaluate = [&](std::span<const std::size_t> which, assembly::CostlyTests costly) {
+    tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t k) {
+      Neighbour& neighbour = neighbours[which[k]];
+      const auto own = assembly.evaluator().make_workspace();
+      neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own, costly);
+    });
+  };
+  std::vector<std::size_t> all(neighbours.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (!assembly.layout().has_costly_tests) {
+    evaluate(all, assembly::CostlyTests::everywhere);
+    return;
+  }
+  evaluate(all, assembly::CostlyTests::nowhere);
+  EarlyEnd early;
+  for (const std::size_t k : all) {
+    neighbours[k].simulated = false;
+    if (neighbours[k].status.ok()) early.add(k, neighbours[k].objective);
+  }
+  for (auto chunk = early.next(1); !chunk.empty(); chunk = early.next(1)) {
+    evaluate(chunk, assembly::CostlyTests::everywhere);
+    for (const std::size_t k : chunk) {
+      neighbours[k].simulated = true;
+      if (neighbours[k].status.ok()) early.found(neighbours[k].objective);
+    }
+  }
+}
+
 }  // namespace
 
 bool same_objective(double a, double b) { return std::abs(a - b) <= 1e-9 * std::abs(b) + 1e-12; }
@@ -100,16 +134,15 @@ Neighbourhood probe_neighbourhood(const assembly::Assembly& assembly, std::span<
   }
   if (n > 1) add_principal_directions(assembly, free, directions);
   auto neighbours = neighbours_of(assembly, free, directions);
-  tbb::parallel_for(std::size_t{0}, neighbours.size(), [&](std::size_t k) {
-    auto& neighbour = neighbours[k];
-    const auto own = assembly.evaluator().make_workspace();
-    neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own);
-  });
+  evaluate_neighbours(assembly, neighbours);
   for (auto& neighbour : neighbours) {
     ++result.evaluated;
+    result.simulated += neighbour.simulated;
     result.infeasible += neighbour.status.kind() == Status::Kind::infeasible;
     result.failed += neighbour.status.kind() == Status::Kind::failed;
-    if (!neighbour.status.ok() || (result.lowest && neighbour.objective >= result.lowest->objective)) continue;
+    if (!neighbour.simulated || !neighbour.status.ok() ||
+        (result.lowest && neighbour.objective >= result.lowest->objective))
+      continue;
     result.lowest = {neighbour.objective, neighbour.step, neighbour.direction->name, std::move(neighbour.free)};
   }
   result.better = result.lowest && result.lowest->objective < result.objective &&

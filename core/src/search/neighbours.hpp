@@ -23,8 +23,9 @@ struct Neighbourhood {
   Status status;         ///< of the point itself
   double objective = 0;  ///< of the point itself, evaluated here
   std::size_t evaluated = 0, infeasible = 0, failed = 0;
-  std::optional<Lowest> lowest;                         ///< none when no neighbour could be evaluated and is feasible
-  bool better = false;                                  ///< the lowest is below the point by more than rounding
+  std::size_t simulated = 0;     ///< of the evaluated ones, in full: cheap tests settle the others, see early_end.hpp
+  std::optional<Lowest> lowest;  ///< none when no neighbour could be evaluated and is feasible
+  bool better = false;           ///< the lowest is below the point by more than rounding
   std::size_t constraints = 0, active_constraints = 0;  ///< values c(p), and those above −active_margin
 };
 

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "assembly/workspace.hpp"
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
 
@@ -59,9 +62,11 @@ void WorkspacePool::give(assembly::WorkspacePointer workspace) {
 SharedState::SharedState(const assembly::Assembly& assembly_, const CalibrationProblem::Settings& settings_)
     : assembly(assembly_),
       settings(settings_),
+      box(settings.correction ? assembly.box().between(settings.correction->lower, settings.correction->upper)
+                              : assembly.box()),
       parameters(assembly.layout().parameters.size()),
       tests(assembly.layout().test_count),
-      start(settings.start.empty() ? assembly.box().initial() : settings.start),
+      start(settings.start.empty() ? box.initial() : settings.start),
       watch(settings.elapsed_before),
       pool(assembly),
       replaying(static_cast<bool>(settings.replay)) {}
@@ -74,6 +79,7 @@ void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_c
   objectives.resize(total);
   seconds.resize(total);
   statuses.resize(total);
+  ended_early.resize(total);
 }
 
 void Evaluations::drop_call(std::size_t parameter_count, std::size_t test_count) {
@@ -84,6 +90,16 @@ void Evaluations::drop_call(std::size_t parameter_count, std::size_t test_count)
   objectives.resize(left);
   seconds.resize(left);
   statuses.resize(left);
+  ended_early.resize(left);
+}
+
+Extent Evaluations::extent(std::size_t slot, std::size_t test_count) const {
+  if (ended_early[slot] != 0) return Extent::ended_early;
+  if (statuses[slot].kind() != Status::Kind::infeasible) return Extent::whole;
+  const auto cost = per_test.begin() + static_cast<std::ptrdiff_t>(slot * test_count);
+  const bool left_out =
+      std::any_of(cost, cost + static_cast<std::ptrdiff_t>(test_count), [](double value) { return std::isnan(value); });
+  return left_out ? Extent::without_costly_tests : Extent::whole;
 }
 
 void Evaluations::clear() {
@@ -93,6 +109,7 @@ void Evaluations::clear() {
   objectives.clear();
   seconds.clear();
   statuses.clear();
+  ended_early.clear();
 }
 
 Oracle::Oracle(SharedState& shared, Ledger ledger_, std::optional<std::uint64_t> replay_from,
@@ -129,7 +146,7 @@ bool Oracle::replay(std::span<const double> x, std::size_t slot) {
   }
   const std::size_t n = shared_.parameters;
   const std::span<double> free = std::span(made.parameters).subspan(slot * n, n);
-  shared_.assembly.box().from_unit(x, free);
+  shared_.box.from_unit(x, free);
   if (entry_.parameters.size() != n || entry_.per_test.size() != shared_.tests) {
     contradict(slot, fmt::format("it has {} parameters and {} tests where the run has {} and {}",
                                  entry_.parameters.size(), entry_.per_test.size(), n, shared_.tests));
@@ -146,37 +163,49 @@ bool Oracle::replay(std::span<const double> x, std::size_t slot) {
   made.objectives[slot] = entry_.objective;
   made.statuses[slot] = entry_.status;
   made.seconds[slot] = entry_.seconds;
+  made.ended_early[slot] = entry_.ended_early ? 1 : 0;
   shared_.watch.catch_up(entry_.seconds);
   return true;
 }
 
 /// The evaluation proper; touches nothing but its slot, so that slots run side by side.
 Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
-                           std::span<double> jacobian, assembly::Workspace& workspace) {
+                           std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only) {
   const std::size_t n = shared_.parameters, tests = shared_.tests;
   const std::span<double> free = std::span(made.parameters).subspan(slot * n, n);
   const std::span<double> per_test = std::span(made.per_test).subspan(slot * tests, tests);
-  shared_.assembly.box().from_unit(x, free);
+  shared_.box.from_unit(x, free);
   if (Status status = check_point(x); !status.ok()) return status;
   const auto& max_time = shared_.settings.stop.max_time;
   const plugins::Call whole{nullptr, "evaluation", nullptr, nullptr,
                             max_time ? shared_.watch.reaches(*max_time) : plugins::Clock::time_point::max()};
   const plugins::CallScope scope(whole);
+  const assembly::CostlyTests costly = bound_only                     ? assembly::CostlyTests::nowhere
+                                       : shared_.settings.skip_costly ? assembly::CostlyTests::where_feasible
+                                                                      : assembly::CostlyTests::everywhere;
+  const Correction* const correction = shared_.settings.correction;
+  if (correction != nullptr && residuals.empty()) {
+    workspace.residuals.resize(correction->offset.size());
+    residuals = workspace.residuals;
+  }
   const auto evaluate = [&](std::span<const double> point) {
-    shared_.assembly.box().from_unit(point, free);
+    shared_.box.from_unit(point, free);
     return shared_.assembly.evaluator().evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace,
-                                                 shared_.settings.skip_costly);
+                                                 costly);
   };
   Status status = evaluate(x);
   if (status.kind() == Status::Kind::failed && shared_.settings.on_failure == experiment::OnFailure::retry) {
     if (const auto good = good_.nearest(x); !good.empty()) {
       status = continue_to(good, x, std::move(status), evaluate);
-      shared_.assembly.box().from_unit(x, free);
+      shared_.box.from_unit(x, free);
     }
   }
   plugins::evaluations_done.fetch_add(1, std::memory_order_relaxed);
   if (status.kind() == Status::Kind::failed) shared_.watch.add(plugins::take_time_lost());
-  if (status.kind() != Status::Kind::failed) shared_.assembly.box().jacobian_to_unit(free, jacobian);
+  if (status.kind() == Status::Kind::failed) return status;
+  shared_.box.jacobian_to_unit(free, jacobian);
+  if (correction != nullptr)
+    made.objectives[slot] = correction->apply(x, shared_.assembly.layout().blocks, residuals, jacobian);
   return status;
 }
 
@@ -195,7 +224,8 @@ void Oracle::count(std::span<const double> xs, const Evaluations::Call& call) {
   for (std::size_t k = 0; k < call.size; ++k) {
     const std::size_t slot = call.first + k;
     const Status& status = made.statuses[slot];
-    ledger.add(std::span(made.parameters).subspan(slot * n, n), made.objectives[slot], status, call.jacobian);
+    ledger.add(std::span(made.parameters).subspan(slot * n, n), made.objectives[slot], status, call.jacobian,
+               made.extent(slot, shared_.tests));
     if (status.ok() && shared_.settings.on_failure == experiment::OnFailure::retry) good_.add(xs.subspan(k * n, n));
   }
 }
@@ -206,7 +236,78 @@ Status Oracle::evaluate(std::span<const double> x, double& objective) {
   return status;
 }
 
-void Oracle::evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) {
+void Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
+                            bool bound_only) {
+  const std::size_t n = shared_.parameters, count = points.size();
+  // Cheap points come several at a time, so that a thread is worth calling.
+  const std::size_t least = bound_only || !shared_.assembly.layout().has_costly_tests ? 4 : 1;
+  const std::size_t workers =
+      std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), (count + least - 1) / least);
+  // Each worker takes half of its share of what is left, down to one point, so that all end within one evaluation
+  // (guided self-scheduling: C. D. Polychronopoulos, D. J. Kuck, IEEE Trans. Comput. 36 (1987) 1425).
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    std::size_t from = next.load(std::memory_order_relaxed);
+    if (from >= count) return;
+    const WorkspacePool::Loan workspace(shared_.pool);
+    while (from < count) {
+      const std::size_t to = from + std::max<std::size_t>(1, (count - from) / (2 * workers));
+      if (!next.compare_exchange_weak(from, to, std::memory_order_relaxed)) continue;
+      for (std::size_t k = from; k < to; ++k)
+        made.statuses[first + points[k]] =
+            evaluate_at(xs.subspan(points[k] * n, n), first + points[k], {}, {}, *workspace, bound_only);
+      from = next.load(std::memory_order_relaxed);
+    }
+  };
+  if (workers <= 1) return work();
+  // Isolated: a thread that waits here must not begin another search in between.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
+  });
+}
+
+void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed) {
+  const Evaluations::Call call = made.calls.back();
+  points_.resize(call.size - replayed);
+  std::iota(points_.begin(), points_.end(), replayed);
+  const auto& settings = shared_.settings;
+  // Other policies than to go on past failures look at failures that a lower bound would hide.
+  const bool early = settings.end_early && settings.skip_costly && best < call.size &&
+                     shared_.assembly.layout().has_costly_tests && settings.max_failure_rate >= 1 &&
+                     settings.on_failure == experiment::OnFailure::penalise;
+  if (!early) {
+    evaluate_slots(xs, call.first, points_, false);
+    return;
+  }
+  // Of replayed points too the bound is made again, as the order of work depends on it.
+  const auto first = static_cast<std::ptrdiff_t>(call.first), known = static_cast<std::ptrdiff_t>(replayed);
+  const auto tests = static_cast<std::ptrdiff_t>(shared_.tests);
+  const std::vector<double> objectives(made.objectives.begin() + first, made.objectives.begin() + first + known);
+  const std::vector<double> per_test(made.per_test.begin() + first * tests,
+                                     made.per_test.begin() + (first + known) * tests);
+  const std::vector<Status> statuses(made.statuses.begin() + first, made.statuses.begin() + first + known);
+  points_.resize(call.size);
+  std::iota(points_.begin(), points_.end(), std::size_t{0});
+  evaluate_slots(xs, call.first, points_, true);
+  early_.clear();
+  for (std::size_t k = 0; k < call.size; ++k)
+    if (made.statuses[call.first + k].ok()) early_.add(k, made.objectives[call.first + k]);
+  std::copy(objectives.begin(), objectives.end(), made.objectives.begin() + first);
+  std::copy(per_test.begin(), per_test.end(), made.per_test.begin() + first * tests);
+  std::copy(statuses.begin(), statuses.end(), made.statuses.begin() + first);
+  for (auto chunk = early_.next(best); !chunk.empty(); chunk = early_.next(best)) {
+    points_.clear();
+    std::copy_if(chunk.begin(), chunk.end(), std::back_inserter(points_), [&](std::size_t k) { return k >= replayed; });
+    evaluate_slots(xs, call.first, points_, false);
+    for (const std::size_t k : chunk)
+      if (made.statuses[call.first + k].ok()) early_.found(made.objectives[call.first + k]);
+  }
+  for (const std::size_t k : early_.left()) made.ended_early[call.first + k] = 1;
+}
+
+void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
+                           std::span<Status> statuses) {
   const std::size_t n = shared_.parameters, asked = objectives.size();
   check_length(xs.size(), asked * n, "coordinates");
   check_length(statuses.size(), asked, "statuses");
@@ -217,22 +318,7 @@ void Oracle::evaluate_batch(std::span<const double> xs, std::span<double> object
     const Evaluations::Call call = made.calls.back();
     std::size_t replayed = 0;
     while (replayed < count && replay(xs.subspan(replayed * n, n), call.first + replayed)) ++replayed;
-    const auto evaluate_range = [&](std::size_t first, std::size_t last) {
-      const WorkspacePool::Loan workspace(shared_.pool);
-      for (std::size_t k = first; k < last; ++k) {
-        made.statuses[call.first + k] = evaluate_at(xs.subspan(k * n, n), call.first + k, {}, {}, *workspace);
-      }
-    };
-    if (count - replayed <= 1 || tbb::this_task_arena::max_concurrency() == 1) {
-      evaluate_range(replayed, count);
-    } else {
-      // The partitioner splits only as far as threads ask for work, so that tasks stay long against their overhead.
-      // Isolated: a thread that waits here must not begin another search in between.
-      tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(replayed, count),
-                          [&](const auto& range) { evaluate_range(range.begin(), range.end()); });
-      });
-    }
+    if (replayed < count) evaluate_lowest(xs, best, replayed);
     if (replayed < count && broken_off(replayed)) {
       std::fill(statuses.begin(), statuses.end(), refusal());
       return;
@@ -286,11 +372,11 @@ Status Oracle::constraints(std::span<const double> x, std::span<double> values, 
   if (!jacobian.empty()) check_length(jacobian.size(), m * n, "entries of the constraints' Jacobian");
   if (Status status = check_point(x); !status.ok()) return status;
   std::vector<double> free(n);
-  shared_.assembly.box().from_unit(x, free);
+  shared_.box.from_unit(x, free);
   if (Status status = shared_.assembly.constraints().evaluate(free, values, jacobian); !status.ok() || jacobian.empty())
     return status;
   const WorkspacePool::Loan workspace(shared_.pool);
-  shared_.assembly.box().jacobian_to_unit(free, jacobian);
+  shared_.box.jacobian_to_unit(free, jacobian);
   return {};
 }
 

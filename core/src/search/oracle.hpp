@@ -14,6 +14,7 @@
 #include "assembly/secant.hpp"
 #include "search/calibration_problem.hpp"
 #include "search/continuation.hpp"
+#include "search/early_end.hpp"
 #include "search/ledger.hpp"
 
 namespace tunica::search {
@@ -77,6 +78,7 @@ struct SharedState {
 
   const assembly::Assembly& assembly;
   const CalibrationProblem::Settings& settings;
+  const assembly::UnitBox box;  ///< that of the assembly, or the part of it that is searched
   std::size_t parameters, tests;
   std::vector<double> start;  ///< unit box
   Stopwatch watch;
@@ -93,6 +95,7 @@ struct Evaluations {
   std::vector<Call> calls;
   std::vector<double> parameters, per_test, objectives, seconds;
   std::vector<Status> statuses;
+  std::vector<char> ended_early;
   std::string contradiction;  ///< of the journal, at evaluation `contradicted`
   std::size_t contradicted = 0;
 
@@ -101,6 +104,8 @@ struct Evaluations {
   /// Takes the last call back.
   void drop_call(std::size_t parameter_count, std::size_t test_count);
   void clear();
+  /// How much was done at a slot; it follows from what the journal holds.
+  [[nodiscard]] Extent extent(std::size_t slot, std::size_t test_count) const;
 };
 
 /// A search through the unit box: checks points, evaluates or replays them, counts, refuses after the stop. What it
@@ -114,7 +119,12 @@ class Oracle {
          const std::atomic<bool>* needless = nullptr);
 
   Status evaluate(std::span<const double> x, double& objective);
-  void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses);
+  void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) {
+    evaluate_best(xs, objectives.size(), objectives, statuses);
+  }
+  /// See early_end.hpp for which points are simulated in full.
+  void evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
+                     std::span<Status> statuses);
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian);
   /// Constraint values and their Jacobian by the unit box; counted nowhere.
@@ -128,7 +138,12 @@ class Oracle {
 
  private:
   Status evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
-                     std::span<double> jacobian, assembly::Workspace& workspace);
+                     std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only = false);
+  /// Evaluates the slots side by side.
+  void evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
+                      bool bound_only);
+  /// Evaluates what the journal does not know of a batch, the first `replayed` points of which it does.
+  void evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed);
   /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
   bool replay(std::span<const double> x, std::size_t slot);
   /// Whether the last call failed because a person ended the work. It is taken back then: resuming asks for it again.
@@ -142,6 +157,8 @@ class Oracle {
   GoodPoints good_;
   assembly::SecantMemory secant_;
   JournalEntry entry_;
+  EarlyEnd early_;
+  std::vector<std::size_t> points_;
 };
 
 }  // namespace tunica::search

@@ -25,6 +25,10 @@ class StartProblem : public Problem {
   [[nodiscard]] std::size_t constraint_count() const override { return shared_.assembly.constraints().count(); }
   Status evaluate(std::span<const double> x, double& objective) override;
   void evaluate_batch(std::span<const double> xs, std::span<double> objectives, std::span<Status> statuses) override;
+  void evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
+                     std::span<Status> statuses) override {
+    oracle.evaluate_best(xs, best, objectives, statuses);
+  }
   Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
                    std::span<double> jacobian) override;
   Status constraints(std::span<const double> x, std::span<double> values, std::span<double> jacobian) override {

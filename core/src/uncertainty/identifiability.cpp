@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "assembly/whitening.hpp"
 #include "numerics/singular.hpp"
@@ -16,6 +18,13 @@
 
 namespace tunica::uncertainty {
 namespace {
+
+/// One end of a linearised interval, to be judged.
+struct IntervalEnd {
+  Eigen::Index parameter;
+  double side, half_width, quantile;
+  bool straight = true;
+};
 
 constexpr double on_bound = 1e-6;  // of the range
 
@@ -192,7 +201,8 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
   found.curve_ci95 = curve_intervals(curves, spectrum);
   found.singular_values.assign(likelihood.values.begin(), likelihood.values.end());
   const Matrix flat = spectrum.projector(Visibility::not_at_all);
-  Straightness straightness(assembly, noise, free);
+  const Straightness straightness(assembly, noise, free);
+  std::vector<IntervalEnd> ends;
   for (std::size_t j = 0; j < n; ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     const double half_width = spectrum.half_width(Vector::Unit(flat.rows(), at));
@@ -200,7 +210,7 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     found.parameters[j].identified = true;
     // The likelihood has to be straight over the whole of the interval, which another objective makes wider.
     const double times = half_width / likelihood.half_width(Vector::Unit(flat.rows(), at));
-    found.parameters[j].straight = straightness.holds(at, half_width, times * spectrum.quantile);
+    for (const double side : {-1.0, 1.0}) ends.push_back({at, side, half_width, times * spectrum.quantile});
     found.parameters[j].ci95 = half_width * assembly.box().slope(j, free[j]);
     std::vector<double> end = unit, mapped(n);
     end[j] = unit[j] - half_width;
@@ -209,6 +219,17 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     end[j] = unit[j] + half_width;
     assembly.box().from_unit(end, mapped);
     found.parameters[j].upper = mapped[j];
+  }
+  // Isolated: a thread that waits here must not begin something else in between.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, ends.size(), [&](std::size_t k) {
+      IntervalEnd& end = ends[k];
+      end.straight = straightness.holds(end.parameter, end.side, end.half_width, end.quantile);
+    });
+  });
+  for (const IntervalEnd& end : ends) {
+    bool& straight = found.parameters[static_cast<std::size_t>(end.parameter)].straight;
+    straight = straight && end.straight;
   }
   for (std::size_t j = 0; j < n; ++j)
     if (found.parameters[j].identified) found.fixed_by_data.push_back(j);

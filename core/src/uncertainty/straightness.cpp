@@ -53,17 +53,33 @@ void Straightness::move_along(Eigen::Index parameter, double by, std::vector<dou
   }
 }
 
-bool Straightness::holds(Eigen::Index parameter, double half_width, double quantile) {
+Straightness::Straightness(const Straightness& other)
+    : assembly_(other.assembly_),
+      noise_(other.noise_),
+      workspace_(assembly_.evaluator().make_workspace()),
+      free_(other.free_),
+      predictions_(other.predictions_),
+      by_free_(other.by_free_),
+      residuals_(other.residuals_),
+      jacobian_(other.jacobian_),
+      constraints_(other.constraints_),
+      by_constraint_(other.by_constraint_),
+      penalty_(other.penalty_),
+      violation_(other.violation_),
+      centre_(other.centre_),
+      centre_residuals_(other.centre_residuals_),
+      centre_jacobian_(other.centre_jacobian_),
+      least_(other.least_) {}
+
+bool Straightness::holds(Eigen::Index parameter, double side, double half_width, double quantile) const {
   const auto j = static_cast<std::size_t>(parameter);
-  for (const double side : {-1.0, 1.0}) {
-    std::vector<double> x = centre_;
-    move_along(parameter, std::clamp(x[j] + side * half_width, 0.0, 1.0) - x[j], x);
-    const double expected = std::pow(quantile * (x[j] - centre_[j]) / half_width, 2);
-    if (expected < 0.05) continue;  // next to a bound: nothing to tell
-    const double rise = (fit(x, parameter) - least_) / expected;
-    if (!(rise > 0.5 && rise < 2)) return false;
-  }
-  return true;
+  std::vector<double> x = centre_;
+  move_along(parameter, std::clamp(x[j] + side * half_width, 0.0, 1.0) - x[j], x);
+  const double expected = std::pow(quantile * (x[j] - centre_[j]) / half_width, 2);
+  if (expected < 0.05) return true;  // next to a bound: nothing to tell
+  Straightness own(*this);
+  const double rise = (own.fit(x, parameter) - least_) / expected;
+  return rise > 0.5 && rise < 2;
 }
 
 double Straightness::linearise(const std::vector<double>& x) {
@@ -127,8 +143,8 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     const double violation = violation_, penalty = penalty_;
     const Vector step = this->step(x, moving);
     if (step.size() == 0) break;
-    // What is to be gained is known before it is simulated.
-    if (constraints_.empty() && r.squaredNorm() - (r + J(Eigen::all, moving) * step).squaredNorm() < enough) break;
+    // What is to be gained is known before it is simulated, where no constraint is broken.
+    if (violation == 0 && r.squaredNorm() - (r + J(Eigen::all, moving) * step).squaredNorm() < enough) break;
     here += (penalty_ - penalty) * violation;
     std::vector<double> next;
     double there = std::numeric_limits<double>::infinity(), length = 1;

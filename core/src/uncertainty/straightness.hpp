@@ -19,10 +19,13 @@ namespace tunica::uncertainty {
 class Straightness {
  public:
   Straightness(const assembly::Assembly& assembly, const assembly::Whitening& noise, std::span<const double> free);
-  /// `half_width` in the unit box, `quantile` t.
-  [[nodiscard]] bool holds(Eigen::Index parameter, double half_width, double quantile);
+  /// At the lower end of the interval, side −1, or the upper one, 1; `half_width` in the unit box, `quantile` t.
+  /// Threads: works in memory of its own, so that ends can be asked for side by side.
+  [[nodiscard]] bool holds(Eigen::Index parameter, double side, double half_width, double quantile) const;
 
  private:
+  /// The same with a workspace of its own.
+  Straightness(const Straightness& other);
   void move_along(Eigen::Index parameter, double by, std::vector<double>& x) const;
   /// Least −2 ln L from x on, with one coordinate held; x is moved there. Infinity where nothing can be evaluated.
   double fit(std::vector<double>& x, std::optional<Eigen::Index> held);

@@ -81,7 +81,9 @@ bool Search::alike() const {
 }
 
 void Search::evaluate(std::size_t count) {
-  problem_.evaluate_batch(offspring_.positions(count), {objectives_.data(), count}, {statuses_.data(), count});
+  // Selection and learning look at the best μ of the offspring alone.
+  problem_.evaluate_best(offspring_.positions(count), settings_.parents, {objectives_.data(), count},
+                         {statuses_.data(), count});
   for (std::size_t i = 0; i < count; ++i) {
     const Status& status = statuses_[i];
     const bool failed = status.kind() == Status::Kind::failed;

@@ -281,6 +281,14 @@ std::vector<Option> options() {
   return all;
 }
 
+/// The long tube with the same wall and stretch.
+std::optional<StandIn> long_tube(const Options& given) {
+  StandIn found{"thick_wall_pressurisation", {}};
+  for (const std::vector<Option>& shared : {tube_options(), thick_wall::wall_options()})
+    for (const Option& option : shared) found.options.set(option.name, given.values().at(option.name));
+  return found;
+}
+
 TestFactory factory() {
   return {
       "fe_pressurisation",
@@ -292,7 +300,8 @@ TestFactory factory() {
       tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FePressurisation>(setup); },
       thick_wall::own_parameters(false),
-      true};
+      true,
+      long_tube};
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "assembly/assembly.hpp"
+
+namespace tunica::assembly {
+
+/// The run with each costly test replaced by the cheaper one that stands in for it, see TestFactory::stand_in; none
+/// where the run has no costly test. Data, weights, parameters, constraints and residuals are those of `full`.
+///
+/// Throws InputError where no costly test has a stand-in, or where one cannot take its place. `label` names the run.
+std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, const experiment::RunEntry& run,
+                                     const std::string& label, const plugins::Catalogue& catalogue,
+                                     const Assembly& full);
+
+}  // namespace tunica::assembly

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/early_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+
+#include "calibration/recording.hpp"
+#include "search/neighbours.hpp"
+
+namespace tunica {
+namespace {
+
+using fakes::Bench;
+using fakes::Line;
+using fakes::Recording;
+using search::CalibrationProblem;
+using search::EarlyEnd;
+
+/// Batches of random bounds and objectives above them: what is simulated includes the lowest, in any case.
+TEST(EarlyEnd, TheLowestAreAlwaysAmongTheSimulated) {
+  std::mt19937_64 generator(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  EarlyEnd early;
+  std::size_t simulated = 0, points = 0;
+  for (int batch = 0; batch < 500; ++batch) {
+    const std::size_t count = 1 + generator() % 60, best = 1 + generator() % 20;
+    std::vector<double> bounds(count), objectives(count);
+    early.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+      bounds[k] = std::floor(20 * uniform(generator)) / 20;  // with equal ones
+      objectives[k] = bounds[k] + 0.2 * std::floor(3 * uniform(generator));
+      early.add(k, bounds[k]);
+    }
+    std::vector<double> known(count, std::nan(""));
+    for (auto chunk = early.next(best); !chunk.empty(); chunk = early.next(best))
+      for (const std::size_t k : chunk) {
+        EXPECT_TRUE(std::isnan(known[k])) << "simulated twice";
+        known[k] = objectives[k];
+        early.found(objectives[k]);
+      }
+    for (const std::size_t k : early.left()) {
+      EXPECT_TRUE(std::isnan(known[k]));
+      known[k] = bounds[k];
+      points += 1;
+    }
+    simulated += count - early.left().size();
+    // Ranks of the lowest as if all were simulated; of equals the first comes first.
+    const auto ranks = [&](const std::vector<double>& values) {
+      std::vector<std::size_t> order(count);
+      for (std::size_t k = 0; k < count; ++k) order[k] = k;
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+      order.resize(std::min(best, count));
+      return order;
+    };
+    EXPECT_EQ(ranks(known), ranks(objectives));
+  }
+  EXPECT_GT(points, 0u);
+  EXPECT_GT(simulated, 0u);
+}
+
+/// A costly test of three rows and a cheap one of five. The cheap one decides most of the ranks.
+class EarlyEndOfEvaluations : public testing::Test {
+ protected:
+  static constexpr std::size_t batch = 12, best = 3, batches = 6;
+
+  EarlyEndOfEvaluations() {
+    bench_.add_test("slow", {0, 1, 2}, {3, 4, 6}).type = "costly_curve";
+    bench_.add_test("quick", {0, 1, 2, 3, 4}, {3, 4, 5, 6, 7});
+    fakes::set_behaviour([this](double a, std::span<double> values, Status& status) {
+      if (values.size() != 3) return;
+      ++simulations_;
+      if (a > fails_above_) status = Status::failed("the simulation broke down");
+    });
+  }
+  struct Outcome {
+    std::vector<Line> lines;
+    std::vector<std::vector<std::size_t>> ranks;  ///< of each batch, the best
+    search::Best found;
+    search::Tally tally;
+    int simulations;
+  };
+  Outcome run(bool early, unsigned threads = 1, const search::Replay& replay = {},
+              experiment::OnFailure on_failure = experiment::OnFailure::penalise) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const assembly::Assembly assembly = bench_.assemble();
+    Recording recording;
+    CalibrationProblem::Settings settings;
+    settings.record = recording.recorder();
+    settings.skip_costly = true;
+    settings.end_early = early;
+    settings.replay = replay;
+    settings.on_failure = on_failure;
+    CalibrationProblem problem(assembly, std::move(settings));
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    simulations_ = 0;
+    Outcome outcome;
+    for (std::size_t b = 0; b < batches; ++b) {
+      std::vector<double> xs(batch * problem.dimension()), objectives(batch);
+      for (double& x : xs) x = uniform(generator);
+      std::vector<Status> statuses(batch);
+      problem.evaluate_best(xs, best, objectives, statuses);
+      std::vector<std::size_t> order;
+      for (std::size_t k = 0; k < batch; ++k)
+        if (statuses[k].ok()) order.push_back(k);
+      std::stable_sort(order.begin(), order.end(),
+                       [&](std::size_t a, std::size_t b) { return objectives[a] < objectives[b]; });
+      order.resize(std::min(best, order.size()));
+      outcome.ranks.push_back(order);
+    }
+    outcome.lines = recording.lines;
+    outcome.found = problem.best();
+    outcome.tally = problem.tally();
+    outcome.simulations = simulations_;
+    return outcome;
+  }
+  Bench bench_;
+  std::atomic<int> simulations_ = 0;
+  double fails_above_ = 1e300;
+};
+
+TEST_F(EarlyEndOfEvaluations, RanksAndBestPointStayTheSame) {
+  const Outcome all = run(false), early = run(true);
+  EXPECT_EQ(early.ranks, all.ranks);
+  EXPECT_EQ(early.found.parameters, all.found.parameters);
+  EXPECT_EQ(early.found.objective, all.found.objective);
+  EXPECT_EQ(early.found.index, all.found.index);
+  EXPECT_EQ(early.tally.evaluations, all.tally.evaluations);
+  EXPECT_EQ(all.simulations, static_cast<int>(batches * batch));
+  EXPECT_LT(early.simulations, all.simulations / 2);
+  EXPECT_EQ(early.tally.simulated, static_cast<std::uint64_t>(early.simulations));
+  EXPECT_EQ(early.tally.simulated + early.tally.ended_early, batches * batch);
+  for (const Line& line : early.lines) {
+    EXPECT_EQ(std::isnan(line.per_test[0]), line.ended_early);
+    const Line& whole = all.lines[line.index];
+    EXPECT_EQ(line.per_test[1], whole.per_test[1]);
+    if (line.ended_early) {
+      EXPECT_EQ(line.objective, line.per_test[1]);
+      EXPECT_LE(line.objective, whole.objective);
+    } else {
+      EXPECT_EQ(line.objective, whole.objective);
+    }
+  }
+}
+
+TEST_F(EarlyEndOfEvaluations, FailedSimulationsDoNotChangeTheRanks) {
+  fails_above_ = 4;
+  const Outcome all = run(false), early = run(true);
+  EXPECT_EQ(early.ranks, all.ranks);
+  EXPECT_EQ(early.found.parameters, all.found.parameters);
+  EXPECT_GT(early.tally.failures, 0u);
+}
+
+TEST_F(EarlyEndOfEvaluations, ThreadsDoNotMatter) {
+  const Outcome one = run(true, 1), two = run(true, 2), four = run(true, 4);
+  EXPECT_EQ(one.lines, two.lines);
+  EXPECT_EQ(one.lines, four.lines);
+  EXPECT_EQ(one.simulations, four.simulations);
+}
+
+TEST_F(EarlyEndOfEvaluations, AJournalCutAnywhereIsContinuedToTheSameRows) {
+  const Outcome whole = run(true);
+  Recording recording{whole.lines};
+  for (std::size_t rows = 0; rows <= whole.lines.size(); ++rows) {
+    const Outcome resumed = run(true, 1, recording.replay(rows));
+    ASSERT_EQ(resumed.lines, whole.lines) << rows;
+    EXPECT_EQ(resumed.tally.simulated, whole.tally.simulated);
+    EXPECT_LE(resumed.simulations, whole.simulations);
+  }
+  EXPECT_EQ(run(true, 1, recording.replay(whole.lines.size())).simulations, 0);
+}
+
+TEST_F(EarlyEndOfEvaluations, PoliciesThatLookAtFailuresSimulateEverything) {
+  for (const auto policy : {experiment::OnFailure::stop, experiment::OnFailure::retry})
+    EXPECT_EQ(run(true, 1, {}, policy).simulations, static_cast<int>(batches * batch));
+}
+
+/// The neighbourhood asks for the lowest neighbour alone. At the optimum of both tests, the quick one alone puts the
+/// far neighbours above the near ones.
+TEST_F(EarlyEndOfEvaluations, TheNeighbourhoodSimulatesWhatMayBeTheLowest) {
+  const std::vector<double> x{0, 1, 2}, y{3, 4, 5}, more{0, 1, 2, 3, 4}, values{3, 4, 5, 6, 7}, free{3, 1, 0};
+  Bench costly, cheap;  // the same, and nothing costly
+  costly.add_test("slow", x, y).type = "costly_curve";
+  cheap.add_test("slow", x, y);
+  for (Bench* bench : {&costly, &cheap}) bench->add_test("quick", more, values);
+  const auto fewer = search::probe_neighbourhood(costly.assemble(), free);
+  const auto all = search::probe_neighbourhood(cheap.assemble(), free);
+  ASSERT_TRUE(fewer.lowest && all.lowest);
+  EXPECT_EQ(fewer.lowest->parameters, all.lowest->parameters);
+  EXPECT_NEAR(fewer.lowest->objective, all.lowest->objective, 1e-15);
+  EXPECT_EQ(fewer.better, all.better);
+  EXPECT_EQ(fewer.evaluated, all.evaluated);
+  EXPECT_EQ(all.simulated, all.evaluated);
+  EXPECT_LT(fewer.simulated, fewer.evaluated / 2);
+}
+
+}  // namespace
+}  // namespace tunica
