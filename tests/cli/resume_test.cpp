@@ -98,6 +98,7 @@ TEST(Resume, AfterCtrlCInsideOneLongSimulation) {
         {"thickness", "2.06 mm"},
         {"length", "40 mm"},
         {"axial_stretch", 1.2},
+        {"element", "quadrilateral_4"},
         {"elements", {100, 1000}},
         {"time_limit", "600 s"},
         {"data", {{"file", "tube.csv"}, {"columns", {{"pressure", "pressure"}, {"outer_diameter", "outer"}}}}}}}};

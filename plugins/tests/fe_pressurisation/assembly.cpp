@@ -151,9 +151,8 @@ class AssemblyOf final : public Assembly {
     system.coupling.resize(pressure_count() * dofs);
     system.dilation.resize(pressure_count());
     if (!tangent) return;
-    const std::size_t width = 2 * (Order * mesh_.across() + Order) + 1;
-    if (system.matrix.size() != size || system.matrix.width() != width)
-      system.matrix.resize(size, width);
+    if (system.matrix.size() != size || system.matrix.width() != width(mesh_))
+      system.matrix.resize(size, width(mesh_));
     else
       system.matrix.clear();
   }

@@ -77,6 +77,8 @@ class Assembly {
   virtual Status points(const Material& material, const State& state, std::vector<Point>& found) = 0;
 
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
+  /// Of the band that a mesh makes.
+  static std::size_t width(const Mesh& mesh) { return 2 * (mesh.order * mesh.across() + mesh.order) + 1; }
 };
 
 }  // namespace tunica::fe

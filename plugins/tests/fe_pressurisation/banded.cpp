@@ -43,6 +43,39 @@ template <class Vector, std::size_t Vectors, std::size_t Columns>
     for (std::size_t i = 0; i < Vectors; ++i) at<Vector>(to + q * height + i * lanes<Vector>) -= sum[i][q];
 }
 
+/// to = the sums of neighbouring lanes of a and of b, in turn.
+template <class Vector>
+[[gnu::always_inline]] inline void add_neighbours(const Vector& a, const Vector& b, Vector& to) {
+  if constexpr (lanes<Vector> == 2)
+    to = __builtin_shufflevector(a, b, 0, 2) + __builtin_shufflevector(a, b, 1, 3);
+  else if constexpr (lanes<Vector> == 4)
+    to = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  else
+    to = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
+         __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+
+/// to = the sums over the lanes of v[0], v[1], …, as many as lanes.
+template <class Vector>
+[[gnu::always_inline]] inline void sum_lanes(const Vector* v, Vector& to) {
+  if constexpr (lanes<Vector> == 2) {
+    add_neighbours(v[0], v[1], to);
+  } else if constexpr (lanes<Vector> == 4) {
+    Vector a, b;
+    add_neighbours(v[0], v[1], a);
+    add_neighbours(v[2], v[3], b);
+    to = __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  } else {
+    Vector pair[4], half[2];
+    for (std::size_t i = 0; i < 4; ++i) add_neighbours(v[2 * i], v[2 * i + 1], pair[i]);
+    for (std::size_t i = 0; i < 2; ++i)
+      half[i] = __builtin_shufflevector(pair[2 * i], pair[2 * i + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+                __builtin_shufflevector(pair[2 * i], pair[2 * i + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+    to = __builtin_shufflevector(half[0], half[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+         __builtin_shufflevector(half[0], half[1], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
 /// Operations between two questions whether it is late: some hundredths of a second.
 constexpr double between_questions = 5e7;
 
@@ -53,7 +86,11 @@ void Banded::resize(std::size_t size, std::size_t width) {
   width_ = width;
   height_ = (width + panel - 1) / panel * panel + panel;
   a_.assign(panels() * panel * height_, 0.0);
-  scaled_.resize(height_ * panel);
+}
+
+void Banded::take(const Banded& matrix) {
+  if (size_ != matrix.size_ || width_ != matrix.width_) resize(matrix.size_, matrix.width_);
+  std::copy(matrix.a_.begin(), matrix.a_.end(), a_.begin());
 }
 
 void Banded::multiply(std::span<const double> x, std::span<double> y) const {
@@ -89,7 +126,7 @@ std::size_t Banded::factorise_panel(std::size_t at_panel) {
   const std::size_t height = height_;
   double* const a = a_.data() + at_panel * panel * height;
   std::size_t negative = 0;
-  double inverse[panel];
+  double* const inverse = inverse_pivot_.data() + at_panel * panel;
   for (std::size_t q = 0; q < panel; ++q) {
     double* const l = a + q * height;
     const bool exists = at_panel * panel + q < size_;
@@ -112,6 +149,15 @@ std::size_t Banded::factorise_panel(std::size_t at_panel) {
       for (std::size_t c = q + 1; c < panel; ++c) x[c] -= x[q] * a[q * height + c];
       at<Vector>(a + q * height + r) = x[q] * inverse[q];
     }
+  }
+  // L₁₁⁻¹ by rows, L₁₁ having ones on the diagonal
+  double* const rows = inverse_.data() + at_panel * panel * panel;
+  for (std::size_t i = 0; i < panel; ++i) {
+    Vector row[parts] = {};
+    row[i / wide][i % wide] = 1;
+    for (std::size_t k = 0; k < i; ++k)
+      for (std::size_t p = 0; p < parts; ++p) row[p] -= at<Vector>(rows + k * panel + p * wide) * a[k * height + i];
+    for (std::size_t p = 0; p < parts; ++p) at<Vector>(rows + i * panel + p * wide) = row[p];
   }
   return negative;
 }
@@ -170,6 +216,9 @@ void Banded::subtract_panel(std::size_t at_panel) {
 
 std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) {
   using detail::VectorLevel;
+  scaled_.resize(height_ * panel);
+  inverse_.resize(panels() * panel * panel);
+  inverse_pivot_.resize(panels() * panel);
   std::optional<std::size_t> negative;
   switch (detail::vector_level()) {
     case VectorLevel::avx512:
@@ -194,21 +243,26 @@ std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) 
 /// Forward, by D, and backward; x has zeros beyond the matrix.
 template <class Vector>
 void Banded::substitute(std::span<double* const> x) const {
-  constexpr std::size_t wide = lanes<Vector>;
+  constexpr std::size_t wide = lanes<Vector>, parts = panel / wide;
   const std::size_t height = height_, count = panels();
   for (std::size_t J = 0; J < count; ++J) {
     const double* const l = a_.data() + J * panel * height;
+    const double* const rows = inverse_.data() + J * panel * panel;
     for (double* const whole : x) {
       double* const y = whole + J * panel;
-      for (std::size_t q = 0; q < panel; ++q)
-        for (std::size_t c = q + 1; c < panel; ++c) y[c] -= l[q * height + c] * y[q];
-      Vector part[panel];
-      for (std::size_t q = 0; q < panel; ++q) part[q] = y[q] - Vector{};
+      Vector dot[panel], own[parts];
+      for (std::size_t i = 0; i < panel; ++i) {
+        dot[i] = at<Vector>(rows + i * panel) * at<Vector>(y);
+        for (std::size_t p = 1; p < parts; ++p)
+          dot[i] += at<Vector>(rows + i * panel + p * wide) * at<Vector>(y + p * wide);
+      }
+      for (std::size_t p = 0; p < parts; ++p) sum_lanes(dot + p * wide, own[p]);
+      for (std::size_t p = 0; p < parts; ++p) at<Vector>(y + p * wide) = own[p];
       for (std::size_t r = panel; r < height; r += wide) {
-        Vector even = at<Vector>(l + r) * part[0], odd = at<Vector>(l + height + r) * part[1];
+        Vector even = at<Vector>(l + r) * own[0][0], odd = at<Vector>(l + height + r) * own[1 / wide][1 % wide];
         for (std::size_t q = 2; q < panel; q += 2) {
-          even += at<Vector>(l + q * height + r) * part[q];
-          odd += at<Vector>(l + (q + 1) * height + r) * part[q + 1];
+          even += at<Vector>(l + q * height + r) * own[q / wide][q % wide];
+          odd += at<Vector>(l + (q + 1) * height + r) * own[(q + 1) / wide][(q + 1) % wide];
         }
         at<Vector>(y + r) -= even + odd;
       }
@@ -216,17 +270,22 @@ void Banded::substitute(std::span<double* const> x) const {
   }
   for (std::size_t J = count; J-- > 0;) {
     const double* const l = a_.data() + J * panel * height;
+    const double* const rows = inverse_.data() + J * panel * panel;
+    const double* const pivots = inverse_pivot_.data() + J * panel;
     for (double* const whole : x) {
       double* const y = whole + J * panel;
-      Vector sum[panel] = {};
-      for (std::size_t r = panel; r < height; r += wide)
-        for (std::size_t q = 0; q < panel; ++q) sum[q] += at<Vector>(l + q * height + r) * at<Vector>(y + r);
-      for (std::size_t q = panel; q-- > 0;) {
-        double total = 0;
-        for (std::size_t e = 0; e < wide; ++e) total += sum[q][e];
-        for (std::size_t c = q + 1; c < panel; ++c) total += l[q * height + c] * y[c];
-        y[q] = y[q] / l[q * (height + 1)] - total;
+      Vector dot[panel] = {}, own[parts], solved[parts] = {};
+      for (std::size_t r = height; r > panel; r -= wide)  // what was solved last comes last
+        for (std::size_t q = 0; q < panel; ++q)
+          dot[q] += at<Vector>(l + q * height + r - wide) * at<Vector>(y + r - wide);
+      for (std::size_t p = 0; p < parts; ++p) {
+        sum_lanes(dot + p * wide, own[p]);
+        own[p] = at<Vector>(y + p * wide) * at<Vector>(pivots + p * wide) - own[p];
       }
+      for (std::size_t c = 0; c < panel; ++c)
+        for (std::size_t p = 0; p < parts; ++p)
+          solved[p] += at<Vector>(rows + c * panel + p * wide) * own[c / wide][c % wide];
+      for (std::size_t p = 0; p < parts; ++p) at<Vector>(y + p * wide) = solved[p];
     }
   }
 }

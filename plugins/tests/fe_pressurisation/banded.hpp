@@ -35,6 +35,8 @@ struct Aligned {
 class Banded {
  public:
   void resize(std::size_t size, std::size_t width);
+  /// Becomes a copy of a matrix that is not factorised.
+  void take(const Banded& matrix);
   void clear() { std::fill(a_.begin(), a_.end(), 0.0); }
   /// Bytes of a matrix of that size.
   static double bytes(std::size_t size, std::size_t width) {
@@ -84,6 +86,8 @@ class Banded {
 
   std::size_t size_ = 0, width_ = 0, height_ = 0;
   std::vector<double, Aligned<double>> a_, scaled_;  ///< scaled_: D Lᵀ of the rows of a panel
+  /// Of each panel the inverse of L on the diagonal, by rows, and those of D.
+  std::vector<double, Aligned<double>> inverse_, inverse_pivot_;
 };
 
 }  // namespace tunica::fe

@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::size_t first_points = 15, most_points = 29;
 
+}  // namespace
+
 Mesh mesh_of(const Tube& tube) {
   return {tube.order, tube.radial, tube.axial, tube.inner, tube.outer, tube.length / 2, tube.grading, tube.ends};
 }
-
-}  // namespace
 
 Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
 

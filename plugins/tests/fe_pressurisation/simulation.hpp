@@ -22,6 +22,8 @@ struct Tube {
   friend bool operator==(const Tube&, const Tube&) = default;
 };
 
+Mesh mesh_of(const Tube& tube);
+
 /// Observed at each load, with derivatives on demand. Loads of the same axial stretch lie on a line of pressures, which
 /// is solved at Chebyshev points where that takes fewer solutions than rows, their number doubled until the curve is as
 /// accurate as the tolerance says; else at the rows.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
-constexpr double slow = 0.1;               ///< a step of a frozen factor this times the last one is too long
+constexpr double slow = 0.3;               ///< a step of a frozen factor this times the last one is too long
 constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
@@ -44,6 +44,8 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) 
   dq_.resize(rest_.q.size());
   product_.resize(rest_.x.size());
 }
+
+double Solver::bytes(const Mesh& mesh) { return 2 * Banded::bytes(2 * mesh.nodes(), Assembly::width(mesh)); }
 
 Status Solver::begin(const Material& material) {
   material_ = &material;
@@ -95,7 +97,7 @@ bool Solver::factorise() {
     for (std::size_t j = row; j < middle_.size() && j - row <= system_.matrix.width(); ++j)
       middle_[j] += system_.matrix.column(row)[j - row];
   }
-  factor_ = system_.matrix;
+  factor_.take(system_.matrix);
   const std::size_t end = mesh_.planes() - 1;
   const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
@@ -150,7 +152,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     }
     assembly_->pressures(system_, dx_, system_.dilation, dq_);
     note_force();
-    move(state, !full && full_steps);
+    move(state, !full);
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
     const double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
     if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
@@ -262,35 +264,48 @@ void Solver::derive(std::span<const double> right, std::span<const double> moved
 /// what Gᵀ (z + b) is then adds to h.
 void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights) {
   const std::size_t size = dx_.size(), end = 2 * mesh_.node(0, mesh_.planes() - 1);
+  const std::size_t count = positions.size() + (axial_force ? 1 : 0);
   const double own = 2 * std::numbers::pi;  // b, over the plane of symmetry
-  weights.resize(positions.size() + (axial_force ? 1 : 0));
-  const auto solve_free = [&](std::vector<double>& x) {
-    prescribe(x);
-    factor_.solve(x);
-    prescribe(x);
+  weights.resize(count);
+  spread_.resize(count);
+  std::vector<std::span<double>> together;
+  const auto solve_free = [&] {
+    for (const std::span<double> x : together) prescribe(x);
+    factor_.solve(together);
+    for (const std::span<double> x : together) prescribe(x);
   };
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    const bool is_force = k == positions.size();
-    std::vector<double>& z = weights[k].right;
+  for (std::size_t k = 0; k < count; ++k) {
     std::vector<double>& a = weights[k].moved;
     a.assign(size, 0);
+    if (k < positions.size())
+      a[positions[k]] = 1;
+    else
+      for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
+    weights[k].right = a;
+    together.emplace_back(weights[k].right);
+  }
+  solve_free();
+  const auto add_own = [&](std::size_t k, double sign) {
+    for (std::size_t i = 0; i < (k == positions.size() ? mesh_.across() : 0); ++i)
+      weights[k].right[2 * mesh_.node(i, 0) + 1] += sign * own;
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    add_own(k, 1);
     weights[k].dilation.resize(dq_.size());
-    if (!is_force) a[positions[k]] = 1;
-    for (std::size_t i = 0; i < (is_force ? middle_.size() : 0); ++i) a[i] = -own * middle_[i];
-    const auto add_own = [&](double sign) {
-      for (std::size_t i = 0; i < (is_force ? mesh_.across() : 0); ++i) z[2 * mesh_.node(i, 0) + 1] += sign * own;
-    };
-    z = a;
-    solve_free(z);
-    add_own(1);
-    assembly_->pressures(system_, z, {}, weights[k].dilation);
-    add_own(-1);
-    assembly_->spread(system_, weights[k].dilation, product_);
-    for (std::size_t i = end; i < size; ++i) a[i] += product_[i];
-    solve_free(product_);
-    for (std::size_t i = 0; i < size; ++i) z[i] += product_[i];
-    for (std::size_t i = end; i < size; ++i) a[i] -= system_.matrix.row_times(i, z);  // only the end is ever moved
-    add_own(1);
+    assembly_->pressures(system_, weights[k].right, {}, weights[k].dilation);
+    add_own(k, -1);
+    spread_[k].resize(size);
+    assembly_->spread(system_, weights[k].dilation, spread_[k]);
+    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] += spread_[k][i];
+    together[k] = spread_[k];
+  }
+  solve_free();
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double>& z = weights[k].right;
+    for (std::size_t i = 0; i < size; ++i) z[i] += spread_[k][i];
+    // only the end is ever moved
+    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] -= system_.matrix.row_times(i, z);
+    add_own(k, 1);
     assembly_->pressures(system_, z, {}, dq_);
     for (std::size_t i = 0; i < dq_.size(); ++i) weights[k].dilation[i] += dq_[i];
   }
