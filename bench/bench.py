@@ -25,7 +25,7 @@ import table  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 LEVELS = ("baseline", "avx2", "avx512")
-VECTORISED = r"^(strip|sheet|tube|fe/four_node/25x50|fe/nine_node/12x25)/"
+VECTORISED = r"^(strip|sheet|tube|fe/four_node/25x50|fe/nine_node/8x20)/"
 
 
 def in_process(build, only, quick, level=None, arguments=()):
