@@ -174,10 +174,30 @@ TEST_F(Layers, AreRefusedWithTheirPlace) {
                 "\"layers\"; leave one of them out"));
   changed = tube;
   changed["type"] = "fe_pressurisation";
+  changed["length"] = "14 mm";
+  changed["elements"] = {1, 6};
   EXPECT_THAT(refused({"check", "experiment.json"}),
-              AllOf(HasSubstr("a test of type 'fe_pressurisation' has one model throughout and takes no layers "
-                              "(/tests/tube/layers, line "),
-                    HasSubstr("Tests that take layers: thick_wall_pressurisation.")));
+              HasSubstr("fe_pressurisation: \"elements\" begins with 1, and the wall has 2 layers, each of which"));
+}
+
+/// The same tube, held at its ends: media, adventitia and the opening angle that closed to it.
+TEST_F(Layers, AreRecoveredByFiniteElementsWithTheirOpeningAngle) {
+  auto& tube = bench.experiment["tests"]["tube"];
+  tube["type"] = "fe_pressurisation";
+  tube["length"] = "14 mm";
+  tube["elements"] = {4, 6};
+  tube["parameters"] = {{"opening_angle", {{"initial", 30}, {"min", 0}, {"max", 200}}}};
+  std::map<std::string, double> opened = truth;
+  opened["tube.opening_angle"] = 80;
+  bench.folder.write("truth.json", nlohmann::json(opened).dump());
+  const auto simulated = bench.tunica({"simulate", "experiment.json", "--parameters", "truth.json", "-o", "synthetic"});
+  ASSERT_EQ(simulated.code, 0) << simulated.err;
+  tube["data"]["file"] = "synthetic/tube.csv";
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const auto parameters = bench.result("out")["runs"][0]["best"]["parameters"];
+  for (const auto& [name, value] : opened)
+    EXPECT_NEAR(parameters[name]["value"].get<double>(), value, 1e-3 * value) << name;
 }
 
 TEST_F(Layers, AreDescribed) {

@@ -67,11 +67,33 @@ TEST(FiniteElementMessages, TubesThatAreNoneAreRefusedByTheirName) {
   EXPECT_SAYS(refusal({1, 2}, {.axial_stretches = {1.2, -1}}), "row 2 has axial stretch -1; a stretch is positive");
 }
 
-TEST(FiniteElementMessages, ModelsWithHistoryAreSentToTheLongTube) {
+TEST(FiniteElementMessages, WithHistoryThereIsNoJacobianAndNoPicture) {
   const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), make_model("neo_hooke"), {});
-  const Inflation out = inflate(*make_fe_tube({1}, {.elements = "[2, 2]"}), *viscous, {60, 0.8, 5}, bare_fe);
-  EXPECT_EQ(out.status.kind(), Status::Kind::failed);
-  EXPECT_SAYS(out.status.reason(), "a model with history cannot be simulated here yet");
+  const auto tube = make_fe_tube({1}, {.elements = "[2, 2]"});
+  const std::vector<double> parameters{60, 0.8, 5};
+  std::vector<double> jacobian(8 * 2);
+  EXPECT_SAYS(tube->predict({*viscous, parameters, bare_fe}, {{}, jacobian, {}, {}}).reason(),
+              "fe_pressurisation: no exact Jacobian along the path of a model with history");
+  std::vector<Snapshot> snapshots;
+  const std::vector<std::size_t> rows{0};
+  EXPECT_SAYS(tube->snapshots({*viscous, parameters, bare_fe}, rows, snapshots).reason(),
+              "fe_pressurisation shows the wall of a material without history only; take the model without its "
+              "mechanisms of history");
+}
+
+TEST(FiniteElementMessages, WallsThatAreNoneAreRefused) {
+  EXPECT_SAYS(
+      refusal({1}, {.elements = "[2, 4]", .layers = {0.5, 0.5, 1.06}}),
+      "fe_pressurisation: \"elements\" begins with 2, and the wall has 3 layers, each of which takes one element "
+      "across at least; raise that number");
+  EXPECT_EQ(refusal({1}, {.elements = "[3, 4]", .layers = {0.5, 0.5, 1.06}}), "");
+  EXPECT_SAYS(refusal({1}, {.layers = {0.97, 2}}),
+              "fe_pressurisation: the layers are 2.97 mm thick together, and the wall is 2.06 mm");
+  EXPECT_SAYS(refusal({1}, {.options = option("layer_interface", 0.4), .layers = {1, 1.06}}),
+              "fe_pressurisation: \"layer_interface\" says where layer_ratio parts a wall of one model");
+  const auto tube = make_fe_tube({1}, {.elements = "[2, 2]"});
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {380, 0, 0, 0, 1}),
+              "fe_pressurisation: thickness error and opening angle leave no wall, at row 1");
 }
 
 TEST(FiniteElementMessages, WithoutParameterDerivativesThereIsNoJacobian) {
@@ -80,7 +102,7 @@ TEST(FiniteElementMessages, WithoutParameterDerivativesThereIsNoJacobian) {
     Bare() : TensorsOnly(make_model("neo_hooke")) { description_.parameter_derivatives = false; }
   } const bare;
   const auto tube = make_fe_tube({1}, {.elements = "[2, 2]"});
-  std::vector<double> jacobian(3 * 2);
+  std::vector<double> jacobian(6 * 2);
   EXPECT_SAYS(tube->predict({bare, std::vector<double>{60}, bare_fe}, {{}, jacobian, {}, {}}).reason(),
               "the model has no parameter derivatives");
   EXPECT_TRUE(inflate(*tube, bare, {60}, bare_fe).status.ok());
@@ -90,9 +112,10 @@ TEST(FiniteElementMessages, ImperfectionsThatLeaveNoTubeAreAStatus) {
   Options thick = option("inner_radius", 1.);
   thick.set("thickness", 3.);
   const auto tube = make_fe_tube({1}, {.elements = "[2, 2]", .options = thick});
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0.4}), "the thickness error leaves no wall or no lumen");
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1}), "the thickness error leaves no wall or no lumen");
-  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {-1.3, 0}), "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, 0.4, 1}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, 0, 0, -1, 1}), "the thickness error leaves no wall or no lumen");
+  EXPECT_SAYS(reason(*tube, "neo_hooke", {60}, {0, -1.3, 0, 0, 1}),
+              "fe_pressurisation: no such tube at row 1 (pressure 1 kPa");
 }
 
 TEST(FiniteElementMessages, TheTimeLimitIsKept) {

@@ -74,7 +74,7 @@ TEST(FiniteElementProtocol, ImperfectionsAreThoseOfTheLongTube) {
   const Inflation exact = inflate(*make_tube({0, 6, 15}), *gho, set_s, {0, 0.03, 0, -0.1, 1});
   const Inflation found =
       inflate(*make_fe_tube({0, 6, 15}, {.element = "quadrilateral_9", .elements = "[12, 2]", .ends = "sliding"}), *gho,
-              set_s, {0.03, -0.1});
+              set_s, {0, 0.03, 0, -0.1, 1});
   ASSERT_TRUE(exact.status.ok() && found.status.ok());
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found.values[i], exact.values[i], i < 3 ? 2e-6 : 0.03) << i;
 }
@@ -121,7 +121,7 @@ TEST(FiniteElementConformance, ThreadsGetTheSameNumbersBitForBit) {
         for (std::size_t k = 0; k < jobs.size(); ++k) {
           const std::size_t at = (k * (t % 2 == 0 ? 1 : 5) + 3 * t) % jobs.size();  // 5 and 12 have no common factor
           const Job& job = jobs[at];
-          const std::size_t rows = 2 * job.tube->rows().count, all = job.parameters.size() + 2;
+          const std::size_t rows = 2 * job.tube->rows().count, all = job.parameters.size() + bare_fe.size();
           std::vector<double>& out = results[t * jobs.size() + at];
           std::vector<double> values(rows), jacobian(job.derivatives ? all * rows : 0);
           if (job.tube->predict({*job.model, job.parameters, bare_fe}, {values, jacobian, {}, {}}).ok()) {

@@ -43,7 +43,10 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
     EXPECT_TRUE(status.ok()) << status.reason();
     double worst = 0;
     for (std::size_t j = 0; j < models + own.size(); ++j) {
-      const double h = j < models ? 1e-3 * std::abs(wall.parameters[j]) : 2e-4;
+      const double h = j < models                    ? 1e-3 * std::abs(wall.parameters[j])
+                       : j == models + opening_angle ? 0.1
+                       : j == models + tethering     ? 0.01
+                                                     : 2e-4;
       const auto at = [&](double steps) {
         std::vector<double> p = wall.parameters, q = own;
         (j < models ? p[j] : q[j - models]) += steps * h;
@@ -60,7 +63,9 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
           off = std::max(off, std::abs(jacobian[j * rows + i] - expected));
         }
         EXPECT_GT(scale, 0) << j;
-        EXPECT_LE(off, 1e-6 * scale) << "parameter " << j << ", " << all_channels[c];
+        // What an opening angle does inside and outside nearly cancels in a force: what is left is less exact.
+        const double tolerance = j == models + opening_angle ? 4e-6 : 1e-6;
+        EXPECT_LE(off, tolerance * scale) << "parameter " << j << ", " << all_channels[c];
         worst = std::max(worst, off / scale);
       }
     }
@@ -69,9 +74,9 @@ class FiniteElementSensitivity : public ::testing::TestWithParam<std::tuple<Case
 };
 
 TEST_P(FiniteElementSensitivity, MatchesDifferencesForEveryParameter) {
-  const double held = worst_column(*make_fe_tube({1, 8, 19}, setup), {0.01, 0.03});
+  const double held = worst_column(*make_fe_tube({1, 8, 19}, setup), {20, 0.01, 2, 0.03, 1});
   setup.axial_stretches = {1.1, 1.25, 1.25, 1.1, 1.3};
-  const double varied = worst_column(*make_fe_tube({2, 2, 14, 14, 6}, setup), {0, 0});
+  const double varied = worst_column(*make_fe_tube({2, 2, 14, 14, 6}, setup), {15, 0, 0, 0, 1});
   std::printf("  %s: %.1e, force–length %.1e\n", wall.name, held, varied);
 }
 
@@ -124,7 +129,7 @@ TEST(FiniteElementCurve, IsAndDifferentiatesAsEveryRowAlone) {
   const std::vector<double> pressure = evenly(-1, 22.66474, 40);
   for (const auto& [element, elements] : {std::pair{"quadrilateral_4", "[6, 12]"}, {"quadrilateral_9", "[3, 6]"}}) {
     const FeSetup setup{.element = element, .elements = elements};
-    const std::size_t n = pressure.size(), all = 7;
+    const std::size_t n = pressure.size(), all = 10;
     std::vector<double> values(2 * n), jacobian(all * 2 * n), one(2), one_jacobian(all * 2);
     ASSERT_TRUE(make_fe_tube(pressure, setup)->predict({*model, set_s, bare_fe}, {values, jacobian, {}, {}}).ok());
     double worst[2] = {0, 0}, scale[2] = {1, 0};
@@ -144,11 +149,16 @@ TEST(FiniteElementCurve, IsAndDifferentiatesAsEveryRowAlone) {
     }
     EXPECT_LE(worst[0], 1e-6);
     EXPECT_LE(worst[1], 1e-5 * scale[1]);
-    double columns = 0;
-    for (std::size_t k = 0; k < 2 * all; ++k) columns = std::max(columns, column_worst[k] / column_scale[k]);
+    double columns = 0, by_angle = 0;
+    for (std::size_t k = 0; k < 2 * all; ++k) {
+      if (column_scale[k] == 0) continue;
+      double& worst_of = k / 2 == 5 + opening_angle ? by_angle : columns;
+      worst_of = std::max(worst_of, column_worst[k] / column_scale[k]);
+    }
     std::printf("  %s interpolated: %.1e in D/D0, %.1e in force, %.1e of a derivative\n", element, worst[0],
                 worst[1] / scale[1], columns);
     EXPECT_LE(columns, 1e-3);
+    EXPECT_LE(by_angle, 1e-2);  // it has the modulus of fibres in it, which jumps where they switch
   }
 }
 

@@ -154,8 +154,8 @@ TEST_F(NativeInFiles, WhereTheTestHasNoSuchParameterItIsRefused) {
       HasSubstr("the mechanism 'layered_wall' is the test's own parameter 'layer_ratio', which it does not have "
                 "with \"layers\""));
   EXPECT_EQ(refusal(layered("geometry_error")), "");
-  EXPECT_THAT(refusal(file(clamped_tube, R"("mechanisms": [{"type": "residual_stress"}])")),
-              HasSubstr("the mechanism 'residual_stress' does not apply to tests of type 'fe_pressurisation'"));
+  EXPECT_THAT(refusal(file(clamped_tube, R"("mechanisms": [{"type": "specimen_misalignment"}])")),
+              HasSubstr("the mechanism 'specimen_misalignment' does not apply to tests of type 'fe_pressurisation'"));
 }
 
 TEST_F(NativeInFiles, TheInterfaceOfTheMechanismIsThatOfTheTest) {

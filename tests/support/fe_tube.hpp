@@ -15,9 +15,11 @@ struct FeSetup {
   double axial_stretch = 1.2;  ///< held; ignored where `axial_stretches` is given
   std::vector<double> axial_stretches = {};
   Options options = {};  ///< beyond those above
+  std::vector<double> layers = {};
+  std::vector<double> time = {};
 };
-/// Parameters of the test at which the tube is as recorded: axial_stretch_error, thickness_error.
-inline const std::vector<double> bare_fe{0, 0};
+/// Parameters of the test at which the tube is as recorded: those of the long tube.
+inline const std::vector<double> bare_fe = bare_tube;
 
 /// The lamb aorta of Canales et al. 2023 as finite elements.
 inline std::unique_ptr<Test> make_fe_tube(const std::vector<double>& pressure, const FeSetup& tube = {}) {
@@ -36,6 +38,8 @@ inline std::unique_ptr<Test> make_fe_tube(const std::vector<double>& pressure, c
   setup.rows.abscissae = {{"pressure", pressure}};
   if (!tube.axial_stretches.empty()) setup.rows.abscissae.push_back({"axial_stretch", tube.axial_stretches});
   setup.rows.channels = tube.channels;
+  setup.rows.time = tube.time;
+  setup.layers = tube.layers;
   return plugins::create(entry, setup);
 }
 

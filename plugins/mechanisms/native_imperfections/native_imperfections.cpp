@@ -11,14 +11,13 @@ using namespace tunica;
 
 using Side = MechanismFactory::Side;
 
-const std::vector<std::string> long_tube{"thick_wall_pressurisation"},
-    tubes{"thick_wall_pressurisation", "fe_pressurisation"};
+const std::vector<std::string> tubes{"thick_wall_pressurisation", "fe_pressurisation"};
 
 MechanismFactory residual_stress() {
   return {.id = "residual_stress",
           .cause = "The unloaded wall is not free of stress: a ring of it opens when it is cut.",
           .stage = tunica::Stage::test,
-          .applies_to = long_tube,
+          .applies_to = tubes,
           .parameters = {{"opening_angle", "deg", 0, -90, 330, Scale::linear,
                           "The whole missing arc of the stress-free sector (twice Fung's angle).",
                           "Chuong, Fung, J. Biomech. Eng. 108:189 (1986)"}},
@@ -55,7 +54,7 @@ MechanismFactory tethering() {
   return {.id = "tethering",
           .cause = "Tissue around the tube supports it from outside as it widens.",
           .stage = tunica::Stage::test,
-          .applies_to = long_tube,
+          .applies_to = tubes,
           .parameters = {{"stiffness", "kPa", 0, 0, 100, Scale::linear,
                           "Pressure from outside per outer diameter stretch gained since zero pressure.", ""}},
           .null = 0,
@@ -74,7 +73,7 @@ MechanismFactory layered_wall() {
   return {.id = "layered_wall",
           .cause = "The inner part of the wall is stiffer, or softer, than the outer part.",
           .stage = tunica::Stage::test,
-          .applies_to = long_tube,
+          .applies_to = tubes,
           .parameters = {{"ratio", "1", 1, 0.1, 10, Scale::log,
                           "Stiffness of the inner layer over that of the outer one, their mean being kept.",
                           "Holzapfel, Gasser, Ogden, J. Elasticity 61:1 (2000)"}},

@@ -17,7 +17,14 @@ class AssemblyOf final : public Assembly {
   static constexpr std::size_t nn = E::nodes, ng = E::points, np = E::modes, dofs = 2 * nn;
 
  public:
-  explicit AssemblyOf(const Mesh& mesh) : mesh_(mesh), n_(mesh.radial), row_(mesh) {}
+  explicit AssemblyOf(const Mesh& mesh) : mesh_(mesh), n_(mesh.radial), row_(mesh) {
+    const double h = (mesh_.outer - mesh_.inner) / static_cast<double>(n_);
+    for (std::size_t e = 0; e < n_; ++e) {
+      const double from = mesh_.edge(e), to = mesh_.edge(e + 1);
+      column_.push_back(mesh_.uniform() ? (mesh_.inner + h * (static_cast<double>(e) + 0.5)) * h
+                                        : 0.5 * (to + from) * (to - from));
+    }
+  }
 
   [[nodiscard]] std::size_t pressure_count() const override { return np * n_ * mesh_.axial; }
 
@@ -33,6 +40,8 @@ class AssemblyOf final : public Assembly {
       largest = std::max(largest, scatter(row, tangent, system));
     }
     follow_pressure(state, pressure, tangent, system);
+    if (support.slope != 0)
+      add_support(mesh_, element_, support, state, system.force, tangent ? &system.matrix : nullptr);
     for (std::size_t i = 0; i < size; ++i) system.right[i] -= system.force[i];
     system.largest_dilation = largest;
     if (tangent) system.stiffness = stiffness;
@@ -46,7 +55,7 @@ class AssemblyOf final : public Assembly {
     const std::size_t count = material.parameter_count(), wanted = weights.size();
     std::vector<std::span<const double>> directions;
     for (const Weights& weight : weights) directions.emplace_back(weight.right);
-    std::vector<double> lanes((count + 1) * wanted * n_), dilation(np * n_);
+    std::vector<double> lanes(by.size() * n_), dilation(np * n_);
     std::fill(by.begin(), by.end(), 0.0);
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
       row_.take(state, row);
@@ -59,6 +68,18 @@ class AssemblyOf final : public Assembly {
         for (std::size_t e = 0; e < n_; ++e)
           for (std::size_t m = 0; m < np; ++m)
             by[count * wanted + w] += weights[w].dilation[(row * n_ + e) * np + m] * dilation[m * n_ + e];
+    }
+    return {};
+  }
+
+  double contract(const State& state, const Weights& weight, std::span<double> by_free) override {
+    return contract_support(mesh_, element_, support, state, weight.right, by_free);
+  }
+
+  Status remember(const Material& material, const State& state) override {
+    for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      row_.take(state, row);
+      if (Status status = material.remember(ng * n_, row_.C, row); !status.ok()) return status;
     }
     return {};
   }
@@ -99,7 +120,7 @@ class AssemblyOf final : public Assembly {
       row_.take(state, row);
       if (Status status = material.energy(ng * n_, row_.C, W); !status.ok()) return status;
       for (std::size_t g = 0; g < ng; ++g)
-        for (std::size_t e = 0; e < n_; ++e) stored += row_.area(g) * row_.radius(g, e) * W[g * n_ + e];
+        for (std::size_t e = 0; e < n_; ++e) stored += row_.volume(g, e) * W[g * n_ + e];
       for (std::size_t g = 0; g < E::points_1d; ++g) {
         double r = 0, z = 0;
         for (std::size_t k = 0; k < E::side; ++k) {
@@ -127,6 +148,9 @@ class AssemblyOf final : public Assembly {
           at.R = row_.radius(g, e);
           at.Z = mesh_.layer[row * Order] + row_.height(row) * (1 + element_.eta[g]) / 2;
           for (std::size_t k = 0; k < 5; ++k) at.f[k] = row_.f[k * all + g * n_ + e];
+          at.column = e;
+          if (material.closing() != nullptr && material.closing()->opened)
+            at.closing = std::sqrt(material.closing()->square[g * n_ + e]);
           for (std::size_t k = 0; k < (material.sees_shear() ? 4 : 3); ++k)
             at.energy[k] = row_.first[k * all + g * n_ + e];
           for (std::size_t m = 0; m < np; ++m) at.q += element_.mode[g][m] * state.q[(row * n_ + e) * np + m];
@@ -139,9 +163,7 @@ class AssemblyOf final : public Assembly {
  private:
   /// ∫ ψ_m² dV of an element: M up to what R varies within it, which decides nothing (see the class).
   [[nodiscard]] double mass(std::size_t m, std::size_t e, std::size_t row) const {
-    const double h = (mesh_.outer - mesh_.inner) / static_cast<double>(n_);
-    const double middle = mesh_.inner + h * (static_cast<double>(e) + 0.5);
-    return middle * h * row_.height(row) / (m == 0 ? 1 : 3);
+    return column_[e] * row_.height(row) / (m == 0 ? 1 : 3);
   }
 
   void prepare(System& system, std::size_t size, bool tangent) const {
@@ -248,6 +270,7 @@ class AssemblyOf final : public Assembly {
   const std::size_t n_;  ///< elements along R
   const E element_;
   Elements row_;
+  std::vector<double> column_;  ///< ∫ R dR over each column of elements
 };
 
 }  // namespace

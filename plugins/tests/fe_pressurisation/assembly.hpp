@@ -8,6 +8,7 @@
 
 #include "banded.hpp"
 #include "row.hpp"
+#include "support.hpp"
 
 namespace tunica::fe {
 
@@ -36,6 +37,8 @@ struct Point {
   std::array<double, 5> f{};       ///< r_R, r_Z, z_R, z_Z, r/R
   std::array<double, 4> energy{};  ///< first derivatives of W, as Material gives them
   double q = 0;                    ///< kPa
+  double closing = 1;              ///< λ₀, the circumferential stretch that closed the stress-free sector
+  std::size_t column = 0;          ///< of elements
 
   /// Cauchy stress rr, zz, tt, rz: 2 F (∂W/∂C) Fᵀ − q.
   [[nodiscard]] std::array<double, 4> stress() const;
@@ -61,10 +64,15 @@ class Assembly {
   /// evaluated.
   virtual Status assemble(const Material& material, const State& state, double pressure, bool tangent,
                           System& system) = 0;
-  /// By every parameter of the material and by the relative thickness (x and Ro fixed), for every weight w:
-  /// `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation · ∂c/∂p_j.
+  /// By every parameter of the material and by the relative thickness (x and Ro fixed), with a differentiated closing
+  /// by the rest of Geometry, too, for every weight w: `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation
+  /// · ∂c/∂p_j.
   virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
                           std::span<double> by) = 0;
+  /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).
+  virtual double contract(const State& state, const Weights& weight, std::span<double> by_free) = 0;
+  /// Takes what the points remember on to the state, in History::after.
+  virtual Status remember(const Material& material, const State& state) = 0;
   /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero.
   virtual void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,
                          std::span<double> dq) const = 0;
@@ -79,6 +87,8 @@ class Assembly {
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
   /// Of the band that a mesh makes.
   static std::size_t width(const Mesh& mesh) { return 2 * (mesh.order * mesh.across() + mesh.order) + 1; }
+
+  Support support;  ///< acts where its slope is not 0
 };
 
 }  // namespace tunica::fe

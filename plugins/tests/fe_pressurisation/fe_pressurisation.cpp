@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "../tube_rows/tube_rows.hpp"
 #include "agreement.hpp"
 #include "fields.hpp"
-#include "simulation.hpp"
+#include "history.hpp"
+#include "totals.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::fe {
 namespace {
 
 constexpr double most_memory = 4;  ///< GiB
-
-enum Own : std::size_t { axial_stretch_error, thickness_error, own_count };
 
 /// "elements": [radial, axial over half the length], or null for the default of the element.
 void set_elements(const std::string& text, Tube& tube) {
@@ -52,10 +51,16 @@ void refuse_more_memory_than_there_should_be(const Tube& tube) {
 /// method, path.hpp for the loading, sensitivity.hpp for exact derivatives.
 class FePressurisation final : public Test {
  public:
-  explicit FePressurisation(const TestSetup& setup) : tube_(setup, "fe_pressurisation") {
+  explicit FePressurisation(const TestSetup& setup) : tube_(thick_wall::bind(setup, "fe_pressurisation")) {
     const Options& given = setup.options;
     plan_.order = given.text("element") == "quadrilateral_4" ? 1 : 2;
     set_elements(given.text("elements"), plan_);
+    if (tube_.layered) plan_.interfaces = tube_.interfaces;
+    if (plan_.radial < plan_.interfaces.size() + 1)
+      throw InputError(fmt::format(
+          "fe_pressurisation: \"elements\" begins with {}, and the wall has {} layers, each of which takes one element "
+          "across at least; raise that number",
+          plan_.radial, plan_.interfaces.size() + 1));
     plan_.inner = tube_.inner_radius;
     plan_.outer = tube_.outer_radius;
     plan_.length = given.number("length");
@@ -69,9 +74,8 @@ class FePressurisation final : public Test {
     plan_.tolerance = given.number("tolerance");
     plan_.time_limit = given.number("time_limit");
     plan_.steps = static_cast<std::size_t>(given.integer("max_steps"));
-    if (!tube_.time.empty()) tube_.time.clear();  // elastic: time does not matter
-    description_.parameters = {axial_stretch_error_parameter(), thickness_error_parameter()};
-    description_.nulls = {0, 0};
+    description_.parameters = thick_wall::own_parameters(tube_.layered);
+    description_.nulls = thick_wall::own_nulls(tube_.layered);
     description_.diagnostics = {"inner_radius_stretch"};
     description_.diagnostic_units = {"1"};
     description_.costly = true;
@@ -79,6 +83,7 @@ class FePressurisation final : public Test {
     for (std::size_t k = 0; k < tube_.columns.size(); ++k)
       rows_.abscissae.push_back({tube_.names[k], tube_.columns[k]});
     rows_.channels = setup.rows.channels;
+    rows_.time = tube_.time;
     for (const Channel channel : tube_.channels) {
       const bool outer = channel == Channel::outer_diameter || channel == Channel::outer_diameter_stretch;
       wanted_[channel == Channel::axial_force ? 2 : outer ? 0 : 1] = true;
@@ -89,60 +94,104 @@ class FePressurisation final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
-    const ModelDescription& model = input.model.describe();
-    if (model.history_size > 0)
-      return Status::failed(
-          "fe_pressurisation: a model with history cannot be simulated here yet; "
-          "thick_wall_pressurisation can, for sliding ends");
     const bool derivatives = !output.jacobian.empty() || !output.abscissa_derivative.empty();
-    if (derivatives && !model.parameter_derivatives)
-      return Status::failed("fe_pressurisation: the model has no parameter derivatives");
-    Tube plan;
-    std::vector<Load> loads;
-    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
+    bool history = false;
+    for (const Model* model : models_of(input)) {
+      history |= model->describe().history_size > 0;
+      if (derivatives && model->describe().history_size > 0)
+        return Status::failed("fe_pressurisation: no exact Jacobian along the path of a model with history");
+      if (derivatives && !model->describe().parameter_derivatives)
+        return Status::failed("fe_pressurisation: the model has no parameter derivatives");
+    }
+    Setting at;
+    if (Status status = prepare(input, !output.jacobian.empty(), at); !status.ok()) return status;
 
     thread_local std::unique_ptr<Simulation> simulation;  // its memory serves the next call
-    if (!simulation || simulation->tube() != plan) simulation = std::make_unique<Simulation>(plan);
+    if (!simulation || simulation->tube() != at.plan) simulation = std::make_unique<Simulation>(at.plan);
     thread_local std::vector<Sample> samples;
-    const Material material(input.model, input.model_parameters);
     std::size_t failed_at = 0;
-    const Status status = simulation->run(material, loads, derivatives ? wanted_ : Wanted{}, samples, failed_at);
+    const double support = at.wall->tether / at.plan.outer;
+    const Status status =
+        history
+            ? follow_history(*simulation, *at.material, at.loads, tube_.time, support, samples, failed_at)
+            : simulation->run(*at.material, at.loads, derivatives ? wanted_ : Wanted{}, samples, failed_at, support);
     if (!status.ok())
       return Status::failed(fmt::format(
           "fe_pressurisation: {} is not reached: {}",
-          TubeRows::row_name(failed_at, loads[failed_at].pressure, loads[failed_at].stretch), status.reason()));
-    return write(plan, samples, input.model_parameters.size(), output);
+          TubeRows::row_name(failed_at, at.loads[failed_at].pressure, at.loads[failed_at].stretch), status.reason()));
+    return write(at, samples, input.model_parameters.size(), output);
   }
 
   Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
-    Tube plan;
-    std::vector<Load> loads;
-    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
-    return check_agreement(plan, Material(input.model, input.model_parameters), loads, found);
+    Setting at;
+    if (Status status = prepare(input, false, at); !status.ok()) return status;
+    return check_agreement(at.plan, *at.wall, *at.material, input, at.loads, found);
   }
 
   Status snapshots(const TestInput& input, std::span<const std::size_t> rows,
                    std::vector<Snapshot>& found) const override {
-    Tube plan;
-    std::vector<Load> loads;
-    if (Status status = prepare(input, plan, loads); !status.ok()) return status;
-    return snapshots_of(plan, input.model, input.model_parameters, loads, rows, found);
+    for (const Model* model : models_of(input))
+      if (model->describe().history_size > 0)
+        return Status::failed(
+            "fe_pressurisation shows the wall of a material without history only; take the model without its "
+            "mechanisms of history");
+    Setting at;
+    if (Status status = prepare(input, false, at); !status.ok()) return status;
+    return snapshots_of(at.plan, input, *at.material, at.loads, rows, found);
   }
 
  private:
   using Channel = TubeRows::Channel;
 
-  /// The tube with its imperfections, and what is prescribed at each row.
-  Status prepare(const TestInput& input, Tube& plan, std::vector<Load>& loads) const {
-    plan = plan_;
-    plan.inner = plan.outer - (plan.outer - plan.inner) * (1 + input.test_parameters[thickness_error]);
-    if (!(plan.inner > 0 && plan.inner < plan.outer))
+  static std::vector<const Model*> models_of(const TestInput& input) {
+    if (input.layers.empty()) return {&input.model};
+    return {input.layers.begin(), input.layers.end()};
+  }
+
+  /// What is simulated: the tube with its imperfections and what it is made of, and what is prescribed at each row.
+  struct Setting {
+    Tube plan;
+    std::optional<thick_wall::Wall> wall;
+    thick_wall::SectorDerivative sector;
+    std::optional<Closing> closing;
+    std::optional<Material> material;
+    std::vector<Load> loads;
+  };
+  Status prepare(const TestInput& input, bool parameters, Setting& at) const {
+    at.plan = plan_;
+    at.wall.emplace(tube_, input.test_parameters);
+    thick_wall::Wall& wall = *at.wall;
+    at.plan.inner = wall.Ri;
+    if (!(wall.Ri > 0 && wall.Ri < wall.Ro))
       return Status::failed("fe_pressurisation: the thickness error leaves no wall or no lumen");
     std::vector<double> pressure, stretch;
-    if (Status status = tube_.prescribed(input, input.test_parameters[axial_stretch_error], pressure, stretch);
+    if (Status status =
+            tube_.prescribed(input, input.test_parameters[thick_wall::axial_stretch_error], pressure, stretch);
         !status.ok())
       return status;
-    for (std::size_t i = 0; i < pressure.size(); ++i) loads.push_back({stretch[i], pressure[i]});
+    for (std::size_t i = 0; i < pressure.size(); ++i) at.loads.push_back({stretch[i], pressure[i]});
+    thread_local thick_wall::Sections sections;
+    constexpr std::size_t rule = 5;  // 20 points in each piece
+    const std::vector<const Model*> models = models_of(input);
+    // The sector closes at equilibrium, where only the elastic part of a model plays a part.
+    std::vector<const Model*> elastic;
+    std::vector<double> elastic_parameters;
+    std::size_t first = 0;
+    for (const Model* model : models) {
+      elastic.push_back(&model->elastic());
+      const auto own = input.model_parameters.subspan(first, elastic.back()->describe().parameters.size());
+      elastic_parameters.insert(elastic_parameters.end(), own.begin(), own.end());
+      first += model->describe().parameters.size();
+    }
+    const thick_wall::Layers layers({*elastic.front(), elastic_parameters, input.test_parameters, {}, elastic});
+    if (Status status = thick_wall::close_sector(tube_, layers, thick_wall::rules()[rule], sections, wall,
+                                                 parameters ? &at.sector : nullptr);
+        !status.ok())
+      return status;
+    const Mesh mesh = mesh_of(at.plan);
+    at.closing.emplace(mesh, wall, tube_.layered ? 1 : input.test_parameters[thick_wall::layer_ratio], parameters);
+    at.material.emplace(models, input.model_parameters, mesh.columns,
+                        parameters || !at.closing->none() ? &*at.closing : nullptr);
     return {};
   }
 
@@ -163,27 +212,27 @@ class FePressurisation final : public Test {
     return at[2];
   }
 
-  Status write(const Tube& plan, const std::vector<Sample>& samples, std::size_t parameters,
+  Status write(const Setting& at, const std::vector<Sample>& samples, std::size_t parameters,
                const TestOutput& output) const {
+    const Tube& plan = at.plan;
     const std::size_t n = samples.size(), size = n * tube_.channels.size();
-    for (std::size_t k = 0; k < tube_.channels.size(); ++k) {
-      const Channel what = tube_.channels[k];
-      for (std::size_t i = 0; i < n; ++i) {
-        const Sample& sample = samples[i];
+    std::vector<Observed> totals;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Sample& sample = samples[i];
+      if (!output.jacobian.empty()) total_derivatives(sample, *at.wall, at.sector, parameters, totals);
+      for (std::size_t k = 0; k < tube_.channels.size(); ++k) {
+        const Channel what = tube_.channels[k];
         if (!output.values.empty()) output.values[k * n + i] = channel(what, plan, sample.value);
         if (!output.jacobian.empty()) {
-          for (std::size_t j = 0; j < parameters + own_count; ++j)
-            output.jacobian[j * size + k * n + i] = channel(what, plan, sample.by[j]);
-          // What is sampled is by the relative change of the true thickness.
-          output.jacobian[(parameters + thickness_error) * size + k * n + i] *=
-              (plan_.outer - plan_.inner) / (plan.outer - plan.inner);
+          for (std::size_t j = 0; j < totals.size(); ++j)
+            output.jacobian[j * size + k * n + i] = channel(what, plan, totals[j]);
           // The unloaded inner radius changes with the thickness, too.
           if (what == Channel::inner_diameter_stretch)
-            output.jacobian[(parameters + thickness_error) * size + k * n + i] +=
+            output.jacobian[(parameters + thick_wall::thickness_error) * size + k * n + i] +=
                 sample.value[1] / (plan.inner * plan.inner) * (plan_.outer - plan_.inner);
         }
         for (std::size_t a = 0; a < (output.abscissa_derivative.empty() ? 0 : tube_.columns.size()); ++a) {
-          const std::size_t direction = parameters + (a == tube_.pressure_column ? own_count : axial_stretch_error);
+          const std::size_t direction = parameters + (a == tube_.pressure_column ? along_pressure : along_stretch);
           output.abscissa_derivative[a * size + k * n + i] = channel(what, plan, sample.by[direction]);
         }
       }
@@ -193,7 +242,7 @@ class FePressurisation final : public Test {
     return {};
   }
 
-  TubeRows tube_;
+  thick_wall::Tube tube_;
   Tube plan_;
   Wanted wanted_{};
   TestRows rows_;
@@ -202,6 +251,8 @@ class FePressurisation final : public Test {
 
 std::vector<Option> options() {
   std::vector<Option> all = tube_options();
+  const std::vector<Option> wall = thick_wall::wall_options();
+  all.insert(all.end(), wall.begin(), wall.end());
   const std::vector<Option> own = {
       Option::quantity("length", "mm", 0.0, "Unloaded length between the ends."),
       Option::choice(
@@ -240,7 +291,8 @@ TestFactory factory() {
       options(),
       tube_observables(),
       [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<FePressurisation>(setup); },
-      {axial_stretch_error_parameter(), thickness_error_parameter()}};
+      thick_wall::own_parameters(false),
+      true};
 }
 
 }  // namespace

@@ -13,7 +13,11 @@ Row<Order>::Row(const Mesh& mesh)
     : mesh_(mesh), n_(mesh.radial), h_((mesh.outer - mesh.inner) / static_cast<double>(n_)) {
   for (std::size_t g = 0; g < ng; ++g)
     for (std::size_t e = 0; e < n_; ++e)
-      radius_.push_back(mesh.inner + h_ * (static_cast<double>(e) + 0.5 * (1 + element_.xi[g])));
+      radius_.push_back(mesh.uniform() ? mesh.inner + h_ * (static_cast<double>(e) + 0.5 * (1 + element_.xi[g]))
+                                       : mesh.edge(e) + (mesh.edge(e + 1) - mesh.edge(e)) * 0.5 * (1 + element_.xi[g]));
+  measure_ = radius_;
+  for (std::size_t e = 0; e < (mesh.uniform() ? 0 : n_); ++e) narrow_.push_back(h_ / (mesh.edge(e + 1) - mesh.edge(e)));
+  for (std::size_t i = 0; i < (mesh.uniform() ? 0 : measure_.size()); ++i) measure_[i] /= narrow_[i % n_];
   for (std::size_t g = 0; g < ng; ++g)
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) over_radius_.push_back(element_.shape[g][a] / radius_[g * n_ + e]);
@@ -67,6 +71,10 @@ void Row<Order>::interpolate(std::size_t g, std::span<const double> nodes, std::
     f3[e] = z_Z;
     f4[e] = t;
   }
+  for (std::size_t e = 0; e < narrow_.size(); ++e) {
+    f0[e] *= narrow_[e];
+    f2[e] *= narrow_[e];
+  }
 }
 
 template <std::size_t Order>
@@ -111,7 +119,7 @@ template <std::size_t Order>
 Status Row<Order>::evaluate(const Material& material, bool tangent, bool parameters) {
   if (parameters) first_dp.resize(4 * material.parameter_count() * ng * n_);
   return material.evaluate(ng * n_, C, first, tangent ? std::span<double>(second) : std::span<double>(),
-                           parameters ? std::span<double>(first_dp) : std::span<double>());
+                           parameters ? std::span<double>(first_dp) : std::span<double>(), row_);
 }
 
 /// p at Gauss point g, times its weight.
@@ -122,7 +130,7 @@ void Row<Order>::stress(std::size_t g, bool sees_shear) {
   const double* __restrict__ const w = first.data() + g * n_;
   double* __restrict__ const p = p_.data();
   const double weight = area(g);
-  const double* __restrict__ const R = radius_.data() + g * n_;
+  const double* __restrict__ const R = measure_.data() + g * n_;
 #pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
     const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
@@ -157,7 +165,7 @@ void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
   const double* __restrict__ const h = second.data() + g * n_;
   double* __restrict__ const a = a_.data();
   const double weight = area(g);
-  const double* __restrict__ const R = radius_.data() + g * n_;
+  const double* __restrict__ const R = measure_.data() + g * n_;
   double* __restrict__ const modulus = scratch.data();
 #pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
@@ -204,7 +212,7 @@ void Row<Order>::add_shear(std::size_t g) {
   for (std::size_t e = 0; e < n_; ++e) {
     const auto at = [&](std::size_t i) { return f[i * all + g * n_ + e]; };
     const auto h = [&](std::size_t i) { return second[i * all + g * n_ + e]; };
-    const double dV = area(g) * radius_[g * n_ + e], ws = first[3 * all + g * n_ + e];
+    const double dV = volume(g, e), ws = first[3 * all + g * n_ + e];
     const double s[5] = {at(1), at(0), at(3), at(2), 0};
     const double t[5] = {0, 0, 0, 0, 2 * at(4)}, z[5] = {0, 2 * at(1), 0, 2 * at(3), 0},
                  r[5] = {2 * at(0), 0, 2 * at(2), 0, 0};
@@ -284,7 +292,7 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
   const std::size_t all = ng * n_;
   const double to_z = 2 / height(row_), to_r = 2 / h_, weight = area(g);
   const double* __restrict__ const at = f.data() + g * n_;
-  const double* __restrict__ const R = radius_.data() + g * n_;
+  const double* __restrict__ const R = measure_.data() + g * n_;
   double* __restrict__ const j = scratch.data();  // ∂J/∂f · dV, and (J − 1) dV
 #pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
@@ -296,6 +304,10 @@ void Row<Order>::add_coupling(std::size_t g, bool tangent) {
     j[3 * n_ + e] = dV * f4 * f0;
     j[4 * n_ + e] = dV * plane;
     j[5 * n_ + e] = dV * (f4 * plane - 1);
+  }
+  for (std::size_t e = 0; e < narrow_.size(); ++e) {
+    j[e] *= narrow_[e];
+    j[2 * n_ + e] *= narrow_[e];
   }
   for (std::size_t m = 0; m < np; ++m) {
     const double mode = element_.mode[g][m];
@@ -331,12 +343,26 @@ void Row<Order>::integrate_lanes(bool sees_shear, bool tangent, double& stiffnes
   }
   for (std::size_t g = 0; g < ng; ++g) {
     stress(g, sees_shear);
+    if (!narrow_.empty()) narrow(p_, false);
     add_force(g);
     add_coupling(g, tangent);
     if (!tangent) continue;
     moduli(g, sees_shear, stiffness);
+    if (!narrow_.empty()) narrow(a_, true);
     add_stiffness(g);
   }
+}
+
+/// Derivatives by r_R and z_R, times the mean length over that of the lane: shape functions are those of mean elements.
+template <std::size_t Order>
+void Row<Order>::narrow(std::vector<double>& of, bool twice) const {
+  for (std::size_t j = 0; j < 5; ++j)
+    for (std::size_t i = twice ? 0 : j; i <= j; ++i) {
+      const int times = (j == 0 || j == 2 ? 1 : 0) + (twice && (i == 0 || i == 2) ? 1 : 0);
+      double* const at = of.data() + (twice ? upper(i, j) : j) * n_;
+      for (int pass = 0; pass < times; ++pass)
+        for (std::size_t e = 0; e < n_; ++e) at[e] *= narrow_[e];
+    }
 }
 
 /// With φ the f of z and δC the change of C along it, d(z · force)/dp_j = ∫ ∂²W/∂C∂p_j · δC dV. The thickness t (1 + g)
@@ -348,9 +374,11 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
                           std::span<double> by) {
   const std::size_t count = material.parameter_count(), all = ng * n_, wanted = directions.size();
   const std::size_t components = material.sees_shear() ? 4 : 3;
+  const bool closed = material.closing() != nullptr && material.closing()->differentiated();
   z_.resize(dofs * n_);
   phi_.resize(5 * all);
   thickened_.resize(5 * all);
+  turned_.resize(closed ? 4 * all : 0);
   std::fill(by.begin(), by.end(), 0.0);
   double unused = 0;
   for (std::size_t d = 0; d < wanted; ++d) {
@@ -364,9 +392,10 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
     const auto integrate_along = [&](std::size_t g) {
       interpolate(g, z_, phi_);
       if (d == 0) thicken(g, material.sees_shear(), unused);
+      if (d == 0 && closed) turn(g, material.sees_shear());
       const double* __restrict__ const at = f.data() + g * n_;
       const double* __restrict__ const phi = phi_.data() + g * n_;
-      const double* __restrict__ const R = radius_.data() + g * n_;
+      const double* __restrict__ const R = measure_.data() + g * n_;
       const double* __restrict__ const p = thickened_.data() + 5 * g * n_;
       double* __restrict__ const strain = scratch.data();
       double* __restrict__ const thickness = by.data() + (count * wanted + d) * n_;
@@ -382,6 +411,7 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
         strain[3 * n_ + e] = dV * (f0 * h1 + f1 * h0 + f2 * h3 + f3 * h2);
         thickness[e] += (p[e] * h0 + p[n_ + e] * h1) + (p[2 * n_ + e] * h2 + p[3 * n_ + e] * h3) + p[4 * n_ + e] * h4;
       }
+      if (closed) by_closing_of(*material.closing(), g, components, by.subspan((count * wanted + d) * n_), wanted);
       for (std::size_t j = 0; j < count; ++j) {
         double* __restrict__ const sum = by.data() + (j * wanted + d) * n_;
         for (std::size_t i = 0; i < components; ++i) {
@@ -423,6 +453,42 @@ void Row<Order>::thicken(std::size_t g, bool sees_shear, double& unused) {
   }
 }
 
+/// How the derivatives of W by C change with u = ln λ₀², in t, z, r and s: W is a function of C_t eᵘ, C_z, C_r e⁻ᵘ and
+/// s e^(−u/2), so that with k = (1, 0, −1, −½) it is ∂W_a/∂u = k_a W_a + Σ_b W_ab k_b C_b.
+template <std::size_t Order>
+void Row<Order>::turn(std::size_t g, bool sees_shear) {
+  const std::size_t all = ng * n_;
+  for (std::size_t i = g * n_; i < (g + 1) * n_; ++i) {
+    const auto h = [&](std::size_t pair) { return second[pair * all + i]; };
+    const double t = C[i], r = C[2 * all + i], s = sees_shear ? 0.5 * C[3 * all + i] : 0;
+    turned_[i] = first[i] + h(0) * t - h(5) * r;
+    turned_[all + i] = h(3) * t - h(4) * r;
+    turned_[2 * all + i] = -first[2 * all + i] + h(5) * t - h(2) * r;
+    if (!sees_shear) continue;
+    turned_[i] -= h(7) * s;
+    turned_[all + i] -= h(8) * s;
+    turned_[2 * all + i] -= h(9) * s;
+    turned_[3 * all + i] = -0.5 * first[3 * all + i] + h(7) * t - h(9) * r - h(6) * s;
+  }
+}
+
+/// Adds what the closing of the wall and the factors of its layers do along the change of C in `scratch`.
+template <std::size_t Order>
+void Row<Order>::by_closing_of(const Closing& closing, std::size_t g, std::size_t components, std::span<double> by,
+                               std::size_t wanted) {
+  const std::size_t all = ng * n_;
+  for (std::size_t e = 0; e < n_; ++e) {
+    double by_square = 0, by_factor = 0;
+    for (std::size_t a = 0; a < components; ++a) {
+      by_square += turned_[a * all + g * n_ + e] * scratch[a * n_ + e];
+      by_factor += first[a * all + g * n_ + e] * scratch[a * n_ + e];
+    }
+    for (std::size_t v = 0; v < geometry_count; ++v)
+      by[v * wanted * n_ + e] +=
+          by_square * closing.log_square_by[v][g * n_ + e] + by_factor * closing.log_factor_by[v][g * n_ + e];
+  }
+}
+
 /// J is of first order in 1/h and in 1/R: J' = −(1 + ρ) J, so that ((J − 1) dV)' = −(1 + ρ) dV.
 template <std::size_t Order>
 void Row<Order>::dilate(std::span<double> by) {
@@ -431,7 +497,8 @@ void Row<Order>::dilate(std::span<double> by) {
     for (std::size_t m = 0; m < np; ++m)
 #pragma GCC ivdep
       for (std::size_t e = 0; e < n_; ++e)
-        by[m * n_ + e] -= area(g) * (2 * radius_[g * n_ + e] - mesh_.outer) * element_.mode[g][m];
+        by[m * n_ + e] -=
+            area(g) * (measure_[g * n_ + e] * (2 - mesh_.outer / radius_[g * n_ + e])) * element_.mode[g][m];
 }
 
 template class Row<1>;

@@ -42,8 +42,8 @@ class Row {
   [[nodiscard]] std::size_t node(std::size_t a, std::size_t e, std::size_t row) const {
     return mesh_.node(e * Order + a % E::side, row * Order + a / E::side);
   }
-  /// Weight of a Gauss point over its R: dV = area R.
-  [[nodiscard]] double area(std::size_t g) const { return element_.weight[g] * h_ * height(row_) / 4; }
+  /// Volume of a Gauss point, dV = R dR dZ.
+  [[nodiscard]] double volume(std::size_t g, std::size_t e) const { return area(g) * measure_[g * n_ + e]; }
 
   /// Takes row `row` of the state: f and C at its points.
   void take(const State& state, std::size_t row);
@@ -53,8 +53,8 @@ class Row {
   void integrate(bool sees_shear, bool tangent, double& stiffness);
 
   /// `by`[(j · directions + k) · lanes + e] = d(z_k · force)/dp_j for every parameter of the material, then by the
-  /// relative thickness at fixed Ro and x; the z_k are fields of nodes, as State::x. Needs second derivatives and those
-  /// by parameters.
+  /// relative thickness at fixed Ro and x and, where the material has a differentiated closing, by the rest of
+  /// Geometry; the z_k are fields of nodes, as State::x. Needs second derivatives and those by parameters.
   void contract(const Material& material, std::span<const std::span<const double>> directions, std::span<double> by);
   /// dc/d(relative thickness) at fixed x: `c`[m · lanes + e].
   void dilate(std::span<double> c);
@@ -64,25 +64,33 @@ class Row {
   std::vector<double> scratch;                        ///< 10 lanes, of no meaning between calls
 
  private:
+  /// Weight of a Gauss point over its R in a mean element.
+  [[nodiscard]] double area(std::size_t g) const { return element_.weight[g] * h_ * height(row_) / 4; }
   void deform();
   void integrate_lanes(bool sees_shear, bool tangent, double& stiffness);
   void interpolate(std::size_t g, std::span<const double> nodes, std::span<double> f) const;
   void stress(std::size_t g, bool sees_shear);
   void moduli(std::size_t g, bool sees_shear, double& stiffness);
   void add_shear(std::size_t g);
+  void narrow(std::vector<double>& of, bool twice) const;
   void thicken(std::size_t g, bool sees_shear, double& unused);
+  void turn(std::size_t g, bool sees_shear);
+  void by_closing_of(const Closing& closing, std::size_t g, std::size_t components, std::span<double> by,
+                     std::size_t wanted);
   void add_force(std::size_t g);
   void add_stiffness(std::size_t g);
   void add_coupling(std::size_t g, bool tangent);
 
   const Mesh mesh_;
   const std::size_t n_;  ///< lanes: elements along R
-  const double h_;       ///< their length
+  const double h_;       ///< their mean length
   const E element_;
   std::size_t row_ = 0;
   std::vector<double> radius_, over_radius_;  ///< R and N/R: point · (node ·) lane
+  std::vector<double> measure_, narrow_;      ///< R times the length of the lane over the mean; the inverse ratio
   std::vector<double> x_, q_, p_, a_;         ///< component · lane
   std::vector<double> z_, phi_, thickened_;   ///< a direction at the nodes, its f; point · 5 · lane
+  std::vector<double> turned_;                ///< component · point · lane
 };
 
 extern template class Row<1>;

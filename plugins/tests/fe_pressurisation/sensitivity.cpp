@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensitivity.hpp"
 
+#include <numbers>
+
 namespace tunica::fe {
 void Sensitivity::begin(const Material& material, const Wanted& wanted) {
   material_ = &material;
   wanted_ = wanted;
   end_.clear();
+  free_.clear();
 }
 
 /// r, z of the end's nodes; empty where nothing moves.
@@ -13,11 +16,11 @@ void Sensitivity::move_ends(std::size_t direction, std::vector<double>& moved) c
   const Mesh& mesh = solver_.mesh();
   const std::size_t count = material_->parameter_count();
   moved.clear();
-  const bool reference_moves = direction == count + thickness && mesh.ends == Ends::clamped;
-  if (direction != count + stretch && end_.empty() && !reference_moves) return;
+  const bool reference_moves = direction == count + along_thickness && mesh.ends == Ends::clamped;
+  if (direction != count + along_stretch && end_.empty() && !reference_moves) return;
   moved.assign(2 * mesh.across(), 0);
   for (std::size_t i = 0; i < mesh.across(); ++i) {
-    if (direction == count + stretch) moved[2 * i + 1] = mesh.half_length();
+    if (direction == count + along_stretch) moved[2 * i + 1] = mesh.half_length();
     if (!end_.empty()) moved[2 * i] = end_[direction][i];
     if (reference_moves) moved[2 * i] = mesh.radius(i) - mesh.outer;  // R = Ro − t (1 + g) (1 − i/n)
   }
@@ -28,17 +31,21 @@ Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positi
   const std::size_t count = material_->parameter_count(), wanted = positions.size() + (axial_force ? 1 : 0);
   const Mesh& mesh = solver_.mesh();
   solver_.weigh(positions, axial_force, weights_);
-  contracted_.resize((count + 1) * wanted);
+  const bool closed = material_->closing() != nullptr && material_->closing()->differentiated();
+  contracted_.resize((count + (closed ? std::size_t{geometry_count} : 1)) * wanted);
   if (Status status = solver_.assembly().contract(*material_, path.state(), weights_, contracted_); !status.ok())
     return status;
-  by.assign((count + own) * wanted, 0);
-  for (std::size_t j = 0; j < count + own; ++j) {
+  by.assign((count + direction_count) * wanted, 0);
+  for (std::size_t j = 0; j < count + direction_count; ++j) {
     move_ends(j, moved_);
     for (std::size_t k = 0; k < wanted; ++k) {
       double& derivative = by[j * wanted + k];
       if (j < count) derivative = contracted_[j * wanted + k];
-      if (j == count + thickness) derivative = contracted_[count * wanted + k];
-      if (j == count + pressure) {
+      if (j == count + along_thickness) derivative = contracted_[count * wanted + k];
+      if (closed && j == count + along_closing) derivative = contracted_[(count + by_closing) * wanted + k];
+      if (closed && j == count + along_sector) derivative = contracted_[(count + by_sector) * wanted + k];
+      if (closed && j == count + along_ratio) derivative = contracted_[(count + by_ratio) * wanted + k];
+      if (j == count + along_pressure) {
         const std::span<const double> right = solver_.by_pressure();
         for (std::size_t plane = 0; plane < mesh.planes(); ++plane)
           for (std::size_t d = 0; d < 2; ++d)
@@ -48,6 +55,42 @@ Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positi
         derivative += weights_[k].moved[solver_.rest().x.size() - moved_.size() + i] * moved_[i];
     }
   }
+  if (!solver_.assembly().support.free.empty()) add_support(path, wanted, axial_force, by);
+  return {};
+}
+
+/// By κ, and by what moves the free radii ρ. The axial force has −2π h at mid-length in it.
+void Sensitivity::add_support(const Path& path, std::size_t wanted, bool axial_force, std::vector<double>& by) {
+  const std::size_t count = material_->parameter_count();
+  const Support& support = solver_.assembly().support;
+  const double r = solver_.outer_radius(path.state()), rho = support.free.front();
+  by_free_.resize(support.free.size());
+  for (std::size_t k = 0; k < wanted; ++k) {
+    double by_slope = solver_.assembly().contract(path.state(), weights_[k], by_free_);
+    if (axial_force && k + 1 == wanted) {
+      by_slope -= 2 * std::numbers::pi * Support::stored(r, rho);
+      by_free_.front() -= 2 * std::numbers::pi * support.slope * Support::by_free(r, rho);
+    }
+    by[(count + along_support) * wanted + k] = by_slope;
+    for (std::size_t j = 0; j < free_.size(); ++j)
+      for (std::size_t plane = 0; plane < by_free_.size(); ++plane)
+        by[j * wanted + k] += by_free_[plane] * free_[j][plane];
+  }
+}
+
+Status Sensitivity::support(const Path& path) {
+  const Mesh& mesh = solver_.mesh();
+  std::vector<std::size_t> positions(mesh.planes());
+  for (std::size_t k = 0; k < mesh.planes(); ++k) positions[k] = 2 * mesh.node(mesh.across() - 1, k);
+  free_.clear();
+  if (Status status = derive(path, positions, false, by_); !status.ok()) return status;
+  std::vector<std::vector<double>> free;
+  for (std::size_t j = 0; j < material_->parameter_count() + direction_count; ++j) {
+    free.emplace_back(mesh.planes(), 0.0);
+    for (std::size_t k = 0; k < mesh.planes() && j != material_->parameter_count() + along_pressure; ++k)
+      free.back()[k] = by_[j * positions.size() + k];
+  }
+  free_ = std::move(free);
   return {};
 }
 
@@ -57,8 +100,8 @@ Status Sensitivity::hold(const Path& path) {
   for (std::size_t i = 0; i < mesh.across(); ++i) positions[i] = 2 * mesh.node(i, mesh.planes() - 1);
   end_.clear();
   if (Status status = derive(path, positions, false, by_); !status.ok()) return status;
-  for (std::size_t j = 0; j < material_->parameter_count() + own; ++j) {
-    const bool held_before = j == material_->parameter_count() + pressure;
+  for (std::size_t j = 0; j < material_->parameter_count() + direction_count; ++j) {
+    const bool held_before = j == material_->parameter_count() + along_pressure;
     end_.emplace_back(mesh.across(), 0.0);
     for (std::size_t i = 0; i < mesh.across() && !held_before; ++i) end_.back()[i] = by_[j * positions.size() + i];
   }
@@ -73,7 +116,7 @@ Status Sensitivity::sample(const Path& path, Sample& sample) {
   }
   if (Status status = derive(path, positions, wanted_[2], by_); !status.ok()) return status;
   sample.value = path.observed();
-  sample.by.assign(material_->parameter_count() + own, {});
+  sample.by.assign(material_->parameter_count() + direction_count, {});
   for (std::size_t i = 0; i < by_.size(); ++i) sample.by[i / place.size()][place[i % place.size()]] = by_[i];
   return {};
 }

@@ -9,8 +9,20 @@
 
 namespace tunica::fe {
 
-/// What is observed at an equilibrium and its derivatives by the model's parameters, the axial stretch, the relative
-/// wall thickness (outer radius fixed) and the pressure, in this order.
+/// Directions of derivatives after the model's parameters; the relative thickness with the outer radius fixed. The
+/// closing, the sector and the ratio count where the material has a differentiated closing, else they are zero.
+enum Direction : std::size_t {
+  along_stretch,
+  along_thickness,
+  along_pressure,
+  along_closing,
+  along_sector,
+  along_ratio,
+  along_support,  ///< its slope κ
+  direction_count
+};
+
+/// What is observed at an equilibrium and its derivatives by the model's parameters and by Direction.
 struct Sample {
   Observed value{};
   std::vector<Observed> by;
@@ -31,21 +43,24 @@ class Sensitivity {
   void begin(const Material& material, const Wanted& wanted);
   /// The ends are held from now on where they are at this free equilibrium.
   Status hold(const Path& path);
+  /// The support acts from now on, whose free radii are those of this equilibrium.
+  Status support(const Path& path);
   /// Of the equilibrium the path is at; the solver's factor has to be exact.
   Status sample(const Path& path, Sample& sample);
 
  private:
-  enum Direction : std::size_t { stretch, thickness, pressure, own };  ///< after the model's parameters
   /// Of State::x at `positions` and, last, of the axial force: `by`[direction · weights + observable].
   Status derive(const Path& path, std::span<const std::size_t> positions, bool axial_force, std::vector<double>& by);
+  void add_support(const Path& path, std::size_t wanted, bool axial_force, std::vector<double>& by);
   void move_ends(std::size_t direction, std::vector<double>& moved) const;
 
   Solver& solver_;
   const Material* material_ = nullptr;
   Wanted wanted_{};
   std::vector<std::vector<double>> end_;  ///< ∂r/∂p of the held end, by direction; empty = not held after stretching
+  std::vector<std::vector<double>> free_;  ///< ∂ρ/∂p of the support by direction, plane by plane; empty = not known
   std::vector<Weights> weights_;
-  std::vector<double> by_, contracted_, moved_;
+  std::vector<double> by_, contracted_, moved_, by_free_;
 };
 
 }  // namespace tunica::fe

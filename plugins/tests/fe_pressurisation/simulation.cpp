@@ -15,7 +15,15 @@ constexpr std::size_t first_points = 15, most_points = 29;
 }  // namespace
 
 Mesh mesh_of(const Tube& tube) {
-  return {tube.order, tube.radial, tube.axial, tube.inner, tube.outer, tube.length / 2, tube.grading, tube.ends};
+  return {tube.order,      tube.radial,  tube.axial, tube.inner,     tube.outer,
+          tube.length / 2, tube.grading, tube.ends,  tube.interfaces};
+}
+
+Support support_of(const Solver& solver, const State& free, double slope) {
+  const Mesh& mesh = solver.mesh();
+  Support support{slope, {}};
+  for (std::size_t k = 0; k < mesh.planes(); ++k) support.free.push_back(free.x[2 * mesh.node(mesh.across() - 1, k)]);
+  return support;
 }
 
 Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
@@ -29,7 +37,7 @@ Status Simulation::take(Path& path, const Load& load, Sample& sample) {
 }
 
 Status Simulation::run(const Material& material, std::span<const Load> loads, const Wanted& derivatives,
-                       std::vector<Sample>& samples, std::size_t& failed_at) {
+                       std::vector<Sample>& samples, std::size_t& failed_at, double support) {
   samples.resize(loads.size());
   wanted_ = derivatives;
   derivatives_ = std::ranges::count(derivatives, true) > 0;
@@ -45,9 +53,8 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     if (at->first < 1) order.push_back(at->first);
 
   failed_at = lines[order.front()].front();
-  using std::chrono::duration, std::chrono::steady_clock;
-  solver_.set_deadline(steady_clock::now() +
-                       std::chrono::duration_cast<steady_clock::duration>(duration<double>(tube_.time_limit)));
+  solver_.set_time_limit(tube_.time_limit);
+  solver_.assembly().support = {};
   if (Status status = solver_.begin(material); !status.ok()) return status;
   sensitivity_.begin(material, wanted_);
   Path path(solver_, {tube_.steps});
@@ -59,19 +66,28 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     failed_at = lines[stretch].front();
     if (trunk.load.stretch > 1 && stretch < 1) trunk = rest;
     solver_.hold_ends(tube_.ends == Ends::clamped);
-    if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later)
+    solver_.assembly().support = {};
+    if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later || support != 0)
       if (Status status = path.return_to(trunk); !status.ok()) return status;
-    if (Status status = path.go({stretch, 0}, derivatives_ && hold_later); !status.ok()) return status;
+    if (Status status = path.go({stretch, 0}, hold_later || support != 0); !status.ok()) return status;
     trunk = path.mark();
+    Support free;
+    if (support != 0 || derivatives_) {
+      free = support_of(solver_, path.state(), support);
+      if (support != 0 && derivatives_)
+        if (Status status = sensitivity_.support(path); !status.ok()) return status;
+    }
     if (hold_later) {
       if (derivatives_)
         if (Status status = sensitivity_.hold(path); !status.ok()) return status;
       solver_.hold_at(path.state());
       solver_.hold_ends(true);
-      if (Status status = path.return_to(trunk); !status.ok()) return status;
     }
+    solver_.assembly().support = free;
+    if (hold_later || support != 0)
+      if (Status status = path.return_to(trunk); !status.ok()) return status;
     if (Status status = line(path, trunk, loads, lines[stretch], samples, failed_at); !status.ok()) return status;
-    if (hold_later) sensitivity_.begin(material, wanted_);
+    if (hold_later || support != 0) sensitivity_.begin(material, wanted_);
   }
   last_ = path.state();
   return {};

@@ -15,6 +15,7 @@ struct Tube {
   std::size_t order = 1, radial = 25, axial = 100;
   double inner = 0, outer = 0, length = 0, grading = 1.5;
   Ends ends = Ends::clamped;
+  std::vector<double> interfaces = {};  ///< between layers with models of their own: fractions of the thickness
   double tolerance = 1e-6;   ///< of interpolated curves, of the outer radius; ten times that of the largest force
   std::size_t steps = 1000;  ///< load steps at most
   double time_limit = 60;    ///< s
@@ -23,6 +24,8 @@ struct Tube {
 };
 
 Mesh mesh_of(const Tube& tube);
+/// The support that begins to act at a state without pressure.
+Support support_of(const Solver& solver, const State& free, double slope);
 
 /// Observed at each load, with derivatives on demand. Loads of the same axial stretch lie on a line of pressures, which
 /// is solved at Chebyshev points where that takes fewer solutions than rows, their number doubled until the curve is as
@@ -35,9 +38,9 @@ class Simulation {
   [[nodiscard]] Solver& solver() { return solver_; }
 
   /// `samples` has one entry a load, with the `derivatives` asked for. `failed_at` is the first load not reached, in
-  /// the order of the line.
+  /// the order of the line. `support` is the slope of the support from outside, kPa/mm.
   Status run(const Material& material, std::span<const Load> loads, const Wanted& derivatives,
-             std::vector<Sample>& samples, std::size_t& failed_at);
+             std::vector<Sample>& samples, std::size_t& failed_at, double support = 0);
   [[nodiscard]] std::size_t solutions() const { return solutions_; }
   /// The state that the last run ended with.
   [[nodiscard]] const State& last() const { return last_; }

@@ -52,11 +52,13 @@ Status Solver::begin(const Material& material) {
   held_ = mesh_.ends == Ends::clamped;
   hold_at(rest_);
   // At rest S = 2 ∂W/∂C − q C⁻¹ has to vanish: q is 2 ∂W/∂C_rr there, all three being equal up to a pressure.
-  const std::vector<double> unit{1, 1, 1, 0};
-  std::vector<double> first(Material::firsts);
-  if (Status status = material.evaluate(1, unit, first, {}, {}); !status.ok()) return status;
+  const std::size_t lanes = mesh_.radial;
+  std::vector<double> unit(4 * lanes, 1), first(Material::firsts * lanes);
+  std::fill_n(unit.begin() + static_cast<std::ptrdiff_t>(3 * lanes), lanes, 0.0);
+  if (Status status = material.evaluate(lanes, unit, first, {}, {}); !status.ok()) return status;
   const std::size_t modes = rest_.q.size() / (mesh_.radial * mesh_.axial);
-  for (std::size_t i = 0; i < rest_.q.size(); ++i) rest_.q[i] = i % modes == 0 ? 2 * first[2] : 0;
+  for (std::size_t i = 0; i < rest_.q.size(); ++i)
+    rest_.q[i] = i % modes == 0 ? 2 * first[2 * lanes + i / modes % lanes] : 0;
   system_.gamma = 1;
   if (Status status = assembly_->assemble(material, rest_, 0, true, system_); !status.ok()) return status;
   system_.gamma = incompressibility * system_.stiffness;
@@ -115,6 +117,7 @@ bool Solver::factorise() {
 Status Solver::solve(const Load& load, State& state, bool full_steps) {
   const double gamma = system_.gamma;
   Status status = iterate(load, state, full_steps);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {  // what a wild state left behind
     system_.gamma = gamma;
     has_factor_ = false;
@@ -154,7 +157,10 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     note_force();
     move(state, !full);
     // A full step leaves an error of the order of its square, a frozen one that times its contraction.
-    const double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
+    double left = full ? step * step * 10 : step * std::min(1., 2 * step / last);
+    // The matrix of a material that remembers is not quite its tangent: see Material.
+    if (full && material_->remembers())
+      left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
     if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;
@@ -200,6 +206,7 @@ double Solver::volume(const State& state) const {
 Status Solver::solve_volume(double volume, Load& load, State& state) {
   const double gamma = system_.gamma;
   const Status status = iterate_volume(volume, load, state);
+  if (status.ok()) note_support(state);
   if (!status.ok()) {
     system_.gamma = gamma;
     has_factor_ = false;
@@ -281,6 +288,7 @@ void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std
       a[positions[k]] = 1;
     else
       for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
+    if (k == positions.size()) a[outer()] -= own * middle_pressed_;
     weights[k].right = a;
     together.emplace_back(weights[k].right);
   }
@@ -316,6 +324,14 @@ void Solver::note_force() {
   middle_force_ = 0;
   for (std::size_t j = 0; j < middle_.size(); ++j) middle_force_ += middle_[j] * dx_[j];
   for (std::size_t i = 0; i < mesh_.across(); ++i) middle_force_ -= system_.right[2 * mesh_.node(i, 0) + 1];
+}
+
+void Solver::note_support(const State& state) {
+  const Support& support = assembly_->support;
+  middle_support_ = middle_pressed_ = 0;
+  if (support.slope == 0) return;
+  middle_support_ = support.slope * Support::stored(outer_radius(state), support.free.front());
+  middle_pressed_ = support.slope * Support::pressed(outer_radius(state), support.free.front());
 }
 
 }  // namespace tunica::fe

@@ -46,6 +46,10 @@ class Solver {
   void hold_at(const State& state);
   /// A deadline after which solutions fail.
   void set_deadline(std::chrono::steady_clock::time_point deadline) { deadline_ = deadline; }
+  void set_time_limit(double seconds) {
+    using std::chrono::duration, std::chrono::steady_clock;
+    set_deadline(steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(duration<double>(seconds)));
+  }
 
   /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
   Status solve(const Load& load, State& state, bool full_steps);
@@ -74,8 +78,9 @@ class Solver {
   [[nodiscard]] std::size_t outer() const { return 2 * (mesh_.across() - 1); }  ///< r there at mid-length, in State::x
   [[nodiscard]] std::size_t inner() const { return 0; }
 
-  /// Reduced axial force in mN: −2π Σ ∂Π/∂z over the plane of symmetry, the derivative of Π by its position.
-  [[nodiscard]] double axial_force() const { return -2 * std::numbers::pi * middle_force_; }
+  /// Reduced axial force in mN: −2π Σ ∂Π/∂z over the plane of symmetry, the derivative of Π by its position, less what
+  /// the support stores there.
+  [[nodiscard]] double axial_force() const { return -2 * std::numbers::pi * (middle_force_ + middle_support_); }
   [[nodiscard]] double outer_radius(const State& state) const { return state.x[outer()]; }
   [[nodiscard]] double inner_radius(const State& state) const { return state.x[inner()]; }
 
@@ -87,6 +92,7 @@ class Solver {
   bool factorise();
   void move(State& state, bool mixed);
   void note_force();
+  void note_support(const State& state);
   /// Sets prescribed entries to zero.
   void prescribe(std::span<double> dx) const;
 
@@ -101,6 +107,7 @@ class Solver {
   std::vector<std::vector<double>> spread_;
   std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
   double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
+  double middle_support_ = 0, middle_pressed_ = 0;  ///< h of the support there and h'(r), after the last solution
   State step_, moved_;                              ///< the last step and what it came to
   bool mixes_ = false;
   std::size_t negative_ = 0;

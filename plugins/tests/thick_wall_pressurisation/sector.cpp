@@ -26,7 +26,8 @@ Status rest_stress(const Layers& layers, bool parameters, RestStress& rest) {
 }
 
 /// ι for an opened sector (K ≠ 1) in equilibrium when closed.
-Status solve(const Layers& layers, const Rule& rule, Sections& sections, Wall& wall, SectorDerivative* derivative) {
+Status solve(const std::string& test, const Layers& layers, const Rule& rule, Sections& sections, Wall& wall,
+             SectorDerivative* derivative) {
   RestStress rest;
   if (Status status = rest_stress(layers, derivative != nullptr, rest); !status.ok()) return status;
   const Section closed{1, std::log(wall.Ri)};
@@ -44,8 +45,7 @@ Status solve(const Layers& layers, const Rule& rule, Sections& sections, Wall& w
   double iota = wall.iota;
   if (!detail::safeguarded_newton(residual, iota))
     return Status::failed(
-        "thick_wall_pressurisation: no stress-free sector with this opening angle closes to the unloaded tube; first "
-        "needed at row 1");
+        test + ": no stress-free sector with this opening angle closes to the unloaded tube; first needed at row 1");
   if (Status status = evaluate(iota, derivative != nullptr); !status.ok() || derivative == nullptr) return status;
   const Jet p = sections.forces_jet(0).p;
   derivative->by_closing = -p.v[closing] / p.v[ln_sector];
@@ -69,14 +69,14 @@ void as_thick_as_the_wall(const Wall& wall, SectorDerivative& derivative) {
 Status close_sector(const Tube& tube, const Layers& layers, const Rule& rule, Sections& sections, Wall& wall,
                     SectorDerivative* derivative) {
   if (!(wall.Ri > 0) || !std::isfinite(wall.iota))
-    return Status::failed("thick_wall_pressurisation: thickness error and opening angle leave no wall, at row 1");
+    return Status::failed(tube.test + ": thickness error and opening angle leave no wall, at row 1");
   if (derivative != nullptr) {
     *derivative = {};
     derivative->by_parameter.assign(layers.parameter_count(), 0);
     as_thick_as_the_wall(wall, *derivative);
   }
   if (tube.same_thickness) return {};
-  if (wall.K != 1) return solve(layers, rule, sections, wall, derivative);
+  if (wall.K != 1) return solve(tube.test, layers, rule, sections, wall, derivative);
   if (derivative == nullptr) return {};
   // A sector of ±1e-4 degrees: what the mean of both sides leaves out is of that order squared.
   double mean = 0;
@@ -86,7 +86,7 @@ Status close_sector(const Tube& tube, const Layers& layers, const Rule& rule, Se
     opened.iota = std::log(0.5 * (opened.K * (wall.Ro + wall.Ri) - (wall.Ro - wall.Ri)));
     SectorDerivative side;
     side.by_parameter.assign(layers.parameter_count(), 0);
-    if (Status status = solve(layers, rule, sections, opened, &side); !status.ok()) return status;
+    if (Status status = solve(tube.test, layers, rule, sections, opened, &side); !status.ok()) return status;
     mean += 0.5 * side.by_closing;
   }
   derivative->by_closing = mean;

@@ -13,7 +13,7 @@ namespace {
 class ThickWallPressurisation final : public Test {
  public:
   explicit ThickWallPressurisation(const TestSetup& setup)
-      : tube_(bind(setup)), fixed_(tube_.gauss_points > 0), rule_(fixed_ ? static_cast<int>(tube_.gauss_points) : 12) {
+      : tube_(bound(setup)), fixed_(tube_.gauss_points > 0), rule_(fixed_ ? static_cast<int>(tube_.gauss_points) : 12) {
     description_.parameters = own_parameters(tube_.layered);
     description_.nulls = own_nulls(tube_.layered);
     description_.diagnostics = {"inner_radius_stretch", "mean_circumferential_stress", "mean_axial_stress"};
@@ -61,6 +61,16 @@ class ThickWallPressurisation final : public Test {
   }
 
  private:
+  static Tube bound(const TestSetup& setup) {
+    Tube tube = bind(setup, "thick_wall_pressurisation");
+    tube.gauss_points = static_cast<std::size_t>(setup.options.integer("gauss_points"));
+    if (tube.gauss_points == 1)
+      throw InputError(
+          "thick_wall_pressurisation: \"gauss_points\" is 1, which integrates nothing well; give 2 or more, "
+          "or 0 to have the number chosen");
+    return tube;
+  }
+
   Tube tube_;
   bool fixed_;  ///< the number of Gauss points
   Rule rule_;   ///< where it is, and for models with history
@@ -70,19 +80,13 @@ class ThickWallPressurisation final : public Test {
 
 std::vector<Option> options() {
   std::vector<Option> all = tube_options();
-  const std::vector<Option> own = {
-      Option::choice(
-          "sector", {"equilibrium", "same_thickness"}, "equilibrium",
-          "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
-          "equilibrium at its measured outer radius, or that the sector is as thick as the wall."),
-      Option::number("layer_interface", default_interface, {0.05, 0.95},
-                     "Where layer_ratio parts the wall of one model: fraction of the thickness from inside."),
-      Option::integer(
-          "gauss_points", 0, {0, 150},
-          "Gauss points in each layer (of one model: of the two of layer_ratio), and in each piece into which "
-          "fibre switches cut them; 0 takes "
-          "as many as the estimated error asks for (12 for a model with history).")};
-  all.insert(all.end(), own.begin(), own.end());
+  const std::vector<Option> wall = wall_options();
+  all.insert(all.end(), wall.begin(), wall.end());
+  all.push_back(Option::integer(
+      "gauss_points", 0, {0, 150},
+      "Gauss points in each layer (of one model: of the two of layer_ratio), and in each piece into which "
+      "fibre switches cut them; 0 takes "
+      "as many as the estimated error asks for (12 for a model with history)."));
   return all;
 }
 

@@ -22,14 +22,13 @@ std::vector<double> own_nulls(bool layered) {
   return layered ? std::vector<double>{0, 0, 0, 0} : std::vector<double>{0, 0, 0, 0, 1};
 }
 
-Tube bind(const TestSetup& setup) {
-  Tube tube{TubeRows(setup, "thick_wall_pressurisation"), !setup.layers.empty(), {}, false, 0};
+Tube bind(const TestSetup& setup, const char* name) {
+  Tube tube{TubeRows(setup, name), !setup.layers.empty(), {}, false, 0};
   const double interface = setup.options.number("layer_interface");
   if (tube.layered && interface != default_interface)
-    throw InputError(
-        "thick_wall_pressurisation: \"layer_interface\" says where layer_ratio parts a wall of one model, and "
-        "\"layers\" "
-        "are given too; leave one of them out");
+    throw InputError(tube.test +
+                     ": \"layer_interface\" says where layer_ratio parts a wall of one model, and \"layers\" are given "
+                     "too; leave one of them out");
   if (!tube.layered) tube.interfaces = {interface};
   double inside = 0;
   for (std::size_t k = 0; k + 1 < setup.layers.size(); ++k) {
@@ -37,12 +36,16 @@ Tube bind(const TestSetup& setup) {
     tube.interfaces.push_back(inside / (tube.outer_radius - tube.inner_radius));
   }
   tube.same_thickness = setup.options.text("sector") == "same_thickness";
-  tube.gauss_points = static_cast<std::size_t>(setup.options.integer("gauss_points"));
-  if (tube.gauss_points == 1)
-    throw InputError(
-        "thick_wall_pressurisation: \"gauss_points\" is 1, which integrates nothing well; give 2 or more, "
-        "or 0 to have the number chosen");
   return tube;
+}
+
+std::vector<Option> wall_options() {
+  return {Option::choice(
+              "sector", {"equilibrium", "same_thickness"}, "equilibrium",
+              "What fixes the radius of the stress-free sector with an opening angle: that the unloaded tube is in "
+              "equilibrium at its measured outer radius, or that the sector is as thick as the wall."),
+          Option::number("layer_interface", default_interface, {0.05, 0.95},
+                         "Where layer_ratio parts the wall of one model: fraction of the thickness from inside.")};
 }
 
 }  // namespace tunica::thick_wall

@@ -29,7 +29,9 @@ struct Tube : TubeRows {
   [[nodiscard]] std::size_t layer_count() const { return interfaces.size() + 1; }
 };
 
-/// Binds options and rows; throws InputError where they make no tube.
-Tube bind(const TestSetup& setup);
+/// Binds options and rows of the test type `name`; throws InputError where they make no tube.
+Tube bind(const TestSetup& setup, const char* name);
+/// The options that bind() reads beside those of tube_options(): sector and layer_interface.
+std::vector<Option> wall_options();
 
 }  // namespace tunica::thick_wall
