@@ -25,7 +25,7 @@ import table  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
 LEVELS = ("baseline", "avx2", "avx512")
-VECTORISED = r"^(strip|sheet|tube|fe/four_node/25x50|fe/nine_node/12x25)/"
+VECTORISED = r"^(strip|sheet|tube|fe/four_node/25x50|fe/nine_node/8x20)/"
 
 
 def in_process(build, only, quick, level=None, arguments=()):
@@ -126,6 +126,13 @@ def merge(document, rows):
     fit_meshes(document["rows"])
 
 
+def save(out, document):
+    if out:
+        unfinished = out.with_name(out.name + ".part")
+        unfinished.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+        unfinished.replace(out)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=SOURCE / "build/release", help="build folder (build/release)")
@@ -152,14 +159,14 @@ def main():
             row["date"] = datetime.date.today().isoformat()
             print(f"{row['name']:<44} {table.seconds(row['time_s']):>9}  {table.ratio_words(row)}", file=sys.stderr, flush=True)
             fresh.append(row)
+            merge(document, [row])
+            save(options.out, document)  # at once: whoever ends this keeps what was measured
     except programs.Failure as failure:
         print(f"bench.py: {failure}", file=sys.stderr)
         return 1
-    merge(document, fresh)
     if fresh:
         print(table.terminal(fresh))
-    if options.out:
-        options.out.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    save(options.out, document)
     if options.page:
         table.write_page(options.page, document)
     return 0

@@ -17,7 +17,7 @@ import statistics
 import subprocess
 import sys
 
-DEFAULT = (r"^(point/(gho|neo_hooke|composed)/|strip/|sheet/|tube/|fe/(four_node/25x50|nine_node/12x25)/|optimizer/es$|search/es/one"
+DEFAULT = (r"^(point/(gho|neo_hooke|composed)/|strip/|sheet/|tube/|fe/(four_node/25x50|nine_node/8x20)/|optimizer/es$|search/es/one"
            r"|constraint/|journal/)")
 
 

@@ -98,7 +98,7 @@ double peak_memory_of(const Row& row) {
 
 int run(std::span<char*> arguments) {
   std::string only = ".*", once;
-  bool list = false, bare = false;
+  bool list = false;
   Effort effort;
   for (std::size_t k = 1; k < arguments.size(); ++k) {
     const std::string_view word = arguments[k];
@@ -113,6 +113,7 @@ int run(std::span<char*> arguments) {
       only = arguments[++k];
     } else if (word == "--peak-memory" && has_value) {
       once = arguments[++k];
+      bare = true;
     } else if (word == "--rounds" && has_value) {
       effort.rounds = std::strtoull(arguments[++k], nullptr, 10);
       effort.all_sizes = false;

@@ -25,8 +25,8 @@ double median(const std::vector<double>& values) { return quantile(values, 0.5);
 class Sampled {
  public:
   Sampled(const Work& work, Clock clock, double sample) : work_(work), clock_(clock) {
-    work_.call();  // memory and caches
-    while (true) {
+    const double first = time();  // memory and caches
+    while (first < sample) {
       const double seconds = time();
       if (seconds >= sample || calls_ > (1ULL << 40)) break;
       calls_ = seconds <= 0 ? calls_ * 16
@@ -74,8 +74,10 @@ Measured measure(const Row& row, const Effort& effort) {
       for (const Floor& floor : *list) floors.emplace_back(floor.work, row.clock, effort.sample);
     std::vector<double>& times = measured.samples;
     std::vector<std::vector<double>> bounds(floors.size()), ratios(floors.size());
+    const std::size_t least = work.last() > 1.5 ? 1 : 3;  // of work that takes seconds one sample says enough
     double spent = 0;
-    for (std::size_t round = 0; round < effort.rounds && (round < 3 || spent < effort.most); ++round) {
+    for (std::size_t round = 0; round < effort.rounds && (round < least || (least > 1 && spent < effort.most));
+         ++round) {
       times.push_back(work());
       spent += work.last();
       for (std::size_t k = 0; k < floors.size(); ++k) {

@@ -87,10 +87,14 @@ class Programs:
             "study/lamb_aorta/bootstrap_200": lambda: self.lamb_aorta("bootstrap_200", "--bootstrap", "200"),
             "study/inverse_fe/lm": lambda: self.inverse_fe("lm"),
             "study/inverse_fe/es": lambda: self.inverse_fe("es"),
+            "study/inverse_fe/lm_guided": lambda: self.inverse_fe("lm", guided=True),
+            "study/inverse_fe/es_guided": lambda: self.inverse_fe("es", guided=True),
             "study/long_tube_simulated": self.simulated,
             "diagnosis/quick": lambda: self.diagnosis("quick", "--quick"),
             "diagnosis/full": lambda: self.diagnosis("full"),
         }
+        if "fewer_simulations" not in (SOURCE / "schemas/tunica-experiment.schema.json").read_text(encoding="utf-8"):
+            del studies["study/inverse_fe/lm_guided"], studies["study/inverse_fe/es_guided"]
         return studies
 
     # ---- start-up
@@ -98,7 +102,7 @@ class Programs:
     def startup(self, name, *arguments):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            command = [self.tunica, *(["--allow-world-writable-plugins"] if False else []), *arguments]
+            command = [self.tunica, *arguments]
             bare = [self.build / "bin/bench_dlopen"]
             if name != "version":
                 bare += sorted((self.build / "lib/tunica/plugins").glob("*.so"))
@@ -126,6 +130,9 @@ class Programs:
         jacobians = sum(one.get("jacobians", 0) for one in result["runs"])
         best = min((one["best"]["objective"] for one in result["runs"] if one["best"].get("objective") is not None), default=None)
         made = row(name, what, samples, cpu, evaluations=evaluations, jacobians=jacobians, best_objective=best)
+        simulations = [one["full_simulations"]["count"] for one in result["runs"] if "full_simulations" in one]
+        if simulations:
+            made["facts"]["full_simulations"] = sum(simulations)
         if points:
             threads = os.cpu_count() if "-j" not in arguments else int(arguments[arguments.index("-j") + 1])
             for level, (objective, jacobian) in self.floor().items():
@@ -162,32 +169,37 @@ class Programs:
             made = self.calibration(f"study/lamb_aorta/{name}", what, example("lamb_aorta", pathlib.Path(folder), change), *arguments)
         peers = self.scipy() if name in ("lm", "es") else None
         if peers:
-            of, words = ("least_squares", "scipy least_squares, 20 starts") if name == "lm" else (
-                "differential_evolution", "scipy differential_evolution, 30 000 evaluations")
+            of, words = ("least_squares", f"scipy least_squares, {1 if self.quick else 20} start(s)") if name == "lm" else (
+                "differential_evolution", f"scipy differential_evolution, {peers['differential_evolution_evaluations']} evaluations")
             made["peers"].append({"what": words, "level": "", "time_s": peers[of + "_s"], "ratio": made["time_s"] / peers[of + "_s"],
                                   "objective": peers[of + "_objective"]})
         return made
 
-    def inverse_fe(self, optimizer):
-        """Two strips, the clamped tube and transverse stability (Canales et al. 2023), set S."""
+    def inverse_fe(self, optimizer, guided=False):
+        """Two strips, the clamped tube and transverse stability (Canales et al. 2023), set S. Without a guide `es` has a
+        coarse mesh, as in examples/cn_pressurisation."""
+        coarse = self.quick or (optimizer == "es" and not guided)
+
         def change(experiment):
-            tube = "s_tube" if optimizer == "lm" else "s_tube_quick"
-            evaluations = 200 if optimizer == "lm" else 12000
+            tube = "s_tube_quick" if coarse else "s_tube"
+            stop = {"max_evaluations": 8 if self.quick else 200 if optimizer == "lm" and not guided else 12000}
+            if not guided:
+                stop["target"] = 1e-9 if optimizer == "lm" else 3e-8
             if self.quick:
-                tube, evaluations = "s_tube_quick", 8
                 experiment["optimizers"] = {"lm": {"type": "ceres_lm", "starts": 1}, "es": {"type": "es", "parents": 2, "offspring": 4}}
-            target = 1e-9 if optimizer == "lm" else 3e-8
-            experiment["runs"] = [{"model": "gho", "optimizer": optimizer, "tests": ["s_circumferential", "s_axial", tube],
-                                   "constraints": [{"type": "transverse_stability", "h": 1}],
-                                   "stop": {"max_evaluations": evaluations, "target": target}}]
-            used = experiment["runs"][0]["tests"]
+            used = ["s_circumferential", "s_axial", tube]
+            experiment["runs"] = [{"model": "gho", "optimizer": optimizer, "tests": used, "stop": stop,
+                                   "constraints": [{"type": "transverse_stability", "h": 1}]}]
+            if guided:
+                experiment["fewer_simulations"] = {"guide": True}
             experiment["tests"] = {name: test for name, test in experiment["tests"].items() if name in used}
             experiment["models"].pop("known_angle", None)
-        mesh = "25x50 four-node" if optimizer == "lm" else "3x6 nine-node"
+        name = optimizer + ("_guided" if guided else "")
+        what = f"two strips and the clamped tube ({'3x6 nine-node' if coarse else '25x50'} elements), stable, by {optimizer}"
         with tempfile.TemporaryDirectory() as folder:
-            return self.calibration(f"study/inverse_fe/{optimizer}", f"two strips and the clamped tube ({mesh}), stable, by {optimizer}",
+            return self.calibration(f"study/inverse_fe/{name}", what + (" with a guide" if guided else ""),
                                     example("cn_pressurisation", pathlib.Path(folder), change), points=0,
-                                    repeats=1 if optimizer == "es" else None)
+                                    repeats=1 if name == "es" else None)
 
     # ---- simulations and diagnoses
 

@@ -18,6 +18,9 @@ std::vector<Row> extension_rows();  ///< composed models, memory
 std::vector<Row> search_rows();     ///< optimisers, threads, constraint
 std::vector<Row> journal_rows();    ///< evaluations.csv
 
+/// Whether floors and peers are left out: of a comparison of builds, and where memory is looked at.
+inline bool bare = false;
+
 /// Kernels for the levels that this machine has.
 std::vector<const floors::Kernels*> levels();
 

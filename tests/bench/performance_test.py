@@ -94,7 +94,7 @@ class Rows(unittest.TestCase):
         for model in models:
             for call in ("energy", "gradient", "hessian", "parameters"):
                 self.assertIn(f"point/{model}/{call}", names)
-        for mesh in ("four_node/10x40", "four_node/25x50", "four_node/100x400", "nine_node/12x25"):
+        for mesh in ("four_node/10x40", "four_node/25x50", "four_node/100x400", "nine_node/8x20", "nine_node/50x200"):
             for kind in ("values", "one_channel", "three_channels"):
                 self.assertIn(f"fe/{mesh}/{kind}", names)
         for name in ("search/es/two_threads", "startup/all_plugins", "study/known_solution_x100", "study/inverse_fe/lm", "study/inverse_fe/es",
