@@ -99,15 +99,15 @@ GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
 
 /// `outputs` are the spans of the response, in whatever memory; `body` evaluates into them.
 template <class Body>
-Status GuardedModel::made(const Call& call, std::span<NamedOutput> outputs, std::size_t points,
-                          const Body& body) const {
+Status GuardedModel::made(const Call& call, OverrunRecord::Function function, std::span<NamedOutput> outputs,
+                          std::size_t points, const Body& body) const {
   const auto attempt = [&] {
     mark(outputs, points);
     const CallScope scope(call);
     const UsualArithmetic arithmetic;
     return verdict(contained(plugin_, body), outputs, plugin_, points);
   };
-  const std::size_t kind = OverrunRecord::kind(outputs, points);
+  const std::size_t kind = OverrunRecord::kind(function, outputs, points);
   if (!overruns_.is_new(kind)) return attempt();
   if (const char* output = overruns_.overrun()) return Status::failed(overrun_reason(plugin_, output));
   FencedOutputs fenced(outputs);
@@ -131,7 +131,7 @@ Status GuardedModel::evaluate(const MaterialPoints& points, const MaterialRespon
                            {"tangent", response.tangent},
                            {"derivatives by parameters", response.stress_dp},
                            {"state", response.state}};
-  return made(call, outputs, points.count, [&] {
+  return made(call, OverrunRecord::Function::evaluate, outputs, points.count, [&] {
     return model_->evaluate(
         points, {outputs[0].values, outputs[1].values, outputs[2].values, outputs[3].values, outputs[4].values});
   });
@@ -148,7 +148,7 @@ Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse&
                            {"Hessian", response.hessian},
                            {"derivatives by parameters", response.gradient_dp},
                            {"derivatives of the energy", response.energy_dp}};
-  return made(call, outputs, points.count, [&] {
+  return made(call, OverrunRecord::Function::evaluate_axes, outputs, points.count, [&] {
     return model_->evaluate_axes(
         points, {outputs[0].values, outputs[1].values, outputs[2].values, outputs[3].values, outputs[4].values});
   });
@@ -168,7 +168,7 @@ bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
                            {"derivatives by the stretch", strip.stress_by_l},
                            {"lateral derivatives by the stretch", strip.lateral_by_l}};
   bool declined = false;
-  status = made(call, outputs, strip.stretch.size(), [&] {
+  status = made(call, OverrunRecord::Function::solve_strip, outputs, strip.stretch.size(), [&] {
     StripPath path = strip;
     path.stress = outputs[0].values;
     path.lateral = outputs[1].values;

@@ -33,7 +33,8 @@ class GuardedModel final : public Model {
 
  private:
   template <class Body>
-  Status made(const Call& call, std::span<NamedOutput> outputs, std::size_t points, const Body& body) const;
+  Status made(const Call& call, OverrunRecord::Function function, std::span<NamedOutput> outputs, std::size_t points,
+              const Body& body) const;
 
   std::unique_ptr<Model> model_;
   std::string plugin_;

@@ -38,11 +38,15 @@ class FencedOutputs {
 /// Which kinds of call have been made between fences, and the verdict on the model.
 class OverrunRecord {
  public:
-  /// A kind is what is wanted, and the number of points within a vector of eight.
-  static std::size_t kind(std::span<const NamedOutput> outputs, std::size_t points) {
+  /// Functions of a model, each with kinds of its own.
+  enum class Function { evaluate, evaluate_axes, solve_strip };
+  static constexpr std::size_t functions = 3, most_outputs = 6;
+
+  /// A kind is the function, what is wanted of it, and the number of points within a vector of eight.
+  static std::size_t kind(Function function, std::span<const NamedOutput> outputs, std::size_t points) {
     std::size_t wanted = 0;
     for (const NamedOutput& output : outputs) wanted = 2 * wanted + (output.values.empty() ? 0 : 1);
-    return 8 * (wanted % 32) + points % 8;
+    return 8 * ((static_cast<std::size_t>(function) << most_outputs) + wanted) + points % 8;
   }
   [[nodiscard]] bool is_new(std::size_t kind) const {
     return (good_[kind / 64].load(std::memory_order_relaxed) >> kind % 64 & 1) == 0;
@@ -58,7 +62,7 @@ class OverrunRecord {
   }
 
  private:
-  std::array<std::atomic<std::uint64_t>, 4> good_ = {};
+  std::array<std::atomic<std::uint64_t>, functions*(1U << most_outputs) / 8> good_ = {};  ///< a bit a kind
   std::atomic<const char*> overrun_ = nullptr;
 };
 
