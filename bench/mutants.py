@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mutants of the project's own code: which changed operators, constants and statements would the tests notice?
 
-    bench/mutants.py                              a sample of 150 in the calibration, diagnosis, discovery and mechanisms
+    bench/mutants.py                              a sample of 150 in the calibration, diagnosis, discovery, models and mechanisms
     bench/mutants.py --sample 0 plugins/models    every mutant of a folder
     bench/mutants.py --again                      only those that survived, and those of files that have changed
 
@@ -23,8 +23,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from mutation import building, report, trials  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["core/src/calibration", "core/src/diagnosis", "core/src/discovery", "plugins/mechanisms"]
-PROGRAMS = ["test_mechanisms", "test_diagnosis", "test_discover", "test_calibration"]
+FOLDERS = ["core/src/calibration", "core/src/diagnosis", "core/src/discovery", "plugins/models", "plugins/mechanisms"]
+PROGRAMS = ["test_mechanisms", "test_models", "test_diagnosis", "test_discover", "test_calibration"]
 
 
 def options():

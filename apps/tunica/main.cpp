@@ -44,7 +44,8 @@ and resumable.)";
 void check_verb(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--plugin-path" || word == "--call-limit") ++i;  // its value may be anything
+    if (word == "--plugin-path" || word == "--call-limit" || word == "--memory-limit")
+      ++i;  // its value may be anything
     if (word.empty() || word.front() == '-') continue;
     std::vector<std::string> verbs;
     for (const auto* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -74,6 +75,12 @@ int run(int argc, char** argv) {
                  "Give up a call of a model that takes longer, in seconds; it counts as failed (default: 60)")
       ->check(CLI::Range(0.1, 1e6))
       ->type_name("S")
+      ->allow_extra_args(false);
+  app.add_option("--memory-limit", global.memory_limit,
+                 "Give up a call of a plugin that takes the program's memory to so many GiB; it counts as failed "
+                 "(default: nine tenths of the machine's)")
+      ->check(CLI::Range(0.1, 1e6))
+      ->type_name("GIB")
       ->allow_extra_args(false);
   bool alone = false;
   app.add_flag(std::string(in_process), alone,

@@ -44,6 +44,14 @@ std::set<std::string> types_named_in(const std::filesystem::path& file) {
   return types;
 }
 
+plugins::CallWatch::Limits limits_of(const GlobalOptions& options) {
+  plugins::CallWatch::Limits limits;
+  limits.longest_model_call = std::chrono::duration<double>(options.call_limit);
+  constexpr double gibibyte = 1024.0 * 1024 * 1024;
+  if (options.memory_limit > 0) limits.memory = options.memory_limit * gibibyte;
+  return limits;
+}
+
 }  // namespace
 
 std::vector<std::string> plugin_words(const GlobalOptions& global) {
@@ -53,9 +61,9 @@ std::vector<std::string> plugin_words(const GlobalOptions& global) {
   return words;
 }
 
-Session::Session(const GlobalOptions& options)
-    : watch_({.longest_model_call = std::chrono::duration<double>(options.call_limit)}) {
+Session::Session(const GlobalOptions& options) : watch_(limits_of(options)) {
   keep_stdout();
+  plugins::leave_last_words();
   std::vector<std::filesystem::path> folders;
   for (const std::filesystem::path path : options.plugin_paths) {
     if (!std::filesystem::exists(path))

@@ -17,8 +17,9 @@ namespace tunica::app {
 struct GlobalOptions {
   std::vector<std::string> plugin_paths;
   bool allow_world_writable_plugins = false;
-  double call_limit = 60;  ///< s, for one call of a model
-  bool quiet = false;      ///< nothing on stderr but errors
+  double call_limit = 60;   ///< s, for one call of a model
+  double memory_limit = 0;  ///< GiB, for the program; 0: nine tenths of what the machine has
+  bool quiet = false;       ///< nothing on stderr but errors
 };
 
 /// The options by which another process, or a command that is printed, finds the same plugins.

@@ -158,6 +158,18 @@ void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
   if (times <= told) say_wrapped_warning(what + " This call counts as failed, and the work goes on.");
 }
 
+/// Memory that no single call took.
+void say_leak(bool goes_on) {
+  if (!goes_on)
+    return say_error(
+        "memory came to its limit again and again while plugins were evaluated: one of them does not give back what it "
+        "takes. What was saved is kept. Take the plugin out, or go on with --resume where the verb has it");
+  if (common->casualties.leaks == 1)
+    say_wrapped_warning(
+        "memory came to its limit while plugins were evaluated; one of them may not give back what it takes. The work "
+        "goes on in a new process, and nothing is lost.");
+}
+
 void say_unexplained(int status) {
   const std::string end =
       WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : fmt::format("exit code {}", WEXITSTATUS(status));
@@ -184,20 +196,26 @@ int supervise(const std::function<int()>& work) {
   for (const int number : passed_on) handle(number, pass_on);
   handle(SIGALRM, on_alarm);
   for (;; ++common->generation) {
-    const unsigned before = common->casualties.size();
+    const unsigned before = common->casualties.size(), leaks = common->casualties.leaks;
     const pid_t process = start(work);
     if (process < 0) return work();
     const int status = wait_for(process);
     worker = 0;
     ::alarm(0);
     if (common->finished) return common->code;
-    const bool of_plugin = common->casualties.size() > before;
+    const bool of_plugin = common->casualties.size() > before, leaked = common->casualties.leaks > leaks;
     if (WIFEXITED(status) && WEXITSTATUS(status) == interrupted && !of_plugin) return interrupted;
     if (WIFSIGNALED(status) && !is_fault(WTERMSIG(status))) end_by(WTERMSIG(status));
     remove_unfinished();
     if (asked_to_stop != 0) {
       say_error("ended in the middle of a calculation that did not stop; what was saved is kept");
       return interrupted;
+    }
+    if (!of_plugin && leaked) {
+      const bool goes_on = !common->answered && common->casualties.leaks <= plugins::CasualtyList::most_leaks;
+      say_leak(goes_on);
+      if (goes_on) continue;
+      return internal_error;
     }
     if (!of_plugin) {
       say_unexplained(status);

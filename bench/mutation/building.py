@@ -32,12 +32,15 @@ def find(job):
     """(name, source, options) -> the places whose instrumented copy compiles, and the copy. Runs in a process of its own.
 
     A place that does not compile, say a bound that has to be constant, is left out, and the copy is tried once more."""
-    from clang.cindex import Index, TranslationUnit
+    from clang.cindex import Index, TranslationUnit, TranslationUnitLoadError
     name, path, options = job
     text = path.read_bytes()
     options = options + ["-include", str(HERE / "runtime.hpp"), "-w", "-ferror-limit=0"]
     reading = TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD | TranslationUnit.PARSE_PRECOMPILED_PREAMBLE | 0x100
-    unit = Index.create().parse(str(path), args=options, options=reading)
+    try:
+        unit = Index.create().parse(str(path), args=options, options=reading)
+    except TranslationUnitLoadError:  # a header changed while it was read
+        return name, [], b"", "cannot be read now"
     known = {sentence for sentence, _ in errors(unit, path)}  # clang 14 lacks a few things that g++ has; what it cannot read has no mutants
     places, left_out = Finder(unit, path).places, 0
     for _ in range(12):
@@ -87,6 +90,7 @@ def prepare(root, build, folders, jobs):
             else:
                 target.unlink(missing_ok=True)
             sources[root / name].output.unlink(missing_ok=True)  # compiled again, from the copy
+            (state / "places.json").write_text(json.dumps(known))
             print(f"  [{done}/{len(work)}] {name}: {sum(len(place.mutants) for place in places)} mutants"
                   f"{'; ' + remark if remark else ''}", flush=True)
     (state / "places.json").write_text(json.dumps(known))

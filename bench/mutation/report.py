@@ -2,6 +2,7 @@
 """What a run of the mutants found: mutants.json, survivors.md and the share killed."""
 import collections
 import json
+import math
 
 WORDS = {"killed": "killed", "survived": "survived", "not reached": "reached by no test"}
 
@@ -51,6 +52,14 @@ def share(killed, total):
     return f"{killed} of {total} ({100 * killed / total:.1f} %)" if total else "none"
 
 
+def interval(killed, total):
+    """Wilson's of 95 %, in per cent: what a sample says of all mutants. E. B. Wilson, J. Am. Stat. Assoc. 22:209 (1927)."""
+    z, share_killed = 1.96, killed / total
+    middle = (share_killed + z * z / (2 * total)) / (1 + z * z / total)
+    half = z / (1 + z * z / total) * math.sqrt(share_killed * (1 - share_killed) / total + z * z / (4 * total * total))
+    return f"{100 * (middle - half):.1f} … {100 * (middle + half):.1f} %"
+
+
 def summary(verdicts, survivors, listed):
     by_folder = collections.defaultdict(lambda: [0, 0])
     for mutant in verdicts:
@@ -62,4 +71,8 @@ def summary(verdicts, survivors, listed):
     lines.append(f"killed {share(len(verdicts) - len(survivors), len(verdicts))}; {len(survivors)} survived, {unreached} of "
                  f"them reached by no test, {len(listed)} listed with a reason: without those "
                  f"{share(len(verdicts) - len(survivors), len(verdicts) - len(listed))}")
+    counted = len(verdicts) - len(listed)
+    if counted:
+        lines.append(f"95 % interval of the last share, where this is a sample: "
+                     f"{interval(len(verdicts) - len(survivors), counted)}")
     return "\n".join(lines)

@@ -122,7 +122,7 @@ struct Elements {
     std::vector<double> own, kernel;
     for (std::size_t j = 0; j < force.size(); ++j)
       for (std::size_t i = 0; i < stride && j + i < force.size(); ++i) {
-        own.push_back(system.matrix.column(j)[i]);
+        own.push_back(system.matrix.entry(j + i, j));
         kernel.push_back(matrix[j * stride + i]);
       }
     return std::max(difference(system.force, force), difference(own, kernel));
@@ -164,7 +164,7 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted, Start start) {
   if (start == Start::parameters_before && !large && !bare)  // counts of a run that may use the one before
     for (int k = 0; k < 3; ++k) tube->run(wanted, true);
   const fe::Effort effort = tube->simulation.solver().effort();
-  const fe::Banded& matrix = tube->simulation.solver().system().matrix;
+  const fe::Stencil& matrix = tube->simulation.solver().system().matrix;
   const double n = static_cast<double>(matrix.size()), w = static_cast<double>(matrix.width());
   row.facts = {{"unknowns", n},
                {"half_band", w},
@@ -195,7 +195,8 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted, Start start) {
 fe::Banded matrix_of(Tube& tube) {
   tube.run({}, false);
   fe::Solver& solver = tube.simulation.solver();
-  fe::Banded matrix = solver.system().matrix;
+  fe::Banded matrix;
+  solver.system().matrix.spread(matrix);
   const fe::Mesh& mesh = solver.mesh();
   const std::size_t end = mesh.planes() - 1;
   const double diagonal = *matrix.column(2 * mesh.node(mesh.across() / 2, end / 2));

@@ -24,7 +24,7 @@ class HotPath : public testing::TestWithParam<bool> {
   fakes::Bench bench_;
 };
 
-TEST_P(HotPath, AllocatesNothingInTheAssembly) {
+TEST_P(HotPath, AllocatesNothingInTheAssemblyAfterTheFirstCalls) {
   const assembly::Assembly assembly = bench_.assemble();
   const std::size_t n = assembly.layout().parameters.size();
   std::vector<double> free, predictions(assembly.layout().prediction_count), by_prediction(predictions.size() * n);
@@ -33,15 +33,15 @@ TEST_P(HotPath, AllocatesNothingInTheAssembly) {
   const auto workspace = assembly.evaluator().make_workspace();
   double objective = 0;
   EXPECT_GT(allocations_in([&] { free.reserve(1000); }), 0) << "the counter counts";
-  EXPECT_EQ(allocations_in([&] {
-              for (int k = 0; k < 10; ++k) {
-                static_cast<void>(assembly.evaluator().predict(free, predictions, by_prediction, *workspace));
-                static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
-                static_cast<void>(
-                    assembly.evaluator().evaluate(free, objective, per_test, residuals, by_residual, *workspace));
-              }
-            }),
-            0);
+  const auto calls = [&] {
+    for (int k = 0; k < 10; ++k) {
+      static_cast<void>(assembly.evaluator().predict(free, predictions, by_prediction, *workspace));
+      static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
+      static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, residuals, by_residual, *workspace));
+    }
+  };
+  calls();  // the guard of a model makes the first one of each kind between fences
+  EXPECT_EQ(allocations_in(calls), 0);
 }
 
 TEST_P(HotPath, AllocatesNothingInTheProblemAfterTheFirstCalls) {

@@ -207,7 +207,9 @@ class Stack final : public Test {
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (!output.values.empty()) output.values[i] = sum[i];
-      if (!output.jacobian.empty()) output.jacobian[models * n + i] = sum[i] / input.test_parameters[0];
+      if (output.jacobian.empty()) continue;
+      output.jacobian[models * n + i] = sum[i] / input.test_parameters[0];
+      if (thickness_.empty()) output.jacobian[(models + 1) * n + i] = 0;  // it bends nothing
     }
     return {};
   }

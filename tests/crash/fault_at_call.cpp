@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded into a program, it lets the n-th call of open, write, fsync or rename below a folder fail.
+// Preloaded into a program, it lets the n-th call of open, write, fsync or rename below a folder fail, or the n-th
+// memory (malloc and its kin) or fork (posix_spawn too) of a process.
 //   FAULT_UNDER=/folder/    which files count
 //   FAULT=write:17:28       the 17th write fails with errno 28; write:17+:28 every one from the 17th on
-//   FAULT_COUNTS=file       how often each was called is written there when the program ends
+//   FAULT_COUNTS=file       how often each was called is added there when a process ends
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -14,12 +15,22 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <spawn.h>
 #include <unistd.h>
 
 namespace {
 
-enum Call { open_call, write_call, fsync_call, rename_call, calls };
-constexpr const char* names[calls] = {"open", "write", "fsync", "rename"};
+enum Call { open_call, write_call, fsync_call, rename_call, fork_call, memory_call, calls };
+constexpr const char* names[calls] = {"open", "write", "fsync", "rename", "fork", "memory"};
+
+// Memory is asked for before anything is constructed, by the construction too.
+constinit std::atomic<long> memory_asked = 0, memory_denied_at = -1;
+
+bool memory_is_denied() {
+  if (++memory_asked != memory_denied_at) return false;
+  errno = ENOMEM;
+  return true;
+}
 
 template <class Function>
 Function original(const char* name) {
@@ -47,11 +58,13 @@ struct Order {
     }
     for (int k = 0; k < calls; ++k)
       if (std::strcmp(name, names[k]) == 0) call = static_cast<Call>(k);
+    if (call == memory_call) memory_denied_at = at;
   }
   ~Order() {
     if (counts.empty()) return;
+    seen[memory_call] = memory_asked.load();
     const int file =
-        original<int (*)(const char*, int, ...)>("open")(counts.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        original<int (*)(const char*, int, ...)>("open")(counts.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
     for (int k = 0; k < calls; ++k) dprintf(file, "%s %ld\n", names[k], seen[k].load());
     close(file);
   }
@@ -88,6 +101,9 @@ Order& order() {
   static Order one;
   return one;
 }
+
+/// Before main(), so that the denial of memory is known.
+[[maybe_unused]] const Order& at_start = order();
 
 int opened(const char* function, const char* path, int how, mode_t mode) {
   if (order().holds(path) && order().strikes(open_call)) return -1;
@@ -150,6 +166,29 @@ int fsync(int descriptor) {
 int fdatasync(int descriptor) {
   if (order().holds(descriptor) && order().strikes(fsync_call)) return -1;
   return original<int (*)(int)>("fdatasync")(descriptor);
+}
+
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) { return memory_is_denied() ? nullptr : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) { return memory_is_denied() ? nullptr : __libc_calloc(count, size); }
+void* realloc(void* memory, size_t size) { return memory_is_denied() ? nullptr : __libc_realloc(memory, size); }
+void* aligned_alloc(size_t alignment, size_t size) {
+  return memory_is_denied() ? nullptr : __libc_memalign(alignment, size);
+}
+
+pid_t fork() {
+  if (order().strikes(fork_call)) return -1;
+  return original<pid_t (*)()>("fork")();
+}
+
+int posix_spawn(pid_t* process, const char* path, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const arguments[], char* const environment[]) {
+  if (order().strikes(fork_call)) return order().error;
+  return original<decltype(&posix_spawn)>("posix_spawn")(process, path, actions, attributes, arguments, environment);
 }
 
 int rename(const char* from, const char* to) {

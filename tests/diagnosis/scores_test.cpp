@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <functional>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "diagnosis/detection/detector.hpp"
 #include "diagnosis/detection/noise_draws.hpp"
@@ -131,6 +137,35 @@ TEST(Scores, AreTheDropOfTheSquaresInALinearRefit) {
     ++compared;
   }
   EXPECT_EQ(compared, 4u);
+}
+
+// The peer: anova.glm(test = "Rao") of R 4.2.2, figures of rao_reference.R, which has the same data.
+TEST(Scores, AreRaosOfR) {
+  const auto file = std::string(TUNICA_SOURCE_DIR) + "/tests/diagnosis/rao_reference.json";
+  const auto reference = nlohmann::json::parse(std::ifstream(file)).at("shapes");
+  Eigen::VectorXd measured(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double u = static_cast<double>(i) / (rows - 1), golden = (std::sqrt(5.0) - 1) / 2;
+    const double error = std::sqrt(12.0) * (std::fmod(static_cast<double>(i + 1) * golden, 1.0) - 0.5);
+    measured[i] = 3 * u + 0.02 * std::exp(4 * u) + error + 1.5 * std::sin(9 * u);
+  }
+  const std::vector<std::pair<std::string, Eigen::VectorXd>> shapes{
+      {"sin_9", along([](double u) { return std::sin(9 * u); })},
+      {"cos_25", along([](double u) { return std::cos(25 * u); })},
+      {"step", along([](double u) { return u > 0.7 ? 1 : 0; })},
+      {"growing", along([](double u) { return u * std::sin(14 * u); })},
+      {"cube", along([](double u) { return u * u * u; })},
+      {"sin_70", along([](double u) { return std::sin(70 * u); })}};
+  ASSERT_EQ(reference.size(), shapes.size());
+  const Projection projection(base_jacobian());
+  for (const auto& [name, shape] : shapes) {
+    const auto found = directions({candidate(Side::both, {shape})}, projection);
+    ASSERT_EQ(found.size(), 1u) << name;
+    const Score scored = score(found.front(), projection.off(measured));
+    const double rao = reference.at(name).at("score"), coefficient = reference.at(name).at("coefficient");
+    EXPECT_NEAR(scored.T, rao, 1e-8 * std::max(1.0, rao)) << name;
+    EXPECT_NEAR(scored.amplitude, coefficient, 1e-8 * std::abs(coefficient)) << name;
+  }
 }
 
 TEST(Scores, SeeNothingOnTheSideAMechanismCannotGoTo) {

@@ -264,6 +264,82 @@ TEST(FiniteElementWalls, TheWorkOfPressureAndEndForceIsTheChangeOfEnergy) {
   }
 }
 
+/// Held ends and support: the reduced force is the resultant of the axial stress at mid-length, less pressure over the
+/// lumen, although the support pushes along a wall that is not straight. Against Gauss's rule through the wall.
+TEST(FiniteElementWalls, TheForceOfASupportedTubeIsThatOfItsMiddleSection) {
+  const auto model = smooth_fibres();
+  fe::Tube plan;
+  plan.order = 2;
+  plan.radial = 6;
+  plan.axial = 20;
+  plan.inner = 3.71;
+  plan.outer = 5.77;
+  plan.length = 14;
+  fe::Simulation simulation(plan);
+  const fe::Material material(*model, set_s);
+  std::vector<fe::Sample> samples;
+  std::size_t failed_at = 0;
+  const std::vector<fe::Load> loads{{1.2, 18}};
+  const double slope = 12 / plan.outer;
+  ASSERT_TRUE(simulation.run(material, loads, {}, samples, failed_at, slope).ok());
+  std::vector<fe::Point> points;
+  ASSERT_TRUE(simulation.solver().assembly().points(material, simulation.last(), points).ok());
+  constexpr double weights[] = {5. / 9, 8. / 9, 5. / 9};
+  const double h = (plan.outer - plan.inner) / 6, inner = samples[0].value[1];
+  double force = -std::numbers::pi * 18 * inner * inner;
+  for (std::size_t e = 0; e < 6; ++e)
+    for (std::size_t g = 0; g < 3; ++g) {
+      const fe::Point& at = points[9 * e + g];
+      force += 2 * std::numbers::pi * at.stress()[1] * at.R * at.f[4] * at.f[0] * weights[g] * h / 2;
+    }
+  EXPECT_NEAR(samples[0].value[2], force, 1e-3 * std::abs(force) + 0.5);
+  // What the test would miss if the support pulled at the section: 2π h.
+  const fe::Support& support = simulation.solver().assembly().support;
+  EXPECT_GT(2 * std::numbers::pi * slope * fe::Support::stored(samples[0].value[0], support.free.front()), 20);
+}
+
+/// Far from clamps the wall is that of the long tube, but for what the clamped zones take of its stretch, which falls
+/// with 1/length: with layers, an opening angle and support, and with memory.
+TEST(FiniteElementWalls, FarFromTheClampIsTheLongTube) {
+  const auto fibres = smooth_fibres(), matrix = make_model("neo_hooke");
+  const auto viscous = plugins::wrap(catalogue().mechanisms().at("viscoelasticity"), smooth_fibres(), {});
+  struct Case {
+    std::vector<const Model*> layers;
+    std::vector<double> parameters, own, thicknesses, time;
+  };
+  const std::vector<Case> cases{
+      {{fibres.get(), matrix.get()}, joined(set_s, {90}), {80, 0.01, 6, 0.02}, {0.9, wall - 0.9}, {}},
+      {{viscous.get()}, joined(set_s, {0.6, 5}), {40, 0, 3, 0, 1}, {}, {1, 4, 30}}};
+  const std::vector<double> pressure{4, 12, 12};
+  for (const Case& is : cases) {
+    const Inflation exact =
+        inflate(*make_tube(pressure, {.time = is.time, .layers = is.thicknesses}), *is.layers.front(), is.parameters,
+                is.own, is.thicknesses.empty() ? std::span<const Model* const>() : std::span(is.layers));
+    ASSERT_TRUE(exact.status.ok()) << exact.status.reason();
+    const auto off = [&](double length) {
+      Options options;
+      options.set("length", length);
+      options.set("grading", 3.);
+      const Inflation found = inflate(*make_fe_tube(pressure, {.element = "quadrilateral_9",
+                                                               .elements = "[4, 40]",
+                                                               .options = options,
+                                                               .layers = is.thicknesses,
+                                                               .time = is.time}),
+                                      *is.layers.front(), is.parameters, is.own,
+                                      is.thicknesses.empty() ? std::span<const Model* const>() : std::span(is.layers));
+      EXPECT_TRUE(found.status.ok()) << found.status.reason();
+      double worst = 0;
+      for (std::size_t i = 0; i < pressure.size(); ++i)
+        worst = std::max(worst, std::abs(found.values[i] - exact.values[i]));
+      return worst;
+    };
+    const double shorter = off(80), longer = off(160);
+    std::printf("  clamped: %.1e at 80 mm, %.1e at 160 mm\n", shorter, longer);
+    EXPECT_LT(longer, 2e-3);
+    EXPECT_NEAR(longer / shorter, 0.5, 0.1);
+  }
+}
+
 /// The bare tube is computed without anything of this, and beside the null the numbers are the same to 1e-12.
 TEST(FiniteElementWalls, AtTheirNullsAreTheBareTube) {
   const auto model = make_model("gho");

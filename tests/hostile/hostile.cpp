@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // A material and a search that break every promise of their interfaces, one at a time, as the option "how" says. The
 // material is a neo-Hookean solid, and honest below the shear modulus `from`.
+#include <array>
+#include <cfenv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include <unistd.h>
 
 #include "tunica/models/isotropic.hpp"
 #include "tunica/plugin.hpp"
+#include "tunica/tests/point_test.hpp"
 
 namespace {
 
@@ -38,15 +45,23 @@ int overflow(int depth) {
   return depth < 0 ? 0 : overflow(depth + 1) + frame[0];
 }
 
+/// Memory that is used and never given back. Without the pointer the compiler would leave it out.
+void* volatile last_taken = nullptr;
+void take(std::size_t bytes) { last_taken = std::memset(std::malloc(bytes), 1, bytes); }
+
 void misbehave(const std::string& how) {
   if (how == "throws") throw std::runtime_error("a bad day");
   if (how == "throws_42") throw 42;
   if (how == "prints") std::printf("plugins may not print\n"), std::fflush(stdout);
+  if (how == "rounds_up") std::fesetround(FE_UPWARD);
   if (how == "exits") std::exit(0);
   if (how == "exits_at_once") ::_exit(0);
   if (how == "aborts") std::abort();
   if (how == "segfaults") ::raise(SIGSEGV);
   if (how == "overflows_the_stack") overflow(0);
+  if (how == "leaks") take(100'000);
+  if (how == "allocates_without_end")
+    for (;;) take(1'000'000);
   if (how == "loops")
     for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
@@ -60,18 +75,20 @@ class HostileModel final : public Model {
     return honest_->describe();
   }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
-    return act(points.parameters[0], !response.tangent.empty(), [&] { return honest_->evaluate(points, response); });
+    return act(points.parameters[0], !response.tangent.empty(), response.stress,
+               [&] { return honest_->evaluate(points, response); });
   }
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override {
-    return act(points.parameters[0], !response.hessian.empty(),
+    return act(points.parameters[0], !response.hessian.empty(), response.gradient,
                [&] { return honest_->evaluate_axes(points, response); });
   }
 
  private:
   template <class Honest>
-  Status act(double mu, bool tangent, const Honest& answer) const {
+  Status act(double mu, bool tangent, std::span<double> wanted, const Honest& answer) const {
     if (mu < from_) return answer();
     if (how_ == "writes_nothing") return {};
+    if (how_ == "writes_beyond") wanted.end()[0] = 1;
     if (how_ == "tangent_throws" && tangent) throw std::runtime_error("no tangent today");
     if (how_ == "tangent_throws_42" && tangent) throw 42;
     misbehave(how_);
@@ -104,9 +121,52 @@ class HostileSearch final : public Optimizer {
   std::string how_;
 };
 
+/// A strip along its axis of an incompressible material, σ = λ² S_z − S_r/λ.
+struct Strip {
+  static constexpr auto type = "hostile_strip", doc = "A strip until it misbehaves.", reference = "none",
+                        admitted = "a stretch above 0";
+  static constexpr std::array<Quantity, 0> diagnostics{};
+  explicit Strip(const TestSetup&) {}
+  static std::vector<Option> options() { return {Option::text("how", "honest", "What it does wrong.")}; }
+  static std::vector<Observable> observables() {
+    return {{"stretch", "1", Observable::Role::abscissa, true, "Stretch."},
+            {"stress", "kPa", Observable::Role::channel, true, "Cauchy stress."}};
+  }
+  bool admits(double stretch) const { return stretch > 0; }
+  double diagnostic(std::size_t, double) const { return 0; }
+  template <class T>
+  std::array<T, 6> deformation(const T& stretch) const {
+    return {1.0 / stretch, stretch * stretch, 1.0 / stretch, T(0), T(0), T(0)};
+  }
+  template <class T>
+  T channel(std::size_t, const T& stretch, const std::array<T, 6>& S) const {
+    return stretch * stretch * S[1] - S[2] / stretch;
+  }
+};
+
+/// Says ok and writes nothing, or no derivatives.
+class HostileTest final : public Test {
+ public:
+  HostileTest(std::unique_ptr<Test> honest, std::string how) : honest_(std::move(honest)), how_(std::move(how)) {}
+  [[nodiscard]] const TestDescription& describe() const override { return honest_->describe(); }
+  [[nodiscard]] const TestRows& rows() const override { return honest_->rows(); }
+  Status predict(const TestInput& input, const TestOutput& output) const override {
+    if (how_ == "writes_nothing") return {};
+    if (how_ == "writes_no_derivatives") return honest_->predict(input, {output.values, {}, {}, {}});
+    misbehave(how_);
+    return honest_->predict(input, output);
+  }
+
+ private:
+  std::unique_ptr<Test> honest_;
+  std::string how_;
+};
+
 }  // namespace
 
 TUNICA_PLUGIN("hostile", "1.0.0") {
+  const char* at_load = std::getenv("HOSTILE_AT_LOAD");
+  if (at_load != nullptr) misbehave(at_load);
   ModelFactory model = honest();
   model.options = {Option::text("how", "honest", "What it does wrong."),
                    Option::number("from", 0, {0, 1e9}, "The shear modulus from which on it does so, in kPa.")};
@@ -118,4 +178,9 @@ TUNICA_PLUGIN("hostile", "1.0.0") {
                        .reference = "none",
                        .options = {Option::text("how", "honest", "What it does wrong.")},
                        .create = [](const Options& options) { return std::make_unique<HostileSearch>(options); }});
+  TestFactory test = point_test_factory<Strip>();
+  test.create = [create = test.create](const TestSetup& setup) {
+    return std::make_unique<HostileTest>(create(setup), setup.options.text("how"));
+  };
+  registry.add(std::move(test));
 }

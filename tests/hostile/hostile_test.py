@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""hostile_test.py TUNICA PLUGIN: what a plugin that breaks its promises costs. One evaluation, or itself; never the
+"""hostile_test.py TUNICA PLUGIN [CASE...]: what a plugin that breaks its promises costs. One evaluation, or itself; never the
 result of another run, the end of the program without a word, or a wrong number."""
 import json
 import pathlib
@@ -26,8 +26,8 @@ def strip():
     return "\n".join(lines) + "\n"
 
 
-def laboratory(name, how="honest", since=0, search="lm", search_does="honest", **stop):
-    """A hostile material, and an honest one beside it; the program in their folder."""
+def laboratory(name, how="honest", since=0, search="lm", search_does="honest", test_does=None, **stop):
+    """A hostile material, and an honest one beside it; the program in their folder. A hostile test is for the first."""
     folder = root / name
     folder.mkdir()
     (folder / "strip.csv").write_text(strip(), encoding="utf-8")
@@ -39,6 +39,9 @@ def laboratory(name, how="honest", since=0, search="lm", search_does="honest", *
         "optimizers": {"lm": {"type": "ceres_lm"}, "es": {"type": "es"},
                        "bad": {"type": "hostile_search", "how": search_does}},
         "runs": [{"model": "bad", "optimizer": search, "stop": stop}, {"model": "good", "optimizer": "lm"}]}
+    if test_does:
+        hostile = {"h": {"type": "hostile_strip", "how": test_does, "data": experiment["tests"]["t"]["data"]}}
+        experiment["runs"][0]["tests"] = hostile
     (folder / "experiment.json").write_text(json.dumps(experiment), encoding="utf-8")
     program = Program(sys.argv[1], folder)
     program.words += ["--plugin-path", plugin, "--call-limit", "1"]
@@ -78,7 +81,8 @@ def a_model_that_always_fails_costs_its_own_run():
     reasons = {"throws": "threw: a bad day", "throws_42": "threw something that is no std::exception",
                "writes_nothing": "returned ok without writing the gradient", "aborts": "aborted the program (SIGABRT)",
                "segfaults": "segmentation fault (SIGSEGV)", "overflows_the_stack": "segmentation fault (SIGSEGV)",
-               "exits": "called exit()", "tangent_throws": "no tangent today",
+               "exits": "called exit()", "exits_at_once": "called _exit()",
+               "writes_beyond": "wrote beyond the ends of its stress", "tangent_throws": "no tangent today",
                "tangent_throws_42": "threw something that is no std::exception", "loops": "did not come back within"}
     for how, reason in reasons.items():
         folder, tunica = laboratory(f"always_{how}", how)
@@ -91,13 +95,72 @@ def a_model_that_always_fails_costs_its_own_run():
 
 def a_crash_costs_one_evaluation():
     """The search finds its optimum around the points where the process ends."""
-    for how in ("aborts", "segfaults", "exits", "loops"):
+    for how in ("aborts", "segfaults", "exits", "exits_at_once", "loops"):
         folder, tunica = laboratory(f"seldom_{how}", how, since=700, search="es", max_evaluations=400)
         tunica("run", "experiment.json", "-o", "results", "--quiet")
         bad, _ = outcome(folder)
         expect(bad["failures"] > 0, f"{how}: no point was bad")
         expect(abs(bad["best"]["parameters"]["mu"]["value"] - 12.01) < 0.05, f"{how}: {bad['best']['parameters']}")
         expect_others_as_ever(folder, how)
+
+
+def a_call_that_takes_all_memory_costs_one_evaluation():
+    folder, tunica = laboratory("memory", "allocates_without_end", since=700, search="es", max_evaluations=400)
+    tunica.words[-1] = "20"  # the limit of a call
+    tunica.words += ["--memory-limit", "0.4"]
+    said = tunica("run", "experiment.json", "-o", "results", code=None)
+    expect("took the memory of the program to" in " ".join(said.split()), said)
+    bad, _ = outcome(folder)
+    expect(bad["failures"] > 0, "no point was bad")
+    expect(abs(bad["best"]["parameters"]["mu"]["value"] - 12.01) < 0.05, bad["best"]["parameters"])
+    expect_others_as_ever(folder, "memory")
+
+
+def a_leak_costs_nothing_but_time():
+    """Each process that comes to its limit is followed by another one; the numbers are those without the leak."""
+    found = {}
+    for how in ("honest", "leaks"):
+        folder, tunica = laboratory(f"leak_{how}", how, search="es", max_evaluations=2000)
+        tunica.words += ["--memory-limit", "0.4"]
+        said = tunica("run", "experiment.json", "-o", "results", code=None)
+        expect(("memory came to its limit" in " ".join(said.split())) == (how == "leaks"), said)
+        bad, _ = outcome(folder)
+        found[how] = timeless({key: bad[key] for key in ("best", "evaluations", "failures")})
+        expect_others_as_ever(folder, how)
+    expect(found["leaks"] == found["honest"], f"a leak changed the result: {found}")
+
+
+def a_test_that_writes_nothing_fails():
+    for does, reason in {"writes_nothing": "without writing the predictions",
+                         "writes_no_derivatives": "without writing the Jacobian"}.items():
+        folder, tunica = laboratory(f"test_{does}", test_does=does)
+        said = tunica("run", "experiment.json", "-o", "results", code=1)
+        expect(reason in " ".join(said.split()), f"{does}: nothing tells of '{reason}':\n{said}")
+        expect(outcome(folder)[0].get("best") is None, f"{does}: a result that nobody calculated")
+        expect_others_as_ever(folder, does)
+
+
+def a_plugin_that_crashes_when_it_is_loaded_is_refused():
+    for how in ("aborts", "segfaults", "exits", "exits_at_once"):
+        folder, tunica = laboratory(f"load_{how}")
+        shell = Program("/bin/sh", folder)
+        shell.words = ["/bin/sh", "-c"]
+        said = shell(f"HOSTILE_AT_LOAD={how} {' '.join(tunica.words)} list 2>&1", code=3)
+        expect("hostile.so" in said and "load()" in said, f"{how}: {said}")
+
+
+def a_plugin_that_changes_the_arithmetic_changes_no_number():
+    """A library that was built with -ffast-math does such a thing when it is loaded; others do it in a call."""
+    for wishes in ({"how": "rounds_up"}, {"search": "bad", "search_does": "rounds_up"}, {"test_does": "rounds_up"}):
+        name = "_".join(wishes)
+        folder, tunica = laboratory(f"rounds_{name}", **wishes)
+        tunica("run", "experiment.json", "-o", "results", "--quiet", "-j", "1", code=None)
+        expect_others_as_ever(folder, name)
+    folder, tunica = laboratory("rounds")
+    shell = Program("/bin/sh", folder)
+    shell.words = ["/bin/sh", "-c"]
+    shell(f"HOSTILE_AT_LOAD=rounds_up {' '.join(tunica.words)} run experiment.json -o results --quiet")
+    expect_others_as_ever(folder, "rounds")
 
 
 def resuming_afterwards_gives_the_same():
@@ -172,9 +235,14 @@ def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
         expect("stdout" in said, f"{verb}: {said}")
 
 
-run_cases([a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
+chosen = sys.argv[3:]
+cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
+           a_call_that_takes_all_memory_costs_one_evaluation, a_leak_costs_nothing_but_time,
+           a_test_that_writes_nothing_fails, a_plugin_that_crashes_when_it_is_loaded_is_refused,
+           a_plugin_that_changes_the_arithmetic_changes_no_number,
            resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
            what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
-           a_full_disk_at_the_other_end_is_told_and_harms_nothing])
+           a_full_disk_at_the_other_end_is_told_and_harms_nothing]
+run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -123,6 +126,25 @@ TEST(Holzapfel2015, DeclaresWhatAlignedTestsSee) {
   const std::vector<double> p{20, 0.2, 0.4, 15, 0.04, 60};
   EXPECT_DOUBLE_EQ(model->describe().combinations[0].value(p), 0.8);
   EXPECT_NEAR(model->describe().combinations[1].value(p), -0.2, 1e-15);
+}
+
+TEST(Holzapfel2015, DeclaresCombinationsAsTheyArePrinted) {
+  const auto model = make_model("holzapfel_2015");
+  const ModelDescription& declared = model->describe();
+  std::vector<double> p;
+  for (const Parameter& parameter : declared.parameters)
+    p.push_back(parameter.name == "A" ? 0.15 : parameter.name == "B" ? 0.3 : parameter.name == "theta" ? 25 : 7);
+  const std::map<std::string, double> expected{{"2A + B", 0.6},
+                                               {"B cos 2theta", 0.3 * std::cos(50 * std::acos(-1) / 180)},
+                                               {"A + B", 0.45},
+                                               {"1 - 2A - B", 0.4}};
+  std::size_t seen = 0;
+  for (const auto* list : {&declared.combinations, &declared.admissible})
+    for (const Combination& combination : *list) {
+      EXPECT_NEAR(combination.value(p), expected.at(combination.name), 1e-15) << combination.name;
+      ++seen;
+    }
+  EXPECT_EQ(seen, expected.size());
 }
 
 TEST(FibreSwitch, CountsTheRightLimitAtRest) {

@@ -2,6 +2,7 @@
 #include "cohort/evidence.hpp"
 
 #include <fstream>
+#include <new>
 #include <optional>
 
 #include <fmt/format.h>
@@ -80,6 +81,8 @@ void gather_evidence(const Specification& cohort, const Template& pattern, const
   try {
     found = what_is_found(cohort, pattern, specimen, catalogue);
   } catch (const execution::WriteFailure&) {
+    throw;
+  } catch (const std::bad_alloc&) {  // says nothing of the specimen
     throw;
   } catch (const std::exception& reason) {  // InputError, BaseFitFailure, and what plugins throw
     found = {{"problem", reason.what()}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <set>
 #include <stdexcept>
 
@@ -173,6 +174,8 @@ std::optional<Record> fit(const Specification& cohort, const Template& pattern, 
   } catch (const Interrupted&) {
     return {};
   } catch (const execution::WriteFailure&) {
+    throw;
+  } catch (const std::bad_alloc&) {  // says nothing of the specimen
     throw;
   } catch (const InputError& problem) {
     record.outcome = Outcome::unreadable;

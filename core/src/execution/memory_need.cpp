@@ -2,12 +2,8 @@
 #include "execution/memory_need.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "tunica/error.hpp"
 
@@ -24,20 +20,6 @@ constexpr double copies = 4;  // of predictions and derivatives, in evaluator, o
 std::string size_text(double bytes) {
   constexpr double GiB = 1024.0 * 1024 * 1024;
   return bytes < GiB ? fmt::format("{:.0f} MiB", bytes / (1024 * 1024)) : fmt::format("{:.3g} GiB", bytes / GiB);
-}
-
-/// "max" where the group has no limit of its own.
-double limit_in(const char* file) {
-  std::ifstream stream(file);
-  double value = 0;
-  return stream >> value && value > 0 ? value : std::numeric_limits<double>::infinity();
-}
-
-double limit_of(int resource) {
-  rlimit limit{};
-  const bool known = ::getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
-  return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur)
-                                                  : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -59,13 +41,6 @@ std::vector<MemoryShare> memory_need(const Plan& plan, unsigned threads) {
           {of_draws, fmt::format("{:.0f} draws of the bootstrap", draws), "lower \"draws\" of the bootstrap"},
           {numbers * number_bytes * copies * threads, fmt::format("{:.0f} rows in {} threads", rows, threads),
            "use fewer threads (-j), or fewer rows (\"rows\", \"resample\")"}};
-}
-
-double memory_limit() {
-  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  return std::min({machine, limit_in("/sys/fs/cgroup/memory.max"),
-                   limit_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"), limit_of(RLIMIT_AS),
-                   limit_of(RLIMIT_DATA)});
 }
 
 void refuse_excess(const std::vector<MemoryShare>& need, double limit) {

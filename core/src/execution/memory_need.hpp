@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "execution/plan.hpp"
+#include "plugins/last_words.hpp"
 
 /// Whether an experiment fits into the machine, asked before the first evaluation.
 namespace tunica::execution {
@@ -19,8 +20,7 @@ struct MemoryShare {
 /// bootstrap, predictions and their derivatives in each thread.
 std::vector<MemoryShare> memory_need(const Plan& plan, unsigned threads);
 
-/// Bytes that a process may have: of the machine, of its control group, of its own limits.
-double memory_limit();
+using plugins::memory_limit;
 
 /// Throws InputError with both figures where the sum does not fit.
 void refuse_excess(const std::vector<MemoryShare>& need, double limit);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
+#include "plugins/usual_arithmetic.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::execution {
@@ -95,6 +96,7 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     Optimizer::Outcome outcome;
     std::string fault;
     try {
+      const plugins::UsualArithmetic arithmetic;
       outcome = plugins::guarded(
           stage.optimizer->plugin, "minimise", [&] { return optimizer->minimise(problem); }, problem.seed("call"));
     } catch (const plugins::HostFault&) {

@@ -48,10 +48,14 @@ struct CasualtyList {
   /// A plugin that ended this many processes is not evaluated again; calls that hang cost time, and count more.
   static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2;
 
-  std::atomic<unsigned> count = 0;
+  /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
+  static constexpr unsigned most_leaks = 20;
+
+  std::atomic<unsigned> count = 0, leaks = 0;
   std::array<Casualty, 64> entries = {};
 
   void add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds);
+  void add_leak() { leaks.fetch_add(1); }
   [[nodiscard]] unsigned size() const;
   /// How many of a plugin, hangs weighted.
   [[nodiscard]] unsigned weight(std::string_view plugin) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/guarded_model.hpp"
 
-#include <bit>
 #include <cstdint>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,53 +10,41 @@
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
 #include "plugins/guarded.hpp"
+#include "plugins/unwritten.hpp"
+#include "plugins/usual_arithmetic.hpp"
 
 namespace tunica::plugins {
 
 namespace {
 
-/// A NaN that no arithmetic makes: where it is found after a call, nobody has written.
-constexpr double unwritten = std::bit_cast<double>(std::uint64_t{0x7ff8'dead'0000'0000});
-
-bool is_unwritten(double value) {
-  return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(unwritten);
-}
-
-struct Named {
-  const char* name;
-  std::span<double> values;
-};
-
-/// Marks the first and the last point of every component, of which there are size/n. A model that leaves a component
-/// out leaves all of its points: to mark those too would cost as much as the model. `tunica plugin check` does.
-template <std::size_t N>
-void mark(const Named (&outputs)[N], std::size_t n) {
+/// Marks the ends of every component, of which there are size/n.
+void mark(std::span<const NamedOutput> outputs, std::size_t n) {
   if (n == 0) return;
-  for (const Named& output : outputs)
-    for (std::size_t first = 0; first < output.values.size(); first += n)
-      output.values[first] = output.values[first + n - 1] = unwritten;
+  for (const NamedOutput& output : outputs) mark_ends(output.values, n);
 }
 
-template <std::size_t N>
-Status verdict(Status status, const Named (&outputs)[N], const std::string& plugin, std::size_t n) {
+Status verdict(Status status, std::span<const NamedOutput> outputs, const std::string& plugin, std::size_t n) {
   if (!status.ok() || n == 0) return status;
-  for (const Named& output : outputs)
-    for (std::size_t first = 0; first < output.values.size(); first += n)
-      if (is_unwritten(output.values[first]) || is_unwritten(output.values[first + n - 1]))
-        return Status::failed(
-            fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
-                        "`tunica plugin check` shows what else is amiss",
-                        plugin, output.name));
+  for (const NamedOutput& output : outputs)
+    if (has_marked_ends(output.values, n))
+      return Status::failed(
+          fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
+                      "`tunica plugin check` shows what else is amiss",
+                      plugin, output.name));
   return status;
 }
 
-/// Makes the call; exceptions become a status.
+/// Makes the call; exceptions become a status. Memory that lacked for a moment is asked for again: it says nothing of
+/// the point.
 template <class Body>
-Status contained(const std::string& plugin, const Body& body) {
+Status contained(const std::string& plugin, const Body& body, bool again = true) {
   try {
     return body();
   } catch (const HostFault&) {
     throw;
+  } catch (const std::bad_alloc& problem) {
+    if (again) return contained(plugin, body, false);
+    return Status::failed(fmt::format("plugin '{}' threw: {}", plugin, problem.what()));
   } catch (const std::exception& problem) {
     return Status::failed(fmt::format("plugin '{}' threw: {}", plugin, problem.what()));
   } catch (...) {
@@ -100,21 +88,44 @@ GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
   description_ = guarded(plugin_, "describe", [this] { return &model_->describe(); });
 }
 
+/// `outputs` are the spans of the response, in whatever memory; `body` evaluates into them.
+template <class Body>
+Status GuardedModel::made(const Call& call, std::span<NamedOutput> outputs, std::size_t points,
+                          const Body& body) const {
+  const auto attempt = [&] {
+    mark(outputs, points);
+    const CallScope scope(call);
+    const UsualArithmetic arithmetic;
+    return verdict(contained(plugin_, body), outputs, plugin_, points);
+  };
+  const std::size_t kind = OverrunRecord::kind(outputs, points);
+  if (!overruns_.is_new(kind)) return attempt();
+  if (const char* output = overruns_.overrun()) return Status::failed(overrun_reason(plugin_, output));
+  FencedOutputs fenced(outputs);
+  Status status = attempt();
+  if (const char* output = fenced.release(outputs)) {
+    overruns_.set_overrun(output);
+    return Status::failed(overrun_reason(plugin_, output));
+  }
+  if (status.ok()) overruns_.set_good(kind);
+  return status;
+}
+
 Status GuardedModel::evaluate(const MaterialPoints& points, const MaterialResponse& response) const {
   const TensorInput input{points, response};
   const Call call{plugin_.c_str(), "evaluate", tensor_key, &input};
   if (stricken_)
     if (std::string reason = refusal_of_evaluation(plugin_, tensor_key(call)); !reason.empty())
       return Status::failed(std::move(reason));
-  const Named outputs[] = {{"energy", response.energy},
+  NamedOutput outputs[] = {{"energy", response.energy},
                            {"stress", response.stress},
                            {"tangent", response.tangent},
                            {"derivatives by parameters", response.stress_dp},
                            {"state", response.state}};
-  mark(outputs, points.count);
-  const CallScope scope(call);
-  return verdict(contained(plugin_, [&] { return model_->evaluate(points, response); }), outputs, plugin_,
-                 points.count);
+  return made(call, outputs, points.count, [&] {
+    return model_->evaluate(
+        points, {outputs[0].values, outputs[1].values, outputs[2].values, outputs[3].values, outputs[4].values});
+  });
 }
 
 Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse& response) const {
@@ -123,15 +134,15 @@ Status GuardedModel::evaluate_axes(const AxisPoints& points, const AxisResponse&
   if (stricken_)
     if (std::string reason = refusal_of_evaluation(plugin_, axis_key(call)); !reason.empty())
       return Status::failed(std::move(reason));
-  const Named outputs[] = {{"energy", response.energy},
+  NamedOutput outputs[] = {{"energy", response.energy},
                            {"gradient", response.gradient},
                            {"Hessian", response.hessian},
                            {"derivatives by parameters", response.gradient_dp},
                            {"derivatives of the energy", response.energy_dp}};
-  mark(outputs, points.count);
-  const CallScope scope(call);
-  return verdict(contained(plugin_, [&] { return model_->evaluate_axes(points, response); }), outputs, plugin_,
-                 points.count);
+  return made(call, outputs, points.count, [&] {
+    return model_->evaluate_axes(
+        points, {outputs[0].values, outputs[1].values, outputs[2].values, outputs[3].values, outputs[4].values});
+  });
 }
 
 const Model& GuardedModel::elastic() const {

@@ -4,13 +4,16 @@
 #include <memory>
 #include <string>
 
+#include "plugins/overrun.hpp"
 #include "tunica/model.hpp"
 
 namespace tunica::plugins {
 
-/// A model of a plugin that the host need not trust. What it throws, an output that it does not write, and a call that
-/// has ended a process before are all a `failed` status which names the plugin. Costs a call some 20 ns: the record of
-/// calls, and marks in the outputs.
+struct Call;
+
+/// A model of a plugin that the host need not trust. What it throws, an output that it does not write or writes beyond,
+/// and a call that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20
+/// ns: the record of calls, and marks in the outputs.
 class GuardedModel final : public Model {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);
@@ -28,10 +31,14 @@ class GuardedModel final : public Model {
   [[nodiscard]] std::unique_ptr<Model> release() { return std::move(model_); }
 
  private:
+  template <class Body>
+  Status made(const Call& call, std::span<NamedOutput> outputs, std::size_t points, const Body& body) const;
+
   std::unique_ptr<Model> model_;
   std::string plugin_;
   const ModelDescription* description_;
   bool stricken_;  ///< an earlier process ended in this plugin: inputs are compared
+  mutable OverrunRecord overruns_;
 };
 
 }  // namespace tunica::plugins

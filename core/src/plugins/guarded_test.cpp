@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/guarded_test.hpp"
 
+#include <algorithm>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +10,8 @@
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
 #include "plugins/guarded.hpp"
+#include "plugins/unwritten.hpp"
+#include "plugins/usual_arithmetic.hpp"
 
 namespace tunica::plugins {
 
@@ -37,19 +41,35 @@ Status GuardedTest::made(const char* what, const TestInput& input, const Body& b
     if (std::string reason = refusal_of_evaluation(plugin_, test_key(call)); !reason.empty())
       return Status::failed(std::move(reason));
   const CallScope scope(call);
-  try {
-    return body();
-  } catch (const HostFault&) {
-    throw;
-  } catch (const std::exception& problem) {
-    return Status::failed(fmt::format("plugin '{}' threw: {}", plugin_, problem.what()));
-  } catch (...) {
-    return Status::failed(fmt::format("plugin '{}' threw something that is no std::exception", plugin_));
+  const UsualArithmetic arithmetic;
+  for (bool again = true;; again = false) {
+    try {
+      return body();
+    } catch (const HostFault&) {
+      throw;
+    } catch (const std::exception& problem) {
+      // Memory that lacked for a moment says nothing of the point.
+      if (again && dynamic_cast<const std::bad_alloc*>(&problem) != nullptr) continue;
+      return Status::failed(fmt::format("plugin '{}' threw: {}", plugin_, problem.what()));
+    } catch (...) {
+      return Status::failed(fmt::format("plugin '{}' threw something that is no std::exception", plugin_));
+    }
   }
 }
 
+/// All predictions are marked, and of derivatives the ends of each column: those are many.
 Status GuardedTest::predict(const TestInput& input, const TestOutput& output) const {
-  return made("predict", input, [&] { return test_->predict(input, output); });
+  const std::size_t size = output.values.size();
+  std::fill(output.values.begin(), output.values.end(), unwritten);
+  if (size > 0) mark_ends(output.jacobian, size);
+  Status status = made("predict", input, [&] { return test_->predict(input, output); });
+  if (!status.ok() || size == 0) return status;
+  const bool values = std::none_of(output.values.begin(), output.values.end(), is_unwritten);
+  if (values && !has_marked_ends(output.jacobian, size)) return status;
+  return Status::failed(
+      fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
+                  "`tunica plugin check` shows what else is amiss",
+                  plugin_, values ? "Jacobian" : "predictions"));
 }
 
 Status GuardedTest::agreement(const TestInput& input, std::vector<Agreement>& found) const {

@@ -5,12 +5,15 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "plugins/calls.hpp"
@@ -30,6 +33,8 @@ constexpr std::array<Fatal, 5> fatal{{{SIGSEGV, "ended the program with a segmen
                                       {SIGILL, "ended the program with an illegal instruction (SIGILL)"},
                                       {SIGABRT, "aborted the program (SIGABRT)"}}};
 
+pid_t process_of_work = 0;
+
 /// Whether this thread is in a plugin, which then is the culprit.
 bool enter_culprit(const char* end) {
   const CallsOfThread* thread = known_calls_of_this_thread;
@@ -39,16 +44,17 @@ bool enter_culprit(const char* end) {
   return true;
 }
 
-/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us.
-void on_fatal(int number) {
+/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us. A
+/// signal that was sent does not.
+void on_fatal(int number, siginfo_t* info, void*) {
   for (const Fatal& signal : fatal)
     if (signal.number == number) enter_culprit(signal.end);
   std::signal(number, SIG_DFL);
-  if (number == SIGABRT) std::raise(number);
+  if (number == SIGABRT || info->si_code <= 0) std::raise(number);
 }
 
 void on_exit_in_plugin() {
-  if (enter_culprit("called exit()")) ::_exit(fell);
+  if (enter_exit_in_plugin("called exit()")) ::_exit(fell);
 }
 
 /// A stack for the handlers of this thread, so that an overflow of its own can be told.
@@ -65,8 +71,37 @@ void give_signal_stack() {
 
 using Seconds = std::chrono::duration<double>;
 
+constexpr double gibibyte = 1024.0 * 1024 * 1024;
+
+/// Bytes of this process that are in memory; 0 where the system does not tell.
+double resident_memory() {
+  std::ifstream stream("/proc/self/statm");
+  double all = 0, resident = 0;
+  return stream >> all >> resident ? resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// "max" where the group has no limit of its own.
+double limit_in(const char* file) {
+  std::ifstream stream(file);
+  double value = 0;
+  return stream >> value && value > 0 ? value : std::numeric_limits<double>::infinity();
+}
+
+double limit_of(int resource) {
+  rlimit limit{};
+  const bool known = ::getrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
+  return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur)
+                                                  : std::numeric_limits<double>::infinity();
+}
+
 bool is_of_model(const Call& call) {
   return call.what == std::string_view("evaluate") || call.what == std::string_view("evaluate_axes");
+}
+
+/// 2: of a model, 1: of a test, 0: of something that calls both.
+int kind_of(const Call& call) {
+  if (is_of_model(call)) return 2;
+  return call.what == std::string_view("predict") ? 1 : 0;
 }
 
 /// A thread as the watch sees it.
@@ -74,6 +109,7 @@ struct Watched {
   CallsOfThread* thread;
   std::uint64_t entered = 0;
   Clock::time_point since = Clock::now();
+  double memory = 0;  ///< bytes that the process had at the last look before the call
 };
 
 /// Looks at calls of other threads. A call that has stayed for a second stays while it is read; should it come back in
@@ -85,8 +121,15 @@ class Inspection {
   void look() {
     const auto now = Clock::now();
     const auto threads = calls_of_all_threads();
+    const double memory = resident_memory();
     for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
     for (Watched& one : watched_) look_at(one, now);
+    memory_before_ = memory;
+    if (memory > limits_.memory) end_for_want_of_memory(memory);
+  }
+  /// What grows to its limit in less than a second is looked at more often.
+  [[nodiscard]] std::chrono::milliseconds heartbeat() const {
+    return std::chrono::milliseconds(resident_memory() > 0.5 * limits_.memory ? 10 : 100);
   }
 
  private:
@@ -97,6 +140,7 @@ class Inspection {
       if (evaluations_done.load(std::memory_order_relaxed) > 0) longest_ = std::max(longest_, stayed);
       one.entered = entered;
       one.since = now;
+      one.memory = memory_before_;
       return;
     }
     if (stayed < limits_.grace) return;
@@ -110,6 +154,34 @@ class Inspection {
     const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
                                      : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
     casualties->add(key, call->plugin, call->what, end.c_str(), stayed.count());
+    ::_exit(fell);
+  }
+
+  /// A call is to blame where half of the limit came while it lasted, and while no call of its kind into another plugin
+  /// did. A search lasts as long as what it waits for, so a test comes before it, and a model before both. Work that
+  /// needs so much without a plugin is not ended: it is told by std::bad_alloc.
+  void end_for_want_of_memory(double memory) {
+    std::vector<const Call*> suspects;
+    bool inside = false;
+    for (const Watched& one : watched_) {
+      const Call* call = innermost_plugin_call(*one.thread);
+      if (call == nullptr) continue;
+      inside = true;
+      const bool stayed = one.entered == one.thread->entered.load(std::memory_order_acquire);
+      if (!stayed || memory - one.memory < 0.5 * limits_.memory) continue;
+      if (!suspects.empty() && kind_of(*call) < kind_of(*suspects.front())) continue;
+      if (!suspects.empty() && kind_of(*call) > kind_of(*suspects.front())) suspects.clear();
+      suspects.push_back(call);
+    }
+    if (!inside) return;
+    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Call* call) {
+      return std::string_view(call->plugin) == suspects.front()->plugin;
+    });
+    const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
+                                        memory / gibibyte, limits_.memory / gibibyte);
+    for (const Call* call : suspects)
+      if (of_one) casualties->add(call->key(*call), call->plugin, call->what, end.c_str(), 0);
+    if (!of_one) casualties->add_leak();
     ::_exit(fell);
   }
 
@@ -130,32 +202,46 @@ class Inspection {
   }
 
   CallWatch::Limits limits_;
-  Seconds longest_{0};  ///< that a call has stayed, as far as it was seen
+  double memory_before_ = resident_memory();  ///< bytes, at the last look
+  Seconds longest_{0};                        ///< that a call has stayed, as far as it was seen
   std::vector<Watched> watched_;
 };
 
 }  // namespace
 
+double memory_limit() {
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return std::min({machine, limit_in("/sys/fs/cgroup/memory.max"),
+                   limit_in("/sys/fs/cgroup/memory/memory.limit_in_bytes"), limit_of(RLIMIT_AS),
+                   limit_of(RLIMIT_DATA)});
+}
+
+bool enter_exit_in_plugin(const char* end) { return ::getpid() == process_of_work && enter_culprit(end); }
+
 void leave_last_words() {
   if (casualties == nullptr) return;
+  process_of_work = ::getpid();
   prepare_thread = give_signal_stack;
   give_signal_stack();
   for (const Fatal& signal : fatal) {
     struct sigaction action = {};
-    action.sa_handler = on_fatal;
-    action.sa_flags = SA_ONSTACK | SA_NODEFER;
+    action.sa_sigaction = on_fatal;
+    action.sa_flags = SA_ONSTACK | SA_NODEFER | SA_SIGINFO;
     ::sigaction(signal.number, &action, nullptr);
   }
-  std::atexit(on_exit_in_plugin);
-  std::at_quick_exit(on_exit_in_plugin);
+  // One for each thread that may call exit() while another one does: whoever finds none left ends the process.
+  for (int thread = 0; thread < 64; ++thread) {
+    std::atexit(on_exit_in_plugin);
+    std::at_quick_exit(on_exit_in_plugin);
+  }
 }
 
 CallWatch::CallWatch(Limits limits) {
   if (casualties == nullptr) return;
   thread_ = std::thread([this, limits] {
-    constexpr std::chrono::milliseconds heartbeat{100};
     Inspection inspection(limits);
-    for (std::unique_lock lock(mutex_); !wake_.wait_for(lock, heartbeat, [this] { return over_; });) inspection.look();
+    for (std::unique_lock lock(mutex_); !wake_.wait_for(lock, inspection.heartbeat(), [this] { return over_; });)
+      inspection.look();
   });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,9 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "plugins/guarded.hpp"
 #include "plugins/refusals.hpp"
+#include "plugins/usual_arithmetic.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::plugins {
@@ -143,6 +146,12 @@ LoadReport load_all(const SearchPath& path, Catalogue& catalogue) {
 LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_world_writable) {
   if (const std::string reason = refuse_file(file, allow_world_writable); !reason.empty()) throw LoadError(reason);
   if (const std::string reason = refuse_truncated(file); !reason.empty()) throw LoadError(reason);
+  const UsualArithmetic kept;
+  const std::string name = file.filename().string();
+  const std::uint64_t input = std::hash<std::string>()(fs::absolute(file).string());
+  const Call call{name.c_str(), "load", plain_key, &input};
+  if (const std::string reason = refusal(name, plain_key(call)); !reason.empty()) throw LoadError(reason);
+  const CallScope scope(call);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {
     throw LoadError(

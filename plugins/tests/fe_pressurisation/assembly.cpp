@@ -173,8 +173,8 @@ class AssemblyOf final : public Assembly {
     system.coupling.resize(pressure_count() * dofs);
     system.dilation.resize(pressure_count());
     if (!tangent) return;
-    if (system.matrix.size() != size || system.matrix.width() != width(mesh_))
-      system.matrix.resize(size, width(mesh_));
+    if (system.matrix.size() != size || system.matrix.width() != Stencil::width_of(mesh_))
+      system.matrix.resize(mesh_);
     else
       system.matrix.clear();
   }
@@ -211,7 +211,8 @@ class AssemblyOf final : public Assembly {
             const double* __restrict__ const k = row_.k.data() + upper(2 * a + t, 2 * b + s) * n_;
             const std::size_t below =
                 2 * (row_.node(b, 0, row) - row_.node(a, 0, row)) + s - t;  // nodes are numbered as here
-            for (std::size_t e = 0; e < n_; ++e) system.matrix.column(2 * row_.node(a, e, row) + t)[below] += k[e];
+            const std::size_t slot = system.matrix.slot(below);
+            for (std::size_t e = 0; e < n_; ++e) system.matrix.column(2 * row_.node(a, e, row) + t)[slot] += k[e];
           }
     return largest;
   }

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "banded.hpp"
 #include "row.hpp"
+#include "stencil.hpp"
 #include "support.hpp"
 
 namespace tunica::fe {
@@ -19,7 +19,7 @@ struct System {
   std::vector<double> volume;    ///< ∂V/∂x, V the lumen
   std::vector<double> coupling;  ///< G: element · modes · 2 nodes
   std::vector<double> dilation;  ///< c = ∫ (J − 1) ψ dV, element · modes
-  Banded matrix;                 ///< ∂²Π/∂x² + γ G M⁻¹ Gᵀ
+  Stencil matrix;                ///< ∂²Π/∂x² + γ G M⁻¹ Gᵀ
   double gamma = 0;              ///< kPa
   double largest_dilation = 0;   ///< max |c| over the element's volume
   double stiffness = 0;          ///< the largest diagonal entry of ∂²w/∂F², kPa
@@ -85,8 +85,6 @@ class Assembly {
   virtual Status points(const Material& material, const State& state, std::vector<Point>& found) = 0;
 
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
-  /// Of the band that a mesh makes.
-  static std::size_t width(const Mesh& mesh) { return 2 * (mesh.order * mesh.across() + mesh.order) + 1; }
 
   Support support;  ///< acts where its slope is not 0
 };

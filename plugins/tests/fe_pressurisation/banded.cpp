@@ -88,11 +88,6 @@ void Banded::resize(std::size_t size, std::size_t width) {
   a_.assign(panels() * panel * height_, 0.0);
 }
 
-void Banded::take(const Banded& matrix) {
-  if (size_ != matrix.size_ || width_ != matrix.width_) resize(matrix.size_, matrix.width_);
-  std::copy(matrix.a_.begin(), matrix.a_.end(), a_.begin());
-}
-
 void Banded::multiply(std::span<const double> x, std::span<double> y) const {
   std::fill(y.begin(), y.end(), 0.0);
   for (std::size_t j = 0; j < size_; ++j) {
@@ -103,13 +98,6 @@ void Banded::multiply(std::span<const double> x, std::span<double> y) const {
     y[j] += sum;
     for (std::size_t i = 1; i <= m; ++i) y[j + i] += a[i] * x[j];
   }
-}
-
-double Banded::row_times(std::size_t i, std::span<const double> x) const {
-  double sum = 0;
-  for (std::size_t j = i > width_ ? i - width_ : 0; j < i; ++j) sum += column(j)[i - j] * x[j];
-  for (std::size_t j = i; j < std::min(size_, i + width_ + 1); ++j) sum += column(i)[j - i] * x[j];
-  return sum;
 }
 
 void Banded::fix(std::size_t i, double diagonal) {

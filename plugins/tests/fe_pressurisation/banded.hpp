@@ -35,9 +35,11 @@ struct Aligned {
 class Banded {
  public:
   void resize(std::size_t size, std::size_t width);
-  /// Becomes a copy of a matrix that is not factorised.
-  void take(const Banded& matrix);
-  void clear() { std::fill(a_.begin(), a_.end(), 0.0); }
+  void clear() { clear(0, padded_size()); }
+  /// Columns `from` up to `to`.
+  void clear(std::size_t from, std::size_t to) { std::fill(a_.data() + from * height_, a_.data() + to * height_, 0.0); }
+  /// Columns with those of zeros that fill up the last panel.
+  [[nodiscard]] std::size_t padded_size() const { return panels() * panel; }
   /// Bytes of a matrix of that size.
   static double bytes(std::size_t size, std::size_t width) {
     return 8. * static_cast<double>(size + panel) * static_cast<double>(width + 2 * panel);
@@ -54,8 +56,6 @@ class Banded {
     column(j)[i - j] += value;
   }
 
-  /// Entry i of A x.
-  [[nodiscard]] double row_times(std::size_t i, std::span<const double> x) const;
   /// y = A x.
   void multiply(std::span<const double> x, std::span<double> y) const;
   /// Row and column i become those of the unit matrix, times `diagonal`.

@@ -45,7 +45,9 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) 
   product_.resize(rest_.x.size());
 }
 
-double Solver::bytes(const Mesh& mesh) { return 2 * Banded::bytes(2 * mesh.nodes(), Assembly::width(mesh)); }
+double Solver::bytes(const Mesh& mesh) {
+  return Banded::bytes(2 * mesh.nodes(), Stencil::width_of(mesh)) + Stencil::bytes(mesh);
+}
 
 Status Solver::begin(const Material& material) {
   material_ = &material;
@@ -94,12 +96,10 @@ bool Solver::factorise() {
   middle_.assign(2 * (mesh_.order + 1) * mesh_.across(), 0);  // the planes that share an element with the first
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
     const std::size_t row = 2 * mesh_.node(i, 0) + 1;
-    for (std::size_t j = 0; j < row; ++j)
-      if (row - j <= system_.matrix.width()) middle_[j] += system_.matrix.column(j)[row - j];
-    for (std::size_t j = row; j < middle_.size() && j - row <= system_.matrix.width(); ++j)
-      middle_[j] += system_.matrix.column(row)[j - row];
+    for (std::size_t j = 0; j < middle_.size(); ++j)
+      middle_[j] += system_.matrix.entry(std::max(row, j), std::min(row, j));
   }
-  factor_.take(system_.matrix);
+  system_.matrix.spread(factor_);
   const std::size_t end = mesh_.planes() - 1;
   const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
   for (std::size_t i = 0; i < mesh_.across(); ++i) {

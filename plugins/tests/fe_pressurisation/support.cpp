@@ -29,7 +29,7 @@ struct EdgePoint {
 
 template <std::size_t Order>
 void add_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
-                 std::vector<double>& force, Banded* matrix) {
+                 std::vector<double>& force, Stencil* matrix) {
   for (std::size_t row = 0; row < mesh.axial; ++row)
     for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
       const EdgePoint<Order> at(mesh, element, support, state, row, g);
@@ -70,9 +70,9 @@ double contract_support(const Mesh& mesh, const Element<Order>& element, const S
 }
 
 template void add_support<1>(const Mesh&, const Element<1>&, const Support&, const State&, std::vector<double>&,
-                             Banded*);
+                             Stencil*);
 template void add_support<2>(const Mesh&, const Element<2>&, const Support&, const State&, std::vector<double>&,
-                             Banded*);
+                             Stencil*);
 template double contract_support<1>(const Mesh&, const Element<1>&, const Support&, const State&,
                                     std::span<const double>, std::span<double>);
 template double contract_support<2>(const Mesh&, const Element<2>&, const Support&, const State&,

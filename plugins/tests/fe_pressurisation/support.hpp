@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "banded.hpp"
 #include "row.hpp"
+#include "stencil.hpp"
 
 namespace tunica::fe {
 
@@ -30,7 +30,7 @@ struct Support {
 /// Adds ∂Π/∂x of the support to `force` and, unless `matrix` is null, ∂²Π/∂x² to it.
 template <std::size_t Order>
 void add_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
-                 std::vector<double>& force, Banded* matrix);
+                 std::vector<double>& force, Stencil* matrix);
 
 /// −right · ∂(∂Π/∂x)/∂κ, and by the free radius of each plane.
 template <std::size_t Order>
