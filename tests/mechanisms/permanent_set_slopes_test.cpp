@@ -59,7 +59,8 @@ TEST_P(PermanentSetSlopes, DoNotDependOnWhatElseIsWanted) {
     ASSERT_TRUE(strip(loop)->predict({*material, set_s, own}, {{}, jacobian_alone, {}, {}}).ok());
     Values of_slopes(size);
     ASSERT_TRUE(strip(loop)->predict({*material, set_s, own}, {of_slopes, {}, slopes_alone, {}}).ok());
-    EXPECT_EQ(of_slopes, values);
+    // Another set of outputs may take another kernel, which rounds differently.
+    for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(of_slopes[i], values[i], 1e-12 * (1 + std::abs(values[i]))) << i;
     for (std::size_t i = 0; i < slopes.size(); ++i)
       EXPECT_NEAR(slopes[i], slopes_alone[i], 1e-9 * (1 + std::abs(slopes[i]))) << i;
     for (std::size_t i = 0; i < jacobian.size(); ++i)
