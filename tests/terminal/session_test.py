@@ -23,16 +23,16 @@ PROGRESS = re.compile(r"^(?:\[#*\.*\] )? *(\d+) %  (\d+)/(\d+) searches  (\S+ ?[
                       r"max (\d+:\d\d(?::\d\d)?) left *$", re.M)
 
 
-def write_experiment(folder, name, model, evaluations, realisations):
-    """A made-up strip whose curve has a ripple."""
-    rows = [(1 + 0.02 * i, 0.2 * math.sin(7 * i)) for i in range(1, 21)]
-    text = "stretch [1],stress [kPa]\n" + "".join(f"{x:.2f},{30 * (x * x - 1 / x) + e:.6f}\n" for x, e in rows)
-    (folder / "strip.csv").write_text(text, encoding="utf-8")
+def write_experiment(folder, name, model, evaluations, realisations, count=20):
+    """A made-up strip whose curve of `count` rows has a ripple."""
+    rows = [(1 + 0.4 * i / count, 0.2 * math.sin(7 * i)) for i in range(1, count + 1)]
+    text = "stretch [1],stress [kPa]\n" + "".join(f"{x:.4f},{30 * (x * x - 1 / x) + e:.6f}\n" for x, e in rows)
+    (folder / f"strip_{count}.csv").write_text(text, encoding="utf-8")
     experiment = {
         "format": 1, "name": "session", "seed": 7,
         "models": {model: {"type": "gho"}},
         "tests": {"strip": {"type": "uniaxial", "direction": "circumferential",
-                            "data": {"file": "strip.csv", "columns": {"stretch": "stretch", "stress": "stress"},
+                            "data": {"file": f"strip_{count}.csv", "columns": {"stretch": "stretch", "stress": "stress"},
                                      "noise": {"absolute": "0.2 kPa"}}}},
         "optimizers": {"es": {"type": "es"}},
         "stop": {"max_evaluations": evaluations},
@@ -117,7 +117,7 @@ def show_that_colours_can_be_refused(work):
 def show_that_an_interrupted_diagnosis_leaves_nothing(work):
     with Screen(["bash", "--norc", "--noprofile"], work) as screen:
         screen.enter(SHELL)
-        screen.enter("t diagnose long.json; echo CODE=$?")
+        screen.enter("t diagnose rows.json -j 1; echo CODE=$?")
         screen.wait_for(lambda text: re.search(r"^(?:\[#*\.*\] )? *\d+ %  .* \d:\d\d", text, re.M), "a stage of the diagnosis")
         assert list((work / "results").iterdir()), "no folder while it is under way"
         screen.press("C-c")
@@ -131,6 +131,7 @@ def main():
     try:
         write_experiment(work, "long.json", "a_model_with_a_name_that_is_much_too_long_for_one_line_of_a_terminal", 120000, 4)
         write_experiment(work, "short.json", "m", 15000, 8)
+        write_experiment(work, "rows.json", "m", 15000, 1, 1500)  # some seconds of diagnosis
         with Screen(["bash", "--norc", "--noprofile"], work, recording) as screen:
             screen.enter(SHELL)
             shown = show_that_progress_updates(screen, work)
