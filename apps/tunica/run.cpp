@@ -15,6 +15,8 @@
 #include "calibration/overrides.hpp"
 #include "comparison/ranking_table.hpp"
 #include "data/nearest.hpp"
+#include "execution/checkpoint.hpp"
+#include "execution/shards.hpp"
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
@@ -24,6 +26,7 @@
 #include "text/shell.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -148,8 +151,21 @@ RunOptions taken_up(RunOptions options) {
   return options;
 }
 
+/// A run goes on with the vector instructions that it was begun with, unless the user states others: the result is the
+/// identical one. To be called before a library asks for the level.
+void take_level_of(const RunOptions& options) {
+  const bool part = !options.share.empty();
+  if (options.directory.empty() || (!options.resume && !part)) return;
+  std::filesystem::path folder = options.directory;
+  if (part) folder = execution::shard_folder(folder, execution::parse_share(options.share));
+  const std::string level = execution::vector_level_of(folder);
+  const auto known = detail::vector_level_called(level.c_str());
+  if (known && *known <= detail::best_vector_level()) ::setenv(detail::vector_level_variable, level.c_str(), 0);
+}
+
 int run(const GlobalOptions& global, const RunOptions& asked) {
   const RunOptions options = taken_up(asked);
+  take_level_of(options);
   const Session session(global);
   auto experiment = session.read(options.file);
   check_names(options.overrides.profiles);

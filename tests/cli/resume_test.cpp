@@ -66,6 +66,29 @@ TEST(Resume, AfterKillsGivesTheIdenticalResult) {
   bench.expect_equal("whole", "killed");
 }
 
+// As on a machine with wider vectors than the one before: the run goes on with those that it was begun with.
+TEST(Resume, KeepsTheVectorInstructionsThatTheRunWasBegunWith) {
+  const LongBench bench;
+  const auto on_baseline = [&](const std::string& output) {
+    auto words = bench.run(output);
+    words.insert(words.begin(), {"/usr/bin/env", "TUNICA_VECTOR_LEVEL=baseline"});
+    return words;
+  };
+  ASSERT_EQ(trial::Process(on_baseline("whole"), bench.folder.path()).wait().code, 0);
+  {
+    trial::Process process(on_baseline("killed"), bench.folder.path());
+    ASSERT_TRUE(bench.wait_for("killed", 300000));
+    process.signal(SIGINT);
+    EXPECT_EQ(process.wait().code, 130);
+  }
+  auto again = bench.run("killed");
+  again.push_back("--resume");
+  const auto ended = trial::Process(again, bench.folder.path()).wait();
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  bench.expect_equal("whole", "killed");
+  EXPECT_EQ(bench.result("killed")["provenance"]["vector_level"], "baseline");
+}
+
 TEST(Resume, AfterCtrlCGivesTheIdenticalResult) {
   const LongBench bench;
   ASSERT_EQ(trial::Process(bench.run("whole"), bench.folder.path()).wait().code, 0);

@@ -21,7 +21,7 @@ std::string refusal(const std::filesystem::path& folder) {
 TEST(Checkpoint, ReadsBackWhatItWrote) {
   const trial::Folder folder;
   Checkpoint checkpoint;
-  checkpoint.facts = {"abc", "7", {{"a.csv", "x"}}, "es 0.1.0", "9", true};
+  checkpoint.facts = {"abc", "7", {{"a.csv", "x"}}, "es 0.1.0", "9", true, "avx2"};
   execution::RealisationResult result;
   result.realisation = 4;
   result.best = {{0.1, 1.0 / 3, 1e-300}, 66.1, 17};

@@ -7,10 +7,12 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "execution/checkpoint.hpp"
 #include "execution/folder.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/laboratory.hpp"
 #include "execution/running.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -75,6 +77,37 @@ TEST(Runner, RefusesToResumeWhatHasChanged) {
   EXPECT_THAT(message, HasSubstr("/stop/max_evaluations (was 100, is 200)"));
   EXPECT_THAT(message, HasSubstr("the seed changed (was 1, is 99)"));
   EXPECT_THAT(message, HasSubstr("Put it back as it was, or start anew"));
+}
+
+TEST(Runner, RefusesToGoOnWithOtherVectorInstructions) {
+  const Many laboratory;
+  const trial::Folder whole, part, analysed;
+  const auto expected = run(laboratory, whole.path());
+  auto checkpoint = execution::read_checkpoint(whole.path());
+  const std::string here = checkpoint.facts.vector_level;
+  EXPECT_EQ(here, detail::name(detail::vector_level()));
+  EXPECT_EQ(execution::vector_level_of(whole.path()), here);
+  EXPECT_EQ(execution::vector_level_of(part.path()), "");
+  const auto put = [&](const trial::Folder& folder) {
+    folder.write("evaluations.csv", trial::text_of(whole.path() / "evaluations.csv"));
+    folder.write("input.json", laboratory.bench.experiment.input_json);
+    execution::write_checkpoint(folder.path(), checkpoint);
+  };
+  checkpoint.facts.vector_level = "avx1024";
+  put(analysed);  // every search is finished: nothing is evaluated that could differ
+  expect_equal(run(laboratory, analysed.path(), 1, true), expected);
+  checkpoint.finished.pop_back();
+  put(part);
+  EXPECT_THAT(trial::message_of<InputError>([&] { run(laboratory, part.path(), 1, true); }),
+              AllOf(HasSubstr("with the vector instructions '" + here +
+                              "', because its searches were begun with "
+                              "'avx1024'"),
+                    HasSubstr("This processor does not have them"), HasSubstr("TUNICA_VECTOR_LEVEL=" + here)));
+  if (detail::best_vector_level() == detail::VectorLevel::baseline) return;
+  checkpoint.facts.vector_level = here == "baseline" ? "avx2" : "baseline";
+  put(part);
+  EXPECT_THAT(trial::message_of<InputError>([&] { run(laboratory, part.path(), 1, true); }),
+              HasSubstr("Set TUNICA_VECTOR_LEVEL=" + checkpoint.facts.vector_level));
 }
 
 TEST(Runner, RefusesToResumeWithOtherData) {

@@ -9,6 +9,7 @@
 #include "data/sha256.hpp"
 #include "execution/checksum.hpp"
 #include "execution/files.hpp"
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 #include "tunica/plugin.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int checkpoint_format = 5;
+constexpr int checkpoint_format = 6;
 
 std::filesystem::path checkpoint_file(const std::filesystem::path& directory) { return directory / "checkpoint.json"; }
 
@@ -94,7 +95,8 @@ json to_json(const Facts& facts) {
           {"data", facts.data},
           {"plugins", facts.plugins},
           {"plugin_interface", facts.plugin_interface},
-          {"thinned", facts.thinned}};
+          {"thinned", facts.thinned},
+          {"vector_level", facts.vector_level}};
 }
 
 Facts facts_from(const json& entry) {
@@ -103,7 +105,8 @@ Facts facts_from(const json& entry) {
           entry.at("data").get<std::map<std::string, std::string>>(),
           entry.at("plugins"),
           entry.at("plugin_interface"),
-          entry.at("thinned")};
+          entry.at("thinned"),
+          entry.at("vector_level")};
 }
 
 /// The keys that differ between input.json and the experiment as it is now: "/stop/max_evaluations (was 60000, is
@@ -153,6 +156,7 @@ Facts facts_of(const Plan& plan) {
   }
   facts.plugins = fmt::format("{}", fmt::join(plan.plugins, ", "));
   facts.plugin_interface = fmt::format("{}", TUNICA_PLUGIN_API);
+  facts.vector_level = detail::name(detail::vector_level());
   return facts;
 }
 
@@ -235,6 +239,28 @@ void refuse_changes(const std::filesystem::path& directory, const Facts& then, c
       fmt::format("{}: cannot be resumed, because something changed since the run began:\n  {}\n"
                   "Put it back as it was, or start anew: leave out --resume and name another folder with -o",
                   directory.string(), fmt::join(changes, "\n  ")));
+}
+
+std::string vector_level_of(const std::filesystem::path& directory) {
+  try {
+    return read_checkpoint(directory).facts.vector_level;
+  } catch (const InputError&) {  // said where the run is resumed
+    return {};
+  }
+}
+
+void refuse_other_level(const std::filesystem::path& directory, const std::string& then, const std::string& now) {
+  if (then == now) return;
+  const auto level = detail::vector_level_called(then.c_str());
+  const bool here = level && *level <= detail::best_vector_level();
+  throw InputError(fmt::format(
+      "{}: cannot be resumed with the vector instructions '{}', because its searches were begun with '{}': the last "
+      "digits of every evaluation depend on them. {}",
+      directory.string(), now, then,
+      here ? fmt::format("Set {}={}", detail::vector_level_variable, then)
+           : fmt::format("This processor does not have them: go on where they are, or start anew. {}={} from the "
+                         "beginning lets all of these machines work on one run",
+                         detail::vector_level_variable, now)));
 }
 
 }  // namespace tunica::execution

@@ -20,6 +20,7 @@ struct Facts {
   std::string plugins = {};                      ///< "es 0.1.0, gho 0.1.0"
   std::string plugin_interface = {};             ///< TUNICA_PLUGIN_API
   bool thinned = false;                          ///< evaluations.csv holds improvements only, see thinning.hpp
+  std::string vector_level = {};                 ///< "avx2": the last digits of every evaluation depend on it
 
   bool operator==(const Facts&) const = default;
 };
@@ -50,5 +51,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory);
 /// experiment as it is now; changed keys are named by comparing it with input.json.
 void refuse_changes(const std::filesystem::path& directory, const Facts& then, const Facts& now,
                     const std::string& input_json);
+
+/// The vector level of the run in `directory`; empty where there is none that can be understood.
+std::string vector_level_of(const std::filesystem::path& directory);
+/// Throws InputError where searches that were begun on one vector level would go on with another one.
+void refuse_other_level(const std::filesystem::path& directory, const std::string& then, const std::string& now);
 
 }  // namespace tunica::execution

@@ -71,7 +71,7 @@ class Journal {
     void add(const search::Record& record);
     void clear();
   };
-  struct Sink {
+  struct alignas(128) Sink {  // of one search: no cache line in common with another one
     std::mutex order;  ///< held while rows become text and are written, so that they keep their order; taken first
     std::mutex mutex;  ///< of `pending` and `next`
     Pending pending;

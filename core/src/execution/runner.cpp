@@ -107,6 +107,12 @@ void Run::open() {
       if (task < wanted.size()) wanted[task] = false;
     facts_.thinned = before.facts.thinned;
     if (facts_.thinned) refuse_unfinished(directory, before, plan_.tasks.size());
+    const auto own = [this](const auto& entry) { return settings_.share.holds(entry.first); };
+    std::size_t asked = 0;
+    for (std::size_t task = 0; task < plan_.tasks.size(); ++task) asked += settings_.share.holds(task);
+    if (static_cast<std::size_t>(std::count_if(before.finished.begin(), before.finished.end(), own)) < asked)
+      refuse_other_level(directory, before.facts.vector_level, facts_.vector_level);
+    facts_.vector_level = before.facts.vector_level;
     auto recovered =
         facts_.thinned ? thinned_journal(before, plan_.tasks.size()) : recover(directory, table_, plan_.tasks, wanted);
     for (const auto* damages : {&before.damages, &recovered.damages})

@@ -138,7 +138,7 @@ class Inspection {
     const std::uint64_t entered = one.thread->entered.load(std::memory_order_acquire);
     const Seconds stayed = now - one.since;
     if (entered != one.entered || one.thread->depth.load(std::memory_order_acquire) == 0) {
-      if (evaluations_done.load(std::memory_order_relaxed) > 0) longest_ = std::max(longest_, stayed);
+      if (evaluated.load(std::memory_order_relaxed)) longest_ = std::max(longest_, stayed);
       one.entered = entered;
       one.since = now;
       one.memory = memory_before_;
@@ -188,7 +188,7 @@ class Inspection {
 
   [[nodiscard]] Seconds patience(const Call& call) const {
     if (is_of_model(call)) return limits_.grace;
-    if (evaluations_done.load(std::memory_order_relaxed) == 0) return limits_.first_prediction;
+    if (!evaluated.load(std::memory_order_relaxed)) return limits_.first_prediction;
     return std::max<Seconds>(limits_.grace, 10 * longest_);
   }
 

@@ -200,7 +200,7 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
       shared_.box.from_unit(x, free);
     }
   }
-  plugins::evaluations_done.fetch_add(1, std::memory_order_relaxed);
+  plugins::set_evaluated();
   if (status.kind() == Status::Kind::failed) shared_.watch.add(plugins::take_time_lost());
   if (status.kind() == Status::Kind::failed) return status;
   shared_.box.jacobian_to_unit(free, jacobian);
