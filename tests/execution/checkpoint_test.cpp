@@ -71,7 +71,7 @@ TEST(Checkpoint, SaysWhatIsWrongWithAFile) {
   folder.write("checkpoint.json", "{\"format\": 1,");
   EXPECT_THAT(refusal(folder.path()), HasSubstr("cannot be understood"));
   folder.write("checkpoint.json", "{\"format\": 9, \"facts\": {}, \"finished\": []}");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 5"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("format 9, this version of tunica reads 6"));
 }
 
 TEST(Checkpoint, NamesEveryChange) {

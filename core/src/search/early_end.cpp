@@ -2,36 +2,54 @@
 #include "search/early_end.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace tunica::search {
 
-void EarlyEnd::clear() {
-  order_.clear();
-  objectives_.clear();
-  taken_ = 0;
+void EarlyEnd::Lowest::add(double objective) {
+  if (values_.size() == best_) {
+    if (best_ == 0 || objective >= values_.front()) return;
+    std::pop_heap(values_.begin(), values_.end());
+    values_.pop_back();
+  }
+  values_.push_back(objective);
+  std::push_heap(values_.begin(), values_.end());
 }
 
-std::span<const std::size_t> EarlyEnd::next(std::size_t best) {
-  if (taken_ == 0) std::sort(order_.begin(), order_.end());
-  double threshold = std::numeric_limits<double>::infinity();
-  if (best > 0 && objectives_.size() >= best) {
-    const auto last = objectives_.begin() + static_cast<std::ptrdiff_t>(best) - 1;
-    std::nth_element(objectives_.begin(), last, objectives_.end());
-    threshold = *last;
-  }
-  const std::size_t most = taken_ == 0 ? std::max(best, std::size_t{1}) : std::max(least_chunk, best / 2);
-  chunk_.clear();
-  // Equal to the threshold is not above it: of equals the earlier point ranks first.
-  while (taken_ < order_.size() && chunk_.size() < most && order_[taken_].first <= threshold)
-    chunk_.push_back(order_[taken_++].second);
-  return chunk_;
+void EarlyEnd::clear() {
+  order_.clear();
+  taken_ = needless_ = 0;
+}
+
+void EarlyEnd::begin(std::size_t best) {
+  std::sort(order_.begin(), order_.end());
+  objectives_.assign(order_.size(), std::nullopt);
+  best_ = std::max<std::size_t>(best, 1);
+  lowest_ = Lowest(best_);
+}
+
+std::optional<EarlyEnd::Taken> EarlyEnd::take() {
+  const std::lock_guard lock(mutex_);
+  // Of fewer points the best-th lowest is higher, so that nothing is left out too early.
+  if (taken_ == order_.size() || !lowest_.admits(order_[taken_].first)) return std::nullopt;
+  const std::size_t place = taken_++;
+  return Taken{order_[place].second, place};
+}
+
+void EarlyEnd::found(Taken taken, std::optional<double> objective) {
+  const std::lock_guard lock(mutex_);
+  objectives_[taken.place] = objective;
+  if (objective) lowest_.add(*objective);
 }
 
 std::span<const std::size_t> EarlyEnd::left() {
-  chunk_.clear();
-  for (std::size_t k = taken_; k < order_.size(); ++k) chunk_.push_back(order_[k].second);
-  return chunk_;
+  Lowest before(best_);
+  std::size_t place = 0;
+  for (; place < taken_ && before.admits(order_[place].first); ++place)
+    if (objectives_[place]) before.add(*objectives_[place]);
+  needless_ = taken_ - place;
+  left_.clear();
+  for (; place < order_.size(); ++place) left_.push_back(order_[place].second);
+  return left_;
 }
 
 }  // namespace tunica::search

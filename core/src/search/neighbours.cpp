@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "numerics/eigenpairs.hpp"
 #include "search/early_end.hpp"
@@ -83,32 +83,30 @@ std::vector<Neighbour> neighbours_of(const assembly::Assembly& assembly, std::sp
 /// Side by side. Only the lowest counts: where its cheap tests put a neighbour above another one, and where it is
 /// infeasible, costly tests are left out.
 void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbour>& neighbours) {
-  const auto evaluate = [&](std::span<const std::size_t> which, assembly::CostlyTests costly) {
-    tbb::parallel_for(std::size_t{0}, which.size(), [&](std::size_t k) {
-      Neighbour& neighbour = neighbours[which[k]];
-      const auto own = assembly.evaluator().make_workspace();
-      neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own, costly);
-    });
+  const auto evaluate = [&](Neighbour& neighbour, assembly::CostlyTests costly) {
+    const auto own = assembly.evaluator().make_workspace();
+    neighbour.status = assembly.evaluator().evaluate(neighbour.free, neighbour.objective, {}, {}, {}, *own, costly);
   };
-  std::vector<std::size_t> all(neighbours.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  if (!assembly.layout().has_costly_tests) {
-    evaluate(all, assembly::CostlyTests::everywhere);
-    return;
-  }
-  evaluate(all, assembly::CostlyTests::nowhere);
+  const bool costly = assembly.layout().has_costly_tests;
+  tbb::parallel_for(std::size_t{0}, neighbours.size(), [&](std::size_t k) {
+    evaluate(neighbours[k], costly ? assembly::CostlyTests::nowhere : assembly::CostlyTests::everywhere);
+    neighbours[k].simulated = !costly;
+  });
+  if (!costly) return;
   EarlyEnd early;
-  for (const std::size_t k : all) {
-    neighbours[k].simulated = false;
+  for (std::size_t k = 0; k < neighbours.size(); ++k)
     if (neighbours[k].status.ok()) early.add(k, neighbours[k].objective);
-  }
-  for (auto chunk = early.next(1); !chunk.empty(); chunk = early.next(1)) {
-    evaluate(chunk, assembly::CostlyTests::everywhere);
-    for (const std::size_t k : chunk) {
-      neighbours[k].simulated = true;
-      if (neighbours[k].status.ok()) early.found(neighbours[k].objective);
+  early.begin(1);
+  const auto workers = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::parallel_for(std::size_t{0}, std::min(workers, early.size()), [&](std::size_t) {
+    while (const auto taken = early.take()) {
+      Neighbour& neighbour = neighbours[taken->point];
+      evaluate(neighbour, assembly::CostlyTests::everywhere);
+      neighbour.simulated = true;
+      early.found(*taken, neighbour.status.ok() ? std::optional(neighbour.objective) : std::nullopt);
     }
-  }
+  });
+  for (const std::size_t k : early.left()) neighbours[k].simulated = false;  // taken needlessly: it is not the lowest
 }
 
 }  // namespace

@@ -40,6 +40,20 @@ void check_length(std::size_t found, std::size_t expected, const char* what) {
   }
 }
 
+std::size_t workers_for(std::size_t pieces) {
+  return std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), pieces);
+}
+
+/// Isolated: a thread that waits here must not begin another search in between.
+template <class Work>
+void on_workers(std::size_t workers, const Work& work) {
+  if (workers <= 1) return work();
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(
+        std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
+  });
+}
+
 }  // namespace
 
 assembly::WorkspacePointer WorkspacePool::take() {
@@ -241,8 +255,7 @@ void Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::
   const std::size_t n = shared_.parameters, count = points.size();
   // Cheap points come several at a time, so that a thread is worth calling.
   const std::size_t least = bound_only || !shared_.assembly.layout().has_costly_tests ? 4 : 1;
-  const std::size_t workers =
-      std::min(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), (count + least - 1) / least);
+  const std::size_t workers = workers_for((count + least - 1) / least);
   // Each worker takes half of its share of what is left, down to one point, so that all end within one evaluation
   // (guided self-scheduling: C. D. Polychronopoulos, D. J. Kuck, IEEE Trans. Comput. 36 (1987) 1425).
   std::atomic<std::size_t> next = 0;
@@ -259,11 +272,21 @@ void Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::
       from = next.load(std::memory_order_relaxed);
     }
   };
-  if (workers <= 1) return work();
-  // Isolated: a thread that waits here must not begin another search in between.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(
-        std::size_t{0}, workers, [&](std::size_t) { work(); }, tbb::simple_partitioner());
+  on_workers(workers, work);
+}
+
+/// In the order of their lower bounds, until the rest cannot be among the lowest.
+void Oracle::simulate_early(std::span<const double> xs, const Evaluations::Call& call, std::size_t replayed) {
+  const std::size_t n = shared_.parameters;
+  on_workers(workers_for(early_.size()), [&] {
+    const WorkspacePool::Loan workspace(shared_.pool);
+    while (const auto taken = early_.take()) {
+      const std::size_t slot = call.first + taken->point;
+      if (taken->point >= replayed)
+        made.statuses[slot] = evaluate_at(xs.subspan(taken->point * n, n), slot, {}, {}, *workspace);
+      const bool counts = made.statuses[slot].ok() && made.ended_early[slot] == 0;
+      early_.found(*taken, counts ? std::optional(made.objectives[slot]) : std::nullopt);
+    }
   });
 }
 
@@ -296,14 +319,14 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
   std::copy(objectives.begin(), objectives.end(), made.objectives.begin() + first);
   std::copy(per_test.begin(), per_test.end(), made.per_test.begin() + first * tests);
   std::copy(statuses.begin(), statuses.end(), made.statuses.begin() + first);
-  for (auto chunk = early_.next(best); !chunk.empty(); chunk = early_.next(best)) {
-    points_.clear();
-    std::copy_if(chunk.begin(), chunk.end(), std::back_inserter(points_), [&](std::size_t k) { return k >= replayed; });
-    evaluate_slots(xs, call.first, points_, false);
-    for (const std::size_t k : chunk)
-      if (made.statuses[call.first + k].ok()) early_.found(made.objectives[call.first + k]);
-  }
-  for (const std::size_t k : early_.left()) made.ended_early[call.first + k] = 1;
+  early_.begin(best);
+  simulate_early(xs, call, replayed);
+  const auto left = early_.left();
+  for (const std::size_t k : left) made.ended_early[call.first + k] = 1;
+  points_.clear();
+  std::copy_if(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(early_.needless()), std::back_inserter(points_),
+               [&](std::size_t k) { return k >= replayed; });
+  if (!points_.empty()) evaluate_slots(xs, call.first, points_, true);  // their bounds, for what is written
 }
 
 void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,

@@ -142,6 +142,8 @@ class Oracle {
   /// Evaluates the slots side by side.
   void evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
                       bool bound_only);
+  /// Simulates what early_ asks for; the first `replayed` points of the batch the journal knows.
+  void simulate_early(std::span<const double> xs, const Evaluations::Call& call, std::size_t replayed);
   /// Evaluates what the journal does not know of a batch, the first `replayed` points of which it does.
   void evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed);
   /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
