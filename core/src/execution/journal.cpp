@@ -49,42 +49,53 @@ Journal::~Journal() {
 }
 
 template <class Action>
-void Journal::keep_failure(Action&& action) {
+bool Journal::keep_failure(Action&& action) {
   try {
     action();
+    return true;
   } catch (const std::exception& problem) {
+    const std::lock_guard lock(words_);
     if (!failed_.exchange(true)) failure_ = problem.what();
+    return false;
   }
 }
 
 std::string Journal::failure() const {
-  const std::lock_guard lock(files_);
+  const std::lock_guard lock(words_);
   return failure_;
 }
 
+// A search does not wait while its rows are written or merged: they wait, until they are too many.
 void Journal::record(std::size_t task, const search::Record& record) {
+  constexpr std::size_t patience = 16;
   Sink& sink = *sinks_[task];
+  std::size_t pending;
   {
     const std::lock_guard lock(sink.mutex);
     if (record.index < sink.next || failed()) return;
     sink.next = record.index + 1;
     sink.pending.add(record);
-    if (sink.pending.indices.size() < most_pending_) return;
+    pending = sink.pending.indices.size();
   }
-  drain(task);
+  if (pending < most_pending_) return;
+  std::unique_lock order(sink.order, std::try_to_lock);
+  if (!order.owns_lock()) {
+    if (pending < patience * most_pending_) return;
+    order.lock();
+  }
+  drain(task, Wait::no);
 }
 
-void Journal::drain(std::size_t task) {
+void Journal::drain(std::size_t task, Wait wait) {
   Sink& sink = *sinks_[task];
-  const std::lock_guard order(sink.order);
   {
     const std::lock_guard lock(sink.mutex);
     std::swap(sink.pending, sink.formatted);
   }
   Pending& rows = sink.formatted;
-  if (rows.indices.empty()) return;
   const auto [run, realisation] = tasks_[task];
-  const std::size_t each = rows.numbers.size() / rows.indices.size(), tests = table_.runs()[run].tests.size();
+  const std::size_t each = rows.indices.empty() ? 0 : rows.numbers.size() / rows.indices.size();
+  const std::size_t tests = table_.runs()[run].tests.size();
   const std::size_t parameters = each - tests - 2;
   const Status ok;
   auto other = rows.other_than_ok.begin();
@@ -98,59 +109,73 @@ void Journal::drain(std::size_t task) {
     if (is_other) ++other;
   }
   rows.clear();
-  write(task, {sink.rows.data(), sink.rows.size()});
+  write(task, wait);
+}
+
+void Journal::write(std::size_t task, Wait wait) {
+  constexpr std::size_t most_text = 1 << 22;
+  Sink& sink = *sinks_[task];
+  if (sink.rows.size() == 0) return;
+  if (!failed() && task == head_) {
+    std::unique_lock file(main_file_, std::defer_lock);
+    if (wait == Wait::yes || sink.rows.size() > most_text)
+      file.lock();
+    else if (!file.try_lock())
+      return;
+    keep_failure([&] { main_.append({sink.rows.data(), sink.rows.size()}); });
+  } else if (!failed()) {
+    keep_failure([&] {
+      if (!sink.part.is_open()) sink.part = AppendFile(part_file(directory_, task));
+      sink.part.append({sink.rows.data(), sink.rows.size()});
+    });
+  }
   sink.rows.clear();
 }
 
-void Journal::write(std::size_t task, std::string_view rows) {
-  const std::lock_guard lock(files_);
-  if (failed()) return;
-  keep_failure([&] {
-    if (task == head_) {
-      main_.append(rows);
-      return;
-    }
-    Sink& sink = *sinks_[task];
-    if (!sink.part.is_open()) sink.part = AppendFile(part_file(directory_, task));
-    sink.part.append(rows);
-  });
-}
-
 void Journal::flush(bool durable) {
-  for (std::size_t task = 0; task < sinks_.size(); ++task) drain(task);
+  for (std::size_t task = 0; task < sinks_.size(); ++task) {
+    const std::lock_guard order(sinks_[task]->order);
+    drain(task, Wait::yes);
+    if (durable) keep_failure([&] { sinks_[task]->part.sync(); });
+  }
   if (!durable) return;
-  const std::lock_guard lock(files_);
-  keep_failure([&] {
-    main_.sync();
-    for (const auto& sink : sinks_) sink->part.sync();
-  });
+  const std::lock_guard file(main_file_);
+  keep_failure([&] { main_.sync(); });
 }
 
 void Journal::finish(std::size_t task) {
-  drain(task);
   Sink& sink = *sinks_[task];
-  const std::lock_guard order(sink.order);
-  const std::lock_guard files_lock(files_);
-  sink.finished = true;
-  if (failed()) return;
-  keep_failure([&] {
-    sink.part.sync();  // before a checkpoint counts on its rows
-    sink.part.close();
-    advance();
-  });
+  {
+    const std::lock_guard order(sink.order);
+    drain(task, Wait::yes);
+    if (!failed())
+      keep_failure([&] {
+        sink.part.sync();  // before a checkpoint counts on its rows
+        sink.part.close();
+      });
+    sink.finished = true;
+  }
+  advance();
 }
 
 /// Lets the next unfinished realisation append to evaluations.csv, after the rows of those that were ahead of it.
 /// A crash between copying a part and removing it leaves rows twice; recovery knows them by their id.
 void Journal::advance() {
-  while (head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
-    ++head_;
-    const auto part = part_file(directory_, head_);
-    sinks_[head_]->part.close();
-    if (!std::filesystem::exists(part)) continue;
-    main_.append(read_text(part));
-    main_.sync();
-    std::filesystem::remove(part);
+  const std::lock_guard turn(turn_);
+  while (!failed() && head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
+    const std::size_t next = head_ + 1;
+    const std::lock_guard order(sinks_[next]->order);
+    const std::lock_guard file(main_file_);
+    const bool done = keep_failure([&] {
+      const auto part = part_file(directory_, next);
+      sinks_[next]->part.close();
+      if (!std::filesystem::exists(part)) return;
+      main_.append(read_text(part));
+      main_.sync();
+      std::filesystem::remove(part);
+    });
+    if (!done) return;
+    head_ = next;
   }
 }
 

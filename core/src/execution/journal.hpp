@@ -72,29 +72,33 @@ class Journal {
     void clear();
   };
   struct alignas(128) Sink {  // of one search: no cache line in common with another one
-    std::mutex order;  ///< held while rows become text and are written, so that they keep their order; taken first
-    std::mutex mutex;  ///< of `pending` and `next`
+    std::mutex order;         ///< of what becomes text and is written, so that rows keep their order; taken first
+    std::mutex mutex;         ///< of `pending` and `next`
     Pending pending;
     Pending formatted;        ///< being written; under `order`
-    fmt::memory_buffer rows;  ///< under `order`
+    fmt::memory_buffer rows;  ///< text that is not written yet; under `order`
     std::uint64_t next = 0;   ///< index of the first row that is not stored
-    AppendFile part;
-    bool finished = false;
+    AppendFile part;          ///< under `order`
+    std::atomic<bool> finished = false;
   };
-  /// Makes text of what is pending and writes it.
-  void drain(std::size_t task);
-  void write(std::size_t task, std::string_view rows);
+  enum class Wait { no, yes };
+  /// Makes text of what is pending and writes it; without waiting for a file that another thread writes, text stays in
+  /// memory, up to a bound. Under the order of the sink.
+  void drain(std::size_t task, Wait wait);
+  void write(std::size_t task, Wait wait);
   void advance();
   template <class Action>
-  void keep_failure(Action&& action);
+  bool keep_failure(Action&& action);
 
   std::filesystem::path directory_;
   const EvaluationTable& table_;
   std::vector<Task> tasks_;
   std::vector<std::unique_ptr<Sink>> sinks_;
-  mutable std::mutex files_;  ///< taken after a sink's mutexes, never before
+  std::mutex turn_;       ///< of advance()
+  std::mutex main_file_;  ///< of `main_`; taken last
   AppendFile main_;
-  std::size_t head_ = 0;
+  std::atomic<std::size_t> head_ = 0;  ///< becomes a task under the order of that task's sink
+  mutable std::mutex words_;           ///< of `failure_`
   std::string failure_;
   std::atomic<bool> failed_ = false;
   std::size_t most_pending_ = 512;

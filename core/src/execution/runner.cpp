@@ -50,7 +50,8 @@ class LogFile : public spdlog::sinks::base_sink<std::mutex> {
   AppendFile file_;
 };
 
-/// State of one execution; what several threads touch is under `mutex_` or in the journal and the meters.
+/// State of one execution. Searches touch their own results, the journal, the meters and `ended_`; files are made
+/// durable by the pulse, so that no search waits for a disk.
 class Run {
  public:
   Run(const Plan& plan, const RunSettings& settings)
@@ -72,7 +73,8 @@ class Run {
   void open();
   void work();
   void run_task(std::size_t task);
-  void save(bool now);
+  void settle();
+  void save();
   bool stopping() const { return InterruptWatch::interrupted() || journal_->failed() || broken_; }
 
   const Plan& plan_;
@@ -87,10 +89,12 @@ class Run {
   std::atomic<bool> broken_ = false;  ///< an exception is on its way, or the checkpoint cannot be written
   FirstFailure failure_;              ///< of a search
   std::string write_failure_;         ///< of the checkpoint
-  std::mutex mutex_;
+  std::mutex mutex_;                  ///< of `ended_`
+  std::vector<std::size_t> ended_;    ///< finished searches whose rows are not closed yet
   Facts facts_;
   std::map<std::size_t, std::string> finished_;  ///< entries of the checkpoint, by task
   Clock::time_point saved_ = Clock::now();
+  bool unsaved_ = false;
 };
 
 void Run::open() {
@@ -150,10 +154,23 @@ void Run::open() {
   write_checkpoint(directory, facts_, finished_);
 }
 
+/// Closes the rows of the searches that have ended; every second the checkpoint tells of them.
+void Run::settle() {
+  std::vector<std::size_t> ended;
+  {
+    const std::lock_guard lock(mutex_);
+    ended.swap(ended_);
+  }
+  for (const std::size_t task : ended) {
+    journal_->finish(task);
+    finished_[task] = checkpoint_entry(task, results_[task]);
+    unsaved_ = true;
+  }
+  if (unsaved_ && Clock::now() - saved_ >= checkpoint_interval) save();
+}
+
 /// Rows first, then the checkpoint that counts on them.
-void Run::save(bool now) {
-  const std::lock_guard lock(mutex_);
-  if (!now && Clock::now() - saved_ < checkpoint_interval) return;
+void Run::save() {
   journal_->flush(true);
   if (journal_->failed()) return;
   try {
@@ -163,6 +180,7 @@ void Run::save(bool now) {
     broken_ = true;
   }
   saved_ = Clock::now();
+  unsaved_ = false;
 }
 
 void Run::run_task(std::size_t task) {
@@ -190,15 +208,11 @@ void Run::run_task(std::size_t task) {
              result.reason.empty() ? "" : ": " + result.reason);
   if (result.tally.failures > 0)
     log_->warn("{}, realisation {}: first failure: {}", run.label, realisation, result.tally.first_failure);
-  if (result.finished) {
-    journal_->finish(task);
-    meter.finished = true;
-    std::string entry = checkpoint_entry(task, result);
-    const std::lock_guard lock(mutex_);
-    finished_[task] = std::move(entry);
-  }
   results_[task] = std::move(result);
-  save(false);
+  if (!results_[task].finished) return;
+  meter.finished = true;
+  const std::lock_guard lock(mutex_);
+  ended_.push_back(task);
 }
 
 void Run::work() {
@@ -218,6 +232,8 @@ Execution Run::execute() {
   bool over = false;
   std::thread pulse([&] {
     for (std::unique_lock lock(waiting); !wake.wait_for(lock, heartbeat, [&] { return over; });) {
+      failure_.guard([this] { settle(); });
+      if (failure_.any()) broken_ = true;
       journal_->flush();
       progress.draw();
       if (settings_.told) settings_.told(progress.share(), progress.text(progress.seconds()));
@@ -239,11 +255,12 @@ Execution Run::execute() {
   wake.notify_all();
   pulse.join();
   progress.draw(true);
+  failure_.guard([this] { settle(); });
   journal_->flush();
   if (failure_.any()) log_->error("ended by an error; the evaluations so far are in evaluations.csv");
   failure_.rethrow();
   Execution execution;
-  if (!broken_) save(true);
+  if (!broken_) save();
   execution.write_failure = journal_->failed() ? journal_->failure() : write_failure_;
   execution.runs.resize(plan_.runs.size());
   for (std::size_t task = 0; task < results_.size(); ++task) {
