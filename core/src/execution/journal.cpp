@@ -143,40 +143,46 @@ void Journal::flush(bool durable) {
   keep_failure([&] { main_.sync(); });
 }
 
-void Journal::finish(std::size_t task) {
-  Sink& sink = *sinks_[task];
-  {
-    const std::lock_guard order(sink.order);
+void Journal::finish(std::span<const std::size_t> tasks) {
+  for (const std::size_t task : tasks) {
+    const std::lock_guard order(sinks_[task]->order);
     drain(task, Wait::yes);
-    if (!failed())
-      keep_failure([&] {
-        sink.part.sync();  // before a checkpoint counts on its rows
-        sink.part.close();
-      });
-    sink.finished = true;
+    sinks_[task]->finished = true;
   }
   advance();
+  for (const std::size_t task : tasks) {  // those that are not merged yet: before a checkpoint counts on their rows
+    const std::lock_guard order(sinks_[task]->order);
+    if (failed() || task <= head_) continue;
+    keep_failure([&] {
+      sinks_[task]->part.sync();
+      sinks_[task]->part.close();
+    });
+  }
 }
 
-/// Lets the next unfinished realisation append to evaluations.csv, after the rows of those that were ahead of it.
+/// Lets the next unfinished realisation append to evaluations.csv, after the rows of those that were ahead of it. One
+/// wait for the disk serves all of them.
 /// A crash between copying a part and removing it leaves rows twice; recovery knows them by their id.
 void Journal::advance() {
   const std::lock_guard turn(turn_);
-  while (!failed() && head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
-    const std::size_t next = head_ + 1;
-    const std::lock_guard order(sinks_[next]->order);
-    const std::lock_guard file(main_file_);
-    const bool done = keep_failure([&] {
+  std::vector<std::filesystem::path> merged;
+  const std::lock_guard file(main_file_);
+  if (failed()) return;
+  keep_failure([&] {
+    while (head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
+      const std::size_t next = head_ + 1;
+      const std::lock_guard order(sinks_[next]->order);
       const auto part = part_file(directory_, next);
       sinks_[next]->part.close();
-      if (!std::filesystem::exists(part)) return;
-      main_.append(read_text(part));
-      main_.sync();
-      std::filesystem::remove(part);
-    });
-    if (!done) return;
-    head_ = next;
-  }
+      if (std::filesystem::exists(part)) {
+        main_.append(read_text(part));
+        merged.push_back(part);
+      }
+      head_ = next;
+    }
+    main_.sync();
+    for (const auto& part : merged) std::filesystem::remove(part);
+  });
 }
 
 }  // namespace tunica::execution

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,9 @@ class Journal {
   void record(std::size_t task, const search::Record& record);
   /// Rows that wait before the search that records them has to write them; fewer where many searches share the memory.
   void let_wait(std::size_t rows) { most_pending_ = rows; }
-  void finish(std::size_t task);
+  /// These realisations have ended. Once it returns, a checkpoint may count on their rows.
+  void finish(std::span<const std::size_t> tasks);
+  void finish(std::size_t task) { finish(std::span(&task, 1)); }
   /// Writes what is buffered; `durable` waits until it is on the disk.
   void flush(bool durable = false);
 

@@ -144,13 +144,15 @@ void Run::open() {
   // Where threads outnumber the searches, one that has nothing to evaluate can write.
   constexpr std::size_t of_few_searches = 1 << 16;
   if (plan_.tasks.size() < settings_.threads) journal_->let_wait(of_few_searches / plan_.tasks.size());
+  std::vector<std::size_t> ended;
   for (const auto& [task, entry] : finished_) {
     const auto& result = results_[task];
-    journal_->finish(task);
+    ended.push_back(task);
     meters_[task].evaluations = result.tally.evaluations;
     meters_[task].best = result.best.parameters.empty() ? meters_[task].best.load() : result.best.objective;
     meters_[task].finished = true;
   }
+  if (!ended.empty()) journal_->finish(ended);
   write_checkpoint(directory, facts_, finished_);
 }
 
@@ -161,8 +163,8 @@ void Run::settle() {
     const std::lock_guard lock(mutex_);
     ended.swap(ended_);
   }
+  if (!ended.empty()) journal_->finish(ended);
   for (const std::size_t task : ended) {
-    journal_->finish(task);
     finished_[task] = checkpoint_entry(task, results_[task]);
     unsaved_ = true;
   }
