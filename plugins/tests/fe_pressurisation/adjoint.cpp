@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "solver.hpp"
 
@@ -55,7 +56,11 @@ Status Solver::weigh(const Load& load, const State& state, std::span<const std::
     last = change;
   }
   weights.resize(count);
+  defects_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
+    const State& y = adjoint_[k];
+    defects_[k] = std::inner_product(y.q.begin(), y.q.end(), residual_.q.begin(), 0.0) -
+                  std::inner_product(y.x.begin(), y.x.end(), residual_.x.begin(), 0.0);
     std::swap(weights[k].right, adjoint_[k].x);
     std::swap(weights[k].dilation, adjoint_[k].q);
     std::swap(weights[k].moved, moved_ends_[k]);
@@ -111,7 +116,8 @@ Status Solver::refine_adjoint(const Load& load, const State& state, std::span<co
                               double& change) {
   const std::size_t end = 2 * mesh_.node(0, mesh_.planes() - 1);
   if (late()) return Status::failed("the time limit is reached");
-  if (Status status = assembly_->multiply(*material_, state, load.pressure, adjoint_, multiplied_); !status.ok())
+  if (Status status = assembly_->multiply(*material_, state, load.pressure, adjoint_, multiplied_, residual_);
+      !status.ok())
     return status;
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
     std::vector<double>& right = rights_[k];
@@ -119,15 +125,13 @@ Status Solver::refine_adjoint(const Load& load, const State& state, std::span<co
     assembly_->spread(system_, dq_, right);
     add_observable(positions, k, right);
     for (std::size_t i = 0; i < right.size(); ++i) right[i] -= multiplied_[k].x[i];
-    moved_ends_[k].assign(right.size(), 0);
-    std::copy(right.begin() + static_cast<std::ptrdiff_t>(end), right.end(),
-              moved_ends_[k].begin() + static_cast<std::ptrdiff_t>(end));
+    moved_ends_[k].assign(right.begin() + static_cast<std::ptrdiff_t>(end), right.end());
   }
   solve_rights();
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
     State& y = adjoint_[k];
     change = std::max(change, magnitude(rights_[k]) / magnitude(y.x));
-    for (std::size_t i = end; i < dx_.size(); ++i) moved_ends_[k][i] -= system_.matrix.row_times(i, rights_[k]);
+    for (std::size_t i = end; i < dx_.size(); ++i) moved_ends_[k][i - end] -= system_.matrix.row_times(i, rights_[k]);
     assembly_->pressures(system_, rights_[k], multiplied_[k].q, dq_);
     for (std::size_t i = 0; i < dx_.size(); ++i) y.x[i] += rights_[k][i];
     for (std::size_t i = 0; i < dq_.size(); ++i) y.q[i] += dq_[i];

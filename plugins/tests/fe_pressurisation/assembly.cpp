@@ -41,11 +41,7 @@ class AssemblyOf final : public Assembly {
       largest = std::max(largest, scatter(row, tangent, system));
     }
     by_volume(state, system.volume);
-    for (std::size_t k = 0; k < (pressure == 0 ? 0 : mesh_.planes()); ++k)
-      for (std::size_t d = 0; d < 2; ++d) {
-        const std::size_t i = 2 * mesh_.node(0, k) + d;
-        system.force[i] -= pressure * system.volume[i];
-      }
+    press(pressure, system.volume, system.force);
     if (support.slope != 0) add_support(mesh_, element_, support, state, system.force);
     if (tangent) {
       stiffen_edges(state, pressure);
@@ -96,28 +92,28 @@ class AssemblyOf final : public Assembly {
   }
 
   Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
-                  std::span<State> product) override {
+                  std::span<State> product, State& residual) override {
     std::vector<double> forces(fields.size() * dofs * n_), dilations(fields.size() * np * n_);
     for (State& of : product) {
       of.x.assign(2 * mesh_.nodes(), 0);
       of.q.resize(pressure_count());
     }
+    residual.x.assign(2 * mesh_.nodes(), 0);
+    residual.q.resize(pressure_count());
+    double unused = 0;
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
       row_.take(state, row);
       if (Status status = row_.evaluate(material, true, false); !status.ok()) return status;
+      row_.integrate(material.sees_shear(), false, unused);
+      gather(row, row_.force.data(), row_.c.data(), residual);
       row_.multiply(material.sees_shear(), fields, forces, dilations);
-      for (std::size_t d = 0; d < product.size(); ++d) {
-        for (std::size_t a = 0; a < nn; ++a)
-          for (std::size_t e = 0; e < n_; ++e) {
-            const std::size_t dof = 2 * row_.node(a, e, row);
-            product[d].x[dof] += forces[(d * dofs + 2 * a) * n_ + e];
-            product[d].x[dof + 1] += forces[(d * dofs + 2 * a + 1) * n_ + e];
-          }
-        for (std::size_t m = 0; m < np; ++m)
-          for (std::size_t e = 0; e < n_; ++e)
-            product[d].q[(row * n_ + e) * np + m] = dilations[(d * np + m) * n_ + e];
-      }
+      for (std::size_t d = 0; d < product.size(); ++d)
+        gather(row, &forces[d * dofs * n_], &dilations[d * np * n_], product[d]);
     }
+    std::vector<double> volume(residual.x.size());
+    by_volume(state, volume);
+    press(pressure, volume, residual.x);
+    if (support.slope != 0) add_support(mesh_, element_, support, state, residual.x);
     stiffen_edges(state, pressure);
     for (std::size_t d = 0; d < product.size(); ++d)
       for (const Entry& at : edges_) {
@@ -227,6 +223,27 @@ class AssemblyOf final : public Assembly {
       system.matrix.resize(mesh_);
     else
       system.matrix.clear();
+  }
+
+  /// The pressure on the inner edge.
+  void press(double pressure, std::span<const double> volume, std::span<double> force) const {
+    for (std::size_t k = 0; k < (pressure == 0 ? 0 : mesh_.planes()); ++k)
+      for (std::size_t d = 0; d < 2; ++d) {
+        const std::size_t i = 2 * mesh_.node(0, k) + d;
+        force[i] -= pressure * volume[i];
+      }
+  }
+
+  /// Adds what the lanes of a row have, dof by dof, and sets its modes.
+  void gather(std::size_t row, const double* force, const double* c, State& to) const {
+    for (std::size_t a = 0; a < nn; ++a)
+      for (std::size_t e = 0; e < n_; ++e) {
+        const std::size_t dof = 2 * row_.node(a, e, row);
+        to.x[dof] += force[2 * a * n_ + e];
+        to.x[dof + 1] += force[(2 * a + 1) * n_ + e];
+      }
+    for (std::size_t m = 0; m < np; ++m)
+      for (std::size_t e = 0; e < n_; ++e) to.q[(row * n_ + e) * np + m] = c[m * n_ + e];
   }
 
   /// Condenses the pressures and adds the row to the system; returns the largest mean of |J − 1|.

@@ -26,7 +26,7 @@ struct System {
 };
 
 /// How an observable depends on the equations of a solution: it changes by right · (what −∂Π/∂x does at a fixed state),
-/// by dilation · (what c does there) and by moved · (what the prescribed positions do; zero elsewhere).
+/// by dilation · (what c does there) and by moved · (what the positions of the nodes at the end do).
 struct Weights {
   std::vector<double> right, dilation, moved;
 };
@@ -71,10 +71,10 @@ class Assembly {
   /// · ∂c/∂p_j.
   virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
                           std::span<double> by) = 0;
-  /// What the derivatives of the equations at a state make of `fields` y, h: `product`.x = K y − G h and .q = Gᵀ y. No
-  /// γ is in it, so that it is exact to rounding.
+  /// What the derivatives of the equations at a state make of `fields` y, h: `product`.x = K y − G h and .q = Gᵀ y; and
+  /// the equations, `residual`.x = ∂Π/∂x and .q = c. No γ is in it, so that it is exact to rounding.
   virtual Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
-                          std::span<State> product) = 0;
+                          std::span<State> product, State& residual) = 0;
   /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).
   virtual double contract(const State& state, const Weights& weight, std::span<double> by_free) = 0;
   /// Takes what the points remember on to the state, in History::after.

@@ -53,8 +53,7 @@ Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positi
           for (std::size_t d = 0; d < 2; ++d)
             derivative += weights_[k].right[2 * mesh.node(0, plane) + d] * right[2 * mesh.node(0, plane) + d];
       }
-      for (std::size_t i = 0; i < moved_.size(); ++i)
-        derivative += weights_[k].moved[solver_.rest().x.size() - moved_.size() + i] * moved_[i];
+      for (std::size_t i = 0; i < moved_.size(); ++i) derivative += weights_[k].moved[i] * moved_[i];
     }
   }
   if (!solver_.assembly().support.free.empty()) add_support(path, wanted, axial_force, by);
@@ -121,6 +120,9 @@ Status Sensitivity::sample(const Path& path, Sample& sample) {
   }
   if (Status status = derive(path, positions, wanted_[2], by_); !status.ok()) return status;
   sample.value = path.observed();
+  for (std::size_t k = 0; k < place.size(); ++k)
+    sample.value[place[k]] =
+        solver_.defects()[k] + (place[k] == 2 ? solver_.force_of_support() : sample.value[place[k]]);
   sample.by.assign(material_->parameter_count() + direction_count, {});
   for (std::size_t i = 0; i < by_.size(); ++i) sample.by[i / place.size()][place[i % place.size()]] = by_[i];
   return {};

@@ -29,7 +29,7 @@ double largest(std::span<const double> x) {
 
 }  // namespace
 
-Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) {
+Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)), factor_(mesh) {
   rest_.x.resize(2 * mesh_.nodes());
   for (std::size_t k = 0; k < mesh_.planes(); ++k)
     for (std::size_t i = 0; i < mesh_.across(); ++i) {
@@ -45,9 +45,7 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) 
   product_.resize(rest_.x.size());
 }
 
-double Solver::bytes(const Mesh& mesh) {
-  return Banded::bytes(2 * mesh.nodes(), Stencil::width_of(mesh)) + Stencil::bytes(mesh);
-}
+double Solver::bytes(const Mesh& mesh) { return Factor::bytes(mesh) + Stencil::bytes(mesh); }
 
 Status Solver::begin(const Material& material) {
   material_ = &material;
@@ -99,15 +97,15 @@ bool Solver::factorise() {
     for (std::size_t j = 0; j < middle_.size(); ++j)
       middle_[j] += system_.matrix.entry(std::max(row, j), std::min(row, j));
   }
-  system_.matrix.spread(factor_);
   const std::size_t end = mesh_.planes() - 1;
-  const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
+  fixed_.clear();
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
-    factor_.fix(2 * mesh_.node(i, 0) + 1, diagonal);
-    factor_.fix(2 * mesh_.node(i, end) + 1, diagonal);
-    if (held_) factor_.fix(2 * mesh_.node(i, end), diagonal);
+    fixed_.push_back(2 * mesh_.node(i, 0) + 1);
+    fixed_.push_back(2 * mesh_.node(i, end) + 1);
+    if (held_) fixed_.push_back(2 * mesh_.node(i, end));
   }
-  const auto negative = factor_.factorise([this] { return late(); });
+  const double diagonal = *system_.matrix.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
+  const auto negative = factor_.factorise(system_.matrix, fixed_, diagonal, [this] { return late(); });
   has_factor_ = negative.has_value();
   negative_ = negative.value_or(0);
   ++effort_.factorisations;
@@ -133,6 +131,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
   double away = last;  // how far the state of the factor is
   // Near the last solution its factor comes close before a new one is made beside this one.
   bool full = !(full_steps && has_factor_);
+  const bool anew = full && full_steps;
   for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
@@ -166,7 +165,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     if (left < tolerance && (!full_steps || away < near)) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;
-    full = step > frozen_below || (full_steps && step < near && away >= near);
+    full = step > frozen_below || anew || (full_steps && step < near && away >= near);
     if (full) system_.gamma = incompressibility * system_.stiffness;
   }
   return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "factor.hpp"
 
 namespace tunica::fe {
 
@@ -76,6 +77,10 @@ class Solver {
   /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing.
   Status weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
                std::vector<Weights>& weights);
+  /// After weigh(), what the observables of the solution that the state nearly is have more than those of the state, to
+  /// second order of what is left to it. The axial force has it in place of all but the support.
+  [[nodiscard]] std::span<const double> defects() const { return defects_; }
+  [[nodiscard]] double force_of_support() const { return -2 * std::numbers::pi * middle_support_; }
   [[nodiscard]] std::size_t outer() const { return 2 * (mesh_.across() - 1); }  ///< r there at mid-length, in State::x
   [[nodiscard]] std::size_t inner() const { return 0; }
 
@@ -109,9 +114,12 @@ class Solver {
   std::vector<double> held_radius_;  ///< r at the far end, where it is held
   std::vector<double> end_moved_;    ///< ∂x/∂λz of the prescribed positions
   System system_;
-  Banded factor_;
+  Factor factor_;
+  std::vector<std::size_t> fixed_;           ///< positions that are prescribed
   std::vector<State> adjoint_, multiplied_;  ///< of each observable, and what the equations make of it
+  State residual_;
   std::vector<std::vector<double>> rights_, moved_ends_;
+  std::vector<double> defects_;
   std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
   double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
   double middle_support_ = 0, middle_pressed_ = 0;  ///< h of the support there and h'(r), after the last solution
