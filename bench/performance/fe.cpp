@@ -129,16 +129,19 @@ struct Elements {
   }
 };
 
+/// Of the factors and solutions that a run took.
+double operations_of(const fe::Effort& effort, const fe::FactorCost& cost) {
+  return static_cast<double>(effort.factorisations) * cost.operations +
+         static_cast<double>(effort.iterations) * 2 * cost.kept;
+}
+
 /// The program's own numbers of factors and iterations, by fused elements and multiply–adds at the rate of the machine.
 std::vector<Floor> newton(const std::shared_ptr<Elements>& elements, const floors::Energy& energy,
-                          const fe::Effort& effort, double unknowns, double half_band) {
+                          const fe::Effort& effort, const fe::FactorCost& cost) {
   std::vector<Floor> floors;
   const auto to = std::make_shared<std::vector<double>>(128, 1.),
              from = std::make_shared<std::vector<double>>(512, 1e-9);
-  const auto multiply_adds =
-      static_cast<std::size_t>((static_cast<double>(effort.factorisations) * unknowns * half_band * half_band / 2 +
-                                static_cast<double>(effort.iterations) * 2 * unknowns * half_band) /
-                               512);
+  const auto multiply_adds = static_cast<std::size_t>(operations_of(effort, cost) / 512);
   for (const floors::Kernels* const kernels : levels())
     floors.push_back({"its factors and iterations by fused elements, and multiply-adds", kernels->level, {[=] {
                         for (std::size_t k = 0; k < effort.factorisations; ++k)
@@ -165,9 +168,10 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted, Start start) {
     for (int k = 0; k < 3; ++k) tube->run(wanted, true);
   const fe::Effort effort = tube->simulation.solver().effort();
   const fe::Stencil& matrix = tube->simulation.solver().system().matrix;
-  const double n = static_cast<double>(matrix.size()), w = static_cast<double>(matrix.width());
-  row.facts = {{"unknowns", n},
-               {"half_band", w},
+  const fe::FactorCost cost = fe::Factor::cost(tube->simulation.solver().mesh());
+  row.facts = {{"unknowns", static_cast<double>(matrix.size())},
+               {"half_band", static_cast<double>(matrix.width())},
+               {"operations_of_a_factor", cost.operations},
                {"load_points", static_cast<double>(tube->simulation.solutions())},
                {"factors", static_cast<double>(effort.factorisations)},
                {"iterations", static_cast<double>(effort.iterations)},
@@ -182,11 +186,9 @@ Prepared curve(const Mesh& mesh, const fe::Wanted& wanted, Start start) {
     if (!large) tube->run({}, false);
     const auto elements = std::make_shared<Elements>(tube->simulation);
     row.facts.emplace_back("floor_differs", elements->deviation(*tube->material, tube->simulation.solver(), energy));
-    row.floors = newton(elements, energy, effort, n, w);
+    row.floors = newton(elements, energy, effort, cost);
   } else {
-    row.floors = operations(
-        static_cast<double>(effort.factorisations) * n * w * w / 2 + static_cast<double>(effort.iterations) * 2 * n * w,
-        "multiply-adds of its factors and solutions");
+    row.floors = operations(operations_of(effort, cost), "multiply-adds of its factors and solutions");
   }
   return row;
 }

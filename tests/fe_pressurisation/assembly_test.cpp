@@ -131,6 +131,43 @@ TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferenc
   }
 }
 
+/// K y − G h and Gᵀ y are differences of ∂Π/∂x and c, and what comes with them is ∂Π/∂x and c.
+TEST_P(FiniteElementAssembly, MultipliesByTheDerivativesOfTheEquations) {
+  assembly->support = {7, std::vector<double>(solver.mesh().planes(), 0.99 * solver.mesh().outer)};
+  const fe::State state = disturbed(solver, 0.1, 20, 9);
+  std::vector<fe::State> fields{disturbed(solver, 1, 3, 10), disturbed(solver, 1, 3, 11)}, products(2);
+  for (fe::State& field : fields)
+    for (std::size_t i = 0; i < field.x.size(); ++i) field.x[i] -= solver.rest().x[i];
+  fe::State residual;
+  ASSERT_TRUE(assembly->multiply(material, state, pressure, fields, products, residual).ok());
+  const fe::System here = assembled(state, pressure, *assembly);
+  for (std::size_t i = 0; i < state.x.size(); ++i) EXPECT_NEAR(residual.x[i], here.force[i], 1e-10) << i;
+  for (std::size_t i = 0; i < state.q.size(); ++i) EXPECT_NEAR(residual.q[i], here.dilation[i], 1e-12) << i;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto at = [&](double steps) {
+      fe::State moved = state;
+      for (std::size_t i = 0; i < state.x.size(); ++i) moved.x[i] += steps * 1e-6 * fields[k].x[i];
+      for (std::size_t i = 0; i < state.q.size(); ++i) moved.q[i] += steps * 1e-6 * fields[k].q[i];
+      return assembled(moved, pressure, *assembly);
+    };
+    const fe::System up = at(1), down = at(-1), up2 = at(2), down2 = at(-2);
+    const auto compare = [](const std::vector<double>& found, const auto& expected) {
+      double scale = 0;
+      for (const double entry : found) scale = std::max(scale, std::abs(entry));
+      EXPECT_GT(scale, 0);
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected(i), 1e-8 * scale) << i;
+    };
+    const auto difference = [&](auto member) {
+      return [=, &up, &down, &up2, &down2](std::size_t i) {
+        return (8 * ((up.*member)[i] - (down.*member)[i]) - ((up2.*member)[i] - (down2.*member)[i])) / 12e-6;
+      };
+    };
+    compare(products[k].x, difference(&fe::System::force));
+    compare(products[k].q, difference(&fe::System::dilation));
+  }
+  assembly->support = {};
+}
+
 TEST_P(FiniteElementAssembly, ATubeMovedAlongItsAxisFeelsNoForce) {
   const auto shifted = [](fe::State state) {
     for (std::size_t i = 1; i < state.x.size(); i += 2) state.x[i] += 4.2;

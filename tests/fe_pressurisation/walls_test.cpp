@@ -136,6 +136,7 @@ TEST_P(FiniteElementWall, AgreesWithTheLongTubeInItsOwnCheck) {
 TEST_P(FiniteElementWall, HasExactDerivatives) {
   const Materials of(GetParam());
   const std::vector<double> pressure{1, 8, 15};
+  double worst = 0;
   for (const auto& [element, elements] : {std::pair{"quadrilateral_4", "[5, 7]"}, {"quadrilateral_9", "[3, 4]"}})
     for (const char* ends : {"clamped", "clamped_after_stretch"}) {
       const auto tube = make_fe_tube(pressure, fe_setup(GetParam(), element, elements, ends));
@@ -165,12 +166,13 @@ TEST_P(FiniteElementWall, HasExactDerivatives) {
             off = std::max(off, std::abs(jacobian[j * rows + i] - expected));
           }
           EXPECT_GT(scale, 0) << j;
-          // The penalty in the matrix magnifies rounding: 2.7e-6 on AVX-512, below 2e-6 on the other levels.
-          EXPECT_LE(off, 4e-6 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j
+          worst = std::max(worst, off / scale);
+          EXPECT_LE(off, 2e-7 * scale) << GetParam().name << ", " << element << ", " << ends << ", parameter " << j
                                        << ", " << all_channels[c];
         }
       }
     }
+  std::printf("  %s: %.1e\n", GetParam().name, worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FiniteElementWall, ::testing::ValuesIn(walls), [](const auto& at) {

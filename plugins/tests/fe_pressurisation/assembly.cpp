@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "tunica/detail/vector_level.hpp"
 
@@ -39,9 +40,13 @@ class AssemblyOf final : public Assembly {
       row_.integrate(material.sees_shear(), tangent, stiffness);
       largest = std::max(largest, scatter(row, tangent, system));
     }
-    follow_pressure(state, pressure, tangent, system);
-    if (support.slope != 0)
-      add_support(mesh_, element_, support, state, system.force, tangent ? &system.matrix : nullptr);
+    by_volume(state, system.volume);
+    press(pressure, system.volume, system.force);
+    if (support.slope != 0) add_support(mesh_, element_, support, state, system.force);
+    if (tangent) {
+      stiffen_edges(state, pressure);
+      for (const Entry& at : edges_) system.matrix.add(at.i, at.j, at.value);
+    }
     for (std::size_t i = 0; i < size; ++i) system.right[i] -= system.force[i];
     system.largest_dilation = largest;
     if (tangent) system.stiffness = stiffness;
@@ -50,25 +55,71 @@ class AssemblyOf final : public Assembly {
                : Status::failed("the stress overflows, or an element is turned inside out");
   }
 
+  /// V = Σ ∫ ½ r² dz along the inner edge.
+  void by_volume(const State& state, std::span<double> volume) const override {
+    std::fill(volume.begin(), volume.end(), 0.0);
+    for (std::size_t row = 0; row < mesh_.axial; ++row)
+      for (std::size_t g = 0; g < E::points_1d; ++g) {
+        const InnerEdge at = inner_edge(state, row, g);
+        const double w = element_.weight_1d[g];
+        for (std::size_t k = 0; k < E::side; ++k) {
+          volume[at.dof[k]] += w * at.r * at.z * element_.shape_1d[g][k];
+          volume[at.dof[k] + 1] += w * at.r * at.r / 2 * element_.slope_1d[g][k];
+        }
+      }
+  }
+
   Status contract(const Material& material, const State& state, std::span<const Weights> weights,
                   std::span<double> by) override {
     const std::size_t count = material.parameter_count(), wanted = weights.size();
     std::vector<std::span<const double>> directions;
     for (const Weights& weight : weights) directions.emplace_back(weight.right);
-    std::vector<double> lanes(by.size() * n_), dilation(np * n_);
+    std::vector<double> sums(by.size() * ng * n_), dilation(np * n_);
     std::fill(by.begin(), by.end(), 0.0);
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
       row_.take(state, row);
       if (Status status = row_.evaluate(material, true, true); !status.ok()) return status;
-      row_.contract(material, directions, lanes);
-      for (std::size_t i = 0; i < by.size(); ++i)
-        for (std::size_t e = 0; e < n_; ++e) by[i] -= lanes[i * n_ + e];
+      row_.contract(material, directions, sums);
       row_.dilate(dilation);
       for (std::size_t w = 0; w < wanted; ++w)
         for (std::size_t e = 0; e < n_; ++e)
           for (std::size_t m = 0; m < np; ++m)
             by[count * wanted + w] += weights[w].dilation[(row * n_ + e) * np + m] * dilation[m * n_ + e];
     }
+    for (std::size_t i = 0; i < by.size(); ++i)
+      by[i] -= std::accumulate(&sums[i * ng * n_], &sums[i * ng * n_] + ng * n_, 0.0);
+    return {};
+  }
+
+  Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
+                  std::span<State> product, State& residual) override {
+    std::vector<double> forces(fields.size() * dofs * n_), dilations(fields.size() * np * n_);
+    for (State& of : product) {
+      of.x.assign(2 * mesh_.nodes(), 0);
+      of.q.resize(pressure_count());
+    }
+    residual.x.assign(2 * mesh_.nodes(), 0);
+    residual.q.resize(pressure_count());
+    double unused = 0;
+    for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      row_.take(state, row);
+      if (Status status = row_.evaluate(material, true, false); !status.ok()) return status;
+      row_.integrate(material.sees_shear(), false, unused);
+      gather(row, row_.force.data(), row_.c.data(), residual);
+      row_.multiply(material.sees_shear(), fields, forces, dilations);
+      for (std::size_t d = 0; d < product.size(); ++d)
+        gather(row, &forces[d * dofs * n_], &dilations[d * np * n_], product[d]);
+    }
+    std::vector<double> volume(residual.x.size());
+    by_volume(state, volume);
+    press(pressure, volume, residual.x);
+    if (support.slope != 0) add_support(mesh_, element_, support, state, residual.x);
+    stiffen_edges(state, pressure);
+    for (std::size_t d = 0; d < product.size(); ++d)
+      for (const Entry& at : edges_) {
+        product[d].x[at.i] += at.value * fields[d].x[at.j];
+        if (at.i != at.j) product[d].x[at.j] += at.value * fields[d].x[at.i];
+      }
     return {};
   }
 
@@ -91,7 +142,7 @@ class AssemblyOf final : public Assembly {
         for (std::size_t m = 0; m < np; ++m) {
           const std::size_t at = (row * n_ + e) * np + m;
           double sum = dilation.empty() ? 0 : dilation[at];
-          for (std::size_t a = 0; a < nn; ++a) {
+          for (std::size_t a = 0; a < (dx.empty() ? 0 : nn); ++a) {
             const std::size_t dof = 2 * row_.node(a, e, row);
             sum += system.coupling[at * dofs + 2 * a] * dx[dof] + system.coupling[at * dofs + 2 * a + 1] * dx[dof + 1];
           }
@@ -122,13 +173,8 @@ class AssemblyOf final : public Assembly {
       for (std::size_t g = 0; g < ng; ++g)
         for (std::size_t e = 0; e < n_; ++e) stored += row_.volume(g, e) * W[g * n_ + e];
       for (std::size_t g = 0; g < E::points_1d; ++g) {
-        double r = 0, z = 0;
-        for (std::size_t k = 0; k < E::side; ++k) {
-          const std::size_t dof = 2 * mesh_.node(0, row * Order + k);
-          r += element_.shape_1d[g][k] * state.x[dof];
-          z += element_.slope_1d[g][k] * state.x[dof + 1];
-        }
-        lumen += element_.weight_1d[g] * r * r * z / 2;
+        const InnerEdge at = inner_edge(state, row, g);
+        lumen += element_.weight_1d[g] * at.r * at.r * at.z / 2;
       }
     }
     lumen *= 2 * std::numbers::pi;
@@ -169,7 +215,7 @@ class AssemblyOf final : public Assembly {
   void prepare(System& system, std::size_t size, bool tangent) const {
     system.force.assign(size, 0);
     system.right.assign(size, 0);
-    system.volume.assign(size, 0);
+    system.volume.resize(size);
     system.coupling.resize(pressure_count() * dofs);
     system.dilation.resize(pressure_count());
     if (!tangent) return;
@@ -177,6 +223,27 @@ class AssemblyOf final : public Assembly {
       system.matrix.resize(mesh_);
     else
       system.matrix.clear();
+  }
+
+  /// The pressure on the inner edge.
+  void press(double pressure, std::span<const double> volume, std::span<double> force) const {
+    for (std::size_t k = 0; k < (pressure == 0 ? 0 : mesh_.planes()); ++k)
+      for (std::size_t d = 0; d < 2; ++d) {
+        const std::size_t i = 2 * mesh_.node(0, k) + d;
+        force[i] -= pressure * volume[i];
+      }
+  }
+
+  /// Adds what the lanes of a row have, dof by dof, and sets its modes.
+  void gather(std::size_t row, const double* force, const double* c, State& to) const {
+    for (std::size_t a = 0; a < nn; ++a)
+      for (std::size_t e = 0; e < n_; ++e) {
+        const std::size_t dof = 2 * row_.node(a, e, row);
+        to.x[dof] += force[2 * a * n_ + e];
+        to.x[dof + 1] += force[(2 * a + 1) * n_ + e];
+      }
+    for (std::size_t m = 0; m < np; ++m)
+      for (std::size_t e = 0; e < n_; ++e) to.q[(row * n_ + e) * np + m] = c[m * n_ + e];
   }
 
   /// Condenses the pressures and adds the row to the system; returns the largest mean of |J − 1|.
@@ -234,37 +301,37 @@ class AssemblyOf final : public Assembly {
       }
   }
 
-  /// V = Σ ∫ ½ r² dz along the inner edge: its gradient, and −P times gradient and Hessian.
-  void follow_pressure(const State& state, double pressure, bool tangent, System& system) const {
-    for (std::size_t row = 0; row < mesh_.axial; ++row)
+  /// A Gauss point of the inner edge of a row of elements: r, dz along it and the positions there.
+  struct InnerEdge {
+    double r = 0, z = 0;
+    std::array<std::size_t, E::side> dof{};
+  };
+  [[nodiscard]] InnerEdge inner_edge(const State& state, std::size_t row, std::size_t g) const {
+    InnerEdge at;
+    for (std::size_t k = 0; k < E::side; ++k) {
+      at.dof[k] = 2 * mesh_.node(0, row * Order + k);
+      at.r += element_.shape_1d[g][k] * state.x[at.dof[k]];
+      at.z += element_.slope_1d[g][k] * state.x[at.dof[k] + 1];
+    }
+    return at;
+  }
+
+  /// Into edges_: −P times the Hessian of V, and what the support adds.
+  void stiffen_edges(const State& state, double pressure) {
+    edges_.clear();
+    for (std::size_t row = 0; row < (pressure == 0 ? 0 : mesh_.axial); ++row)
       for (std::size_t g = 0; g < E::points_1d; ++g) {
+        const InnerEdge at = inner_edge(state, row, g);
         const auto& N = element_.shape_1d[g];
         const auto& D = element_.slope_1d[g];
-        double r = 0, z = 0;
-        std::size_t dof[E::side];
-        for (std::size_t k = 0; k < E::side; ++k) {
-          dof[k] = 2 * mesh_.node(0, row * Order + k);
-          r += N[k] * state.x[dof[k]];
-          z += D[k] * state.x[dof[k] + 1];
-        }
         const double w = element_.weight_1d[g];
-        for (std::size_t k = 0; k < E::side; ++k) {
-          system.volume[dof[k]] += w * r * z * N[k];
-          system.volume[dof[k] + 1] += w * r * r / 2 * D[k];
-        }
-        if (!tangent || pressure == 0) continue;
         for (std::size_t k = 0; k < E::side; ++k)
           for (std::size_t l = 0; l < E::side; ++l) {
-            if (k <= l) system.matrix.add(dof[k], dof[l], -pressure * w * z * N[k] * N[l]);
-            system.matrix.add(dof[k], dof[l] + 1, -pressure * w * r * N[k] * D[l]);
+            if (k <= l) edges_.push_back({at.dof[k], at.dof[l], -pressure * w * at.z * N[k] * N[l]});
+            edges_.push_back({at.dof[k], at.dof[l] + 1, -pressure * w * at.r * N[k] * D[l]});
           }
       }
-    if (pressure == 0) return;
-    for (std::size_t k = 0; k < mesh_.planes(); ++k)
-      for (std::size_t d = 0; d < 2; ++d) {
-        const std::size_t i = 2 * mesh_.node(0, k) + d;
-        system.force[i] -= pressure * system.volume[i];
-      }
+    if (support.slope != 0) stiffen_by_support(mesh_, element_, support, state, edges_);
   }
 
   const Mesh mesh_;
@@ -272,6 +339,7 @@ class AssemblyOf final : public Assembly {
   const E element_;
   Elements row_;
   std::vector<double> column_;  ///< ∫ R dR over each column of elements
+  std::vector<Entry> edges_;    ///< of the matrix, by what acts on the edges of the wall
 };
 
 }  // namespace

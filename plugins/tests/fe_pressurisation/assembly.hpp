@@ -26,7 +26,7 @@ struct System {
 };
 
 /// How an observable depends on the equations of a solution: it changes by right · (what −∂Π/∂x does at a fixed state),
-/// by dilation · (what c does there) and by moved · (what the prescribed positions do; zero elsewhere).
+/// by dilation · (what c does there) and by moved · (what the positions of the nodes at the end do).
 struct Weights {
   std::vector<double> right, dilation, moved;
 };
@@ -64,16 +64,22 @@ class Assembly {
   /// evaluated.
   virtual Status assemble(const Material& material, const State& state, double pressure, bool tangent,
                           System& system) = 0;
+  /// ∂V/∂x at a state.
+  virtual void by_volume(const State& state, std::span<double> volume) const = 0;
   /// By every parameter of the material and by the relative thickness (x and Ro fixed), with a differentiated closing
   /// by the rest of Geometry, too, for every weight w: `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation
   /// · ∂c/∂p_j.
   virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
                           std::span<double> by) = 0;
+  /// What the derivatives of the equations at a state make of `fields` y, h: `product`.x = K y − G h and .q = Gᵀ y; and
+  /// the equations, `residual`.x = ∂Π/∂x and .q = c. No γ is in it, so that it is exact to rounding.
+  virtual Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
+                          std::span<State> product, State& residual) = 0;
   /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).
   virtual double contract(const State& state, const Weights& weight, std::span<double> by_free) = 0;
   /// Takes what the points remember on to the state, in History::after.
   virtual Status remember(const Material& material, const State& state) = 0;
-  /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero.
+  /// dq = −γ M⁻¹ (c + Gᵀ dx) for a solved dx; without `dilation` c is zero, and without `dx` that.
   virtual void pressures(const System& system, std::span<const double> dx, std::span<const double> dilation,
                          std::span<double> dq) const = 0;
   /// G dq.

@@ -4,27 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <new>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "panels.hpp"
+
 namespace tunica::fe {
-
-/// Memory that begins at a cache line, so that no vector of it lies across two.
-template <class T>
-struct Aligned {
-  using value_type = T;
-  static constexpr std::align_val_t line{64};
-
-  Aligned() = default;
-  template <class U>
-  explicit(false) Aligned(const Aligned<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* at, std::size_t) { ::operator delete(at, line); }
-  friend bool operator==(const Aligned&, const Aligned&) { return true; }
-};
 
 /// A symmetric band matrix, its lower half: entries (i, j), 0 ≤ i − j ≤ width.
 ///
@@ -71,7 +58,6 @@ class Banded {
   void solve(std::span<const std::span<double>> x) const;
 
  private:
-  static constexpr std::size_t panel = 8;
   [[nodiscard]] std::size_t place(std::size_t j) const {
     return j / panel * panel * height_ + j % panel * (height_ + 1);
   }
@@ -79,7 +65,7 @@ class Banded {
   template <class Vector, std::size_t Vectors, std::size_t Columns>
   std::optional<std::size_t> by_blocks(const std::function<bool()>& late);
   template <class Vector>
-  std::size_t factorise_panel(std::size_t at);
+  std::size_t factorise_panel_at(std::size_t J);
   void subtract_panel(std::size_t at);
   template <class Vector>
   void substitute(std::span<double* const> x) const;

@@ -21,6 +21,8 @@ Row<Order>::Row(const Mesh& mesh)
   for (std::size_t g = 0; g < ng; ++g)
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) over_radius_.push_back(element_.shape[g][a] / radius_[g * n_ + e]);
+  for (std::size_t i = 0; i < measure_.size(); ++i)
+    unit_volume_.push_back(element_.weight[i / n_] * h_ / 4 * measure_[i]);
   x_.resize(dofs * n_);
   q_.resize(np * n_);
   f.resize(5 * ng * n_);
@@ -226,13 +228,13 @@ void Row<Order>::add_shear(std::size_t g) {
 }
 
 template <std::size_t Order>
-void Row<Order>::add_force(std::size_t g) {
+void Row<Order>::add_force(std::size_t g, double* to) {
   const double to_z = 2 / height(row_), to_r = 2 / h_;
   const double* __restrict__ const p = p_.data();
   for (std::size_t a = 0; a < nn; ++a) {
     const double by_r = element_.by_xi[g][a] * to_r, by_z = element_.by_eta[g][a] * to_z;
     const double* __restrict__ const t = over_radius_.data() + (g * nn + a) * n_;
-    double* __restrict__ const r = force.data() + 2 * a * n_;
+    double* __restrict__ const r = to + 2 * a * n_;
     double* __restrict__ const z = r + n_;
 #pragma GCC ivdep
     for (std::size_t e = 0; e < n_; ++e) {
@@ -344,7 +346,7 @@ void Row<Order>::integrate_lanes(bool sees_shear, bool tangent, double& stiffnes
   for (std::size_t g = 0; g < ng; ++g) {
     stress(g, sees_shear);
     if (!narrow_.empty()) narrow(p_, false);
-    add_force(g);
+    add_force(g, force.data());
     add_coupling(g, tangent);
     if (!tangent) continue;
     moduli(g, sees_shear, stiffness);
@@ -365,6 +367,83 @@ void Row<Order>::narrow(std::vector<double>& of, bool twice) const {
     }
 }
 
+/// φ = B y is the f of y at a point: K y = ∫ Bᵀ A φ dV, G h = ∫ Bᵀ ∂J/∂f h dV, Gᵀ y = ∫ ψ ∂J/∂f · φ dV.
+template <std::size_t Order>
+void Row<Order>::multiply(bool sees_shear, std::span<const State> fields, std::span<double> forces,
+                          std::span<double> dilations) {
+  z_.resize(dofs * n_);
+  phi_.resize(5 * ng * n_);
+  moduli_.resize(15 * ng * n_);
+  detail::vectorised([&] { multiply_lanes(sees_shear, fields, forces.data(), dilations.data()); });
+}
+
+template <std::size_t Order>
+void Row<Order>::multiply_lanes(bool sees_shear, std::span<const State> fields, double* forces, double* dilations) {
+  const std::size_t all = ng * n_, n = n_;
+  std::fill_n(forces, fields.size() * dofs * n, 0.0);
+  std::fill_n(dilations, fields.size() * np * n, 0.0);
+  double unused = 0;
+  for (std::size_t g = 0; g < ng; ++g) {
+    moduli(g, sees_shear, unused);
+    std::copy_n(a_.data(), 15 * n, moduli_.data() + 15 * g * n);
+  }
+  for (std::size_t d = 0; d < fields.size(); ++d) {
+    take_field(fields[d].x);
+    for (std::size_t g = 0; g < ng; ++g) {
+      interpolate(g, z_, phi_);
+      double* __restrict__ const h = scratch.data();
+      for (std::size_t e = 0; e < n; ++e) {
+        const double* const modes = fields[d].q.data() + (row_ * n + e) * np;
+        h[e] = modes[0];
+        if constexpr (np == 3) h[e] += element_.xi[g] * modes[1] + element_.eta[g] * modes[2];
+      }
+      const double* __restrict__ const at = f.data() + g * n;
+      const double* __restrict__ const phi = phi_.data() + g * n;
+      const double* __restrict__ const V = unit_volume_.data() + g * n;
+      const double* __restrict__ const A = moduli_.data() + 15 * g * n;
+      double* __restrict__ const p = p_.data();
+      double* __restrict__ const c0 = dilations + d * np * n;
+      const double height = this->height(row_), xi = element_.xi[g], eta = element_.eta[g];
+#pragma GCC ivdep
+      for (std::size_t e = 0; e < n; ++e) {
+        const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
+        const double h0 = phi[e], h1 = phi[all + e], h2 = phi[2 * all + e], h3 = phi[3 * all + e],
+                     h4 = phi[4 * all + e], dV = height * V[e];
+        const double j0 = dV * f4 * f3, j1 = -dV * f4 * f2, j2 = -dV * f4 * f1, j3 = dV * f4 * f0,
+                     j4 = dV * (f0 * f3 - f1 * f2);
+        const auto times = [&](std::size_t i) {
+          return (A[upper(i, 0) * n + e] * h0 + A[upper(i, 1) * n + e] * h1) +
+                 (A[upper(i, 2) * n + e] * h2 + A[upper(i, 3) * n + e] * h3) + A[upper(i, 4) * n + e] * h4;
+        };
+        p[e] = times(0) - j0 * h[e];
+        p[n + e] = times(1) - j1 * h[e];
+        p[2 * n + e] = times(2) - j2 * h[e];
+        p[3 * n + e] = times(3) - j3 * h[e];
+        p[4 * n + e] = times(4) - j4 * h[e];
+        const double change = (j0 * h0 + j1 * h1) + (j2 * h2 + j3 * h3) + j4 * h4;
+        c0[e] += change;
+        if constexpr (np == 3) {
+          c0[n + e] += xi * change;
+          c0[2 * n + e] += eta * change;
+        }
+      }
+      if (!narrow_.empty()) narrow(p_, false);
+      add_force(g, forces + d * dofs * n);
+    }
+  }
+}
+
+template <std::size_t Order>
+void Row<Order>::take_field(std::span<const double> field) {
+  for (std::size_t a = 0; a < nn; ++a)
+#pragma GCC ivdep
+    for (std::size_t e = 0; e < n_; ++e) {
+      const std::size_t dof = 2 * node(a, e, row_);
+      z_[2 * a * n_ + e] = field[dof];
+      z_[(2 * a + 1) * n_ + e] = field[dof + 1];
+    }
+}
+
 /// With φ the f of z and δC the change of C along it, d(z · force)/dp_j = ∫ ∂²W/∂C∂p_j · δC dV. The thickness t (1 + g)
 /// moves the points of the mesh, by dR/dg = R − Ro =: ρ R, and stretches their elements along R; at fixed x is then
 ///   dV' = (1 + ρ) dV,   f' = −(f0, 0, f2, 0, ρ f4),   φ' likewise,
@@ -378,53 +457,55 @@ void Row<Order>::contract(const Material& material, std::span<const std::span<co
   z_.resize(dofs * n_);
   phi_.resize(5 * all);
   thickened_.resize(5 * all);
+  strain_.resize(4 * all);
   turned_.resize(closed ? 4 * all : 0);
-  std::fill(by.begin(), by.end(), 0.0);
   double unused = 0;
-  for (std::size_t d = 0; d < wanted; ++d) {
-    for (std::size_t a = 0; a < nn; ++a)
-#pragma GCC ivdep
-      for (std::size_t e = 0; e < n_; ++e) {
-        const std::size_t dof = 2 * node(a, e, row_);
-        z_[2 * a * n_ + e] = directions[d][dof];
-        z_[(2 * a + 1) * n_ + e] = directions[d][dof + 1];
-      }
-    const auto integrate_along = [&](std::size_t g) {
-      interpolate(g, z_, phi_);
-      if (d == 0) thicken(g, material.sees_shear(), unused);
-      if (d == 0 && closed) turn(g, material.sees_shear());
-      const double* __restrict__ const at = f.data() + g * n_;
-      const double* __restrict__ const phi = phi_.data() + g * n_;
-      const double* __restrict__ const R = measure_.data() + g * n_;
-      const double* __restrict__ const p = thickened_.data() + 5 * g * n_;
-      double* __restrict__ const strain = scratch.data();
-      double* __restrict__ const thickness = by.data() + (count * wanted + d) * n_;
-      const double weight = area(g);
-#pragma GCC ivdep
-      for (std::size_t e = 0; e < n_; ++e) {
-        const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
-        const double h0 = phi[e], h1 = phi[all + e], h2 = phi[2 * all + e], h3 = phi[3 * all + e],
-                     h4 = phi[4 * all + e], dV = weight * R[e];
-        strain[e] = 2 * dV * f4 * h4;
-        strain[n_ + e] = 2 * dV * (f1 * h1 + f3 * h3);
-        strain[2 * n_ + e] = 2 * dV * (f0 * h0 + f2 * h2);
-        strain[3 * n_ + e] = dV * (f0 * h1 + f1 * h0 + f2 * h3 + f3 * h2);
-        thickness[e] += (p[e] * h0 + p[n_ + e] * h1) + (p[2 * n_ + e] * h2 + p[3 * n_ + e] * h3) + p[4 * n_ + e] * h4;
-      }
-      if (closed) by_closing_of(*material.closing(), g, components, by.subspan((count * wanted + d) * n_), wanted);
+  detail::vectorised([&] {
+    for (std::size_t g = 0; g < ng; ++g) {
+      thicken(g, material.sees_shear(), unused);
+      if (closed) turn(g, material.sees_shear());
+    }
+    for (std::size_t d = 0; d < wanted; ++d) {
+      take_field(directions[d]);
+      for (std::size_t g = 0; g < ng; ++g) interpolate(g, z_, phi_);
+      along(by.subspan((count * wanted + d) * all, all));
+      if (closed) by_closing_of(*material.closing(), components, by.subspan((count * wanted + d) * all), wanted);
+      const double* __restrict__ const s = strain_.data();
       for (std::size_t j = 0; j < count; ++j) {
-        double* __restrict__ const sum = by.data() + (j * wanted + d) * n_;
-        for (std::size_t i = 0; i < components; ++i) {
-          const double* __restrict__ const w = first_dp.data() + (4 * j + i) * all + g * n_;
-          const double* __restrict__ const along = strain + i * n_;
+        double* __restrict__ const sum = by.data() + (j * wanted + d) * all;
+        const double* __restrict__ const w = first_dp.data() + 4 * j * all;
 #pragma GCC ivdep
-          for (std::size_t e = 0; e < n_; ++e) sum[e] += w[e] * along[e];
-        }
+        for (std::size_t i = 0; i < all; ++i)
+          sum[i] += (w[i] * s[i] + w[all + i] * s[all + i]) + w[2 * all + i] * s[2 * all + i];
+        if (components == 4)
+#pragma GCC ivdep
+          for (std::size_t i = 0; i < all; ++i) sum[i] += w[3 * all + i] * s[3 * all + i];
       }
-    };
-    detail::vectorised([&] {
-      for (std::size_t g = 0; g < ng; ++g) integrate_along(g);
-    });
+    }
+  });
+}
+
+/// δC dV along φ, and what the thickness does along it.
+template <std::size_t Order>
+void Row<Order>::along(std::span<double> thickness) {
+  const std::size_t all = ng * n_;
+  const double height = this->height(row_);
+  const double* __restrict__ const at = f.data();
+  const double* __restrict__ const phi = phi_.data();
+  const double* __restrict__ const V = unit_volume_.data();
+  const double* __restrict__ const p = thickened_.data();
+  double* __restrict__ const strain = strain_.data();
+  double* __restrict__ const sum = thickness.data();
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < all; ++i) {
+    const double f0 = at[i], f1 = at[all + i], f2 = at[2 * all + i], f3 = at[3 * all + i], f4 = at[4 * all + i];
+    const double h0 = phi[i], h1 = phi[all + i], h2 = phi[2 * all + i], h3 = phi[3 * all + i], h4 = phi[4 * all + i],
+                 dV = height * V[i];
+    strain[i] = 2 * dV * f4 * h4;
+    strain[all + i] = 2 * dV * (f1 * h1 + f3 * h3);
+    strain[2 * all + i] = 2 * dV * (f0 * h0 + f2 * h2);
+    strain[3 * all + i] = dV * (f0 * h1 + f1 * h0 + f2 * h3 + f3 * h2);
+    sum[i] += (p[i] * h0 + p[all + i] * h1) + (p[2 * all + i] * h2 + p[3 * all + i] * h3) + p[4 * all + i] * h4;
   }
 }
 
@@ -441,7 +522,7 @@ void Row<Order>::thicken(std::size_t g, bool sees_shear, double& unused) {
     const double* __restrict__ const a2 = a_.data() + upper(i, 2) * n_;
     const double* __restrict__ const a4 = a_.data() + upper(i, 4) * n_;
     const double* __restrict__ const p = p_.data() + i * n_;
-    double* __restrict__ const to = thickened_.data() + (5 * g + i) * n_;
+    double* __restrict__ const to = thickened_.data() + i * all + g * n_;
     // ρ, or 1 + ρ, or 1 times p
     const double constant = i == 4 || i % 2 == 1 ? 1 : 0, linear = i == 4 ? 0 : 1;
 #pragma GCC ivdep
@@ -472,20 +553,19 @@ void Row<Order>::turn(std::size_t g, bool sees_shear) {
   }
 }
 
-/// Adds what the closing of the wall and the factors of its layers do along the change of C in `scratch`.
+/// Adds what the closing of the wall and the factors of its layers do along the change of C.
 template <std::size_t Order>
-void Row<Order>::by_closing_of(const Closing& closing, std::size_t g, std::size_t components, std::span<double> by,
+void Row<Order>::by_closing_of(const Closing& closing, std::size_t components, std::span<double> by,
                                std::size_t wanted) {
   const std::size_t all = ng * n_;
-  for (std::size_t e = 0; e < n_; ++e) {
+  for (std::size_t i = 0; i < all; ++i) {
     double by_square = 0, by_factor = 0;
     for (std::size_t a = 0; a < components; ++a) {
-      by_square += turned_[a * all + g * n_ + e] * scratch[a * n_ + e];
-      by_factor += first[a * all + g * n_ + e] * scratch[a * n_ + e];
+      by_square += turned_[a * all + i] * strain_[a * all + i];
+      by_factor += first[a * all + i] * strain_[a * all + i];
     }
     for (std::size_t v = 0; v < geometry_count; ++v)
-      by[v * wanted * n_ + e] +=
-          by_square * closing.log_square_by[v][g * n_ + e] + by_factor * closing.log_factor_by[v][g * n_ + e];
+      by[v * wanted * all + i] += by_square * closing.log_square_by[v][i] + by_factor * closing.log_factor_by[v][i];
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sensitivity.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 namespace tunica::fe {
@@ -30,7 +31,8 @@ Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positi
                            std::vector<double>& by) {
   const std::size_t count = material_->parameter_count(), wanted = positions.size() + (axial_force ? 1 : 0);
   const Mesh& mesh = solver_.mesh();
-  solver_.weigh(positions, axial_force, weights_);
+  if (Status status = solver_.weigh(path.load(), path.state(), positions, axial_force, weights_); !status.ok())
+    return status;
   const bool closed = material_->closing() != nullptr && material_->closing()->differentiated();
   contracted_.resize((count + (closed ? std::size_t{geometry_count} : 1)) * wanted);
   if (Status status = solver_.assembly().contract(*material_, path.state(), weights_, contracted_); !status.ok())
@@ -51,8 +53,7 @@ Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positi
           for (std::size_t d = 0; d < 2; ++d)
             derivative += weights_[k].right[2 * mesh.node(0, plane) + d] * right[2 * mesh.node(0, plane) + d];
       }
-      for (std::size_t i = 0; i < moved_.size(); ++i)
-        derivative += weights_[k].moved[solver_.rest().x.size() - moved_.size() + i] * moved_[i];
+      for (std::size_t i = 0; i < moved_.size(); ++i) derivative += weights_[k].moved[i] * moved_[i];
     }
   }
   if (!solver_.assembly().support.free.empty()) add_support(path, wanted, axial_force, by);
@@ -78,20 +79,29 @@ void Sensitivity::add_support(const Path& path, std::size_t wanted, bool axial_f
   }
 }
 
+/// Positions together, some at a time: each of them takes as much memory as the mesh.
+Status Sensitivity::follow(const Path& path, std::span<const std::size_t> positions,
+                           std::vector<std::vector<double>>& moved) {
+  constexpr std::size_t together = 32;
+  const std::size_t directions = material_->parameter_count() + direction_count;
+  std::vector<std::vector<double>> found(directions, std::vector<double>(positions.size()));
+  for (std::size_t from = 0; from < positions.size(); from += together) {
+    const auto some = positions.subspan(from, std::min(together, positions.size() - from));
+    if (Status status = derive(path, some, false, by_); !status.ok()) return status;
+    for (std::size_t j = 0; j < directions; ++j)
+      if (j != material_->parameter_count() + along_pressure)  // they are of the tube without pressure
+        std::copy_n(&by_[j * some.size()], some.size(), &found[j][from]);
+  }
+  moved = std::move(found);
+  return {};
+}
+
 Status Sensitivity::support(const Path& path) {
   const Mesh& mesh = solver_.mesh();
   std::vector<std::size_t> positions(mesh.planes());
   for (std::size_t k = 0; k < mesh.planes(); ++k) positions[k] = 2 * mesh.node(mesh.across() - 1, k);
   free_.clear();
-  if (Status status = derive(path, positions, false, by_); !status.ok()) return status;
-  std::vector<std::vector<double>> free;
-  for (std::size_t j = 0; j < material_->parameter_count() + direction_count; ++j) {
-    free.emplace_back(mesh.planes(), 0.0);
-    for (std::size_t k = 0; k < mesh.planes() && j != material_->parameter_count() + along_pressure; ++k)
-      free.back()[k] = by_[j * positions.size() + k];
-  }
-  free_ = std::move(free);
-  return {};
+  return follow(path, positions, free_);
 }
 
 Status Sensitivity::hold(const Path& path) {
@@ -99,13 +109,7 @@ Status Sensitivity::hold(const Path& path) {
   std::vector<std::size_t> positions(mesh.across());
   for (std::size_t i = 0; i < mesh.across(); ++i) positions[i] = 2 * mesh.node(i, mesh.planes() - 1);
   end_.clear();
-  if (Status status = derive(path, positions, false, by_); !status.ok()) return status;
-  for (std::size_t j = 0; j < material_->parameter_count() + direction_count; ++j) {
-    const bool held_before = j == material_->parameter_count() + along_pressure;
-    end_.emplace_back(mesh.across(), 0.0);
-    for (std::size_t i = 0; i < mesh.across() && !held_before; ++i) end_.back()[i] = by_[j * positions.size() + i];
-  }
-  return {};
+  return follow(path, positions, end_);
 }
 
 Status Sensitivity::sample(const Path& path, Sample& sample) {
@@ -116,6 +120,9 @@ Status Sensitivity::sample(const Path& path, Sample& sample) {
   }
   if (Status status = derive(path, positions, wanted_[2], by_); !status.ok()) return status;
   sample.value = path.observed();
+  for (std::size_t k = 0; k < place.size(); ++k)
+    sample.value[place[k]] =
+        solver_.defects()[k] + (place[k] == 2 ? solver_.force_of_support() : sample.value[place[k]]);
   sample.by.assign(material_->parameter_count() + direction_count, {});
   for (std::size_t i = 0; i < by_.size(); ++i) sample.by[i / place.size()][place[i % place.size()]] = by_[i];
   return {};

@@ -45,12 +45,14 @@ class Sensitivity {
   Status hold(const Path& path);
   /// The support acts from now on, whose free radii are those of this equilibrium.
   Status support(const Path& path);
-  /// Of the equilibrium the path is at; the solver's factor has to be exact.
+  /// Of the equilibrium the path is at; the solver's factor has to be of a state nearby.
   Status sample(const Path& path, Sample& sample);
 
  private:
   /// Of State::x at `positions` and, last, of the axial force: `by`[direction · weights + observable].
   Status derive(const Path& path, std::span<const std::size_t> positions, bool axial_force, std::vector<double>& by);
+  /// ∂x/∂p at `positions` by direction, not by the pressure.
+  Status follow(const Path& path, std::span<const std::size_t> positions, std::vector<std::vector<double>>& moved);
   void add_support(const Path& path, std::size_t wanted, bool axial_force, std::vector<double>& by);
   void move_ends(std::size_t direction, std::vector<double>& moved) const;
 

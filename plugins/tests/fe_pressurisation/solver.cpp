@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
 constexpr double slow = 0.3;               ///< a step of a frozen factor this times the last one is too long
-constexpr double consistent = 1e-7;        ///< a factor this near to the solution is the solution's
+constexpr double near = 2e-5;              ///< a factor of a state this near to the solution is nearly its own
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
 /// Not finite where an entry is not.
@@ -29,7 +29,7 @@ double largest(std::span<const double> x) {
 
 }  // namespace
 
-Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) {
+Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)), factor_(mesh) {
   rest_.x.resize(2 * mesh_.nodes());
   for (std::size_t k = 0; k < mesh_.planes(); ++k)
     for (std::size_t i = 0; i < mesh_.across(); ++i) {
@@ -45,9 +45,7 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)) 
   product_.resize(rest_.x.size());
 }
 
-double Solver::bytes(const Mesh& mesh) {
-  return Banded::bytes(2 * mesh.nodes(), Stencil::width_of(mesh)) + Stencil::bytes(mesh);
-}
+double Solver::bytes(const Mesh& mesh) { return Factor::bytes(mesh) + Stencil::bytes(mesh); }
 
 Status Solver::begin(const Material& material) {
   material_ = &material;
@@ -99,15 +97,15 @@ bool Solver::factorise() {
     for (std::size_t j = 0; j < middle_.size(); ++j)
       middle_[j] += system_.matrix.entry(std::max(row, j), std::min(row, j));
   }
-  system_.matrix.spread(factor_);
   const std::size_t end = mesh_.planes() - 1;
-  const double diagonal = *factor_.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
+  fixed_.clear();
   for (std::size_t i = 0; i < mesh_.across(); ++i) {
-    factor_.fix(2 * mesh_.node(i, 0) + 1, diagonal);
-    factor_.fix(2 * mesh_.node(i, end) + 1, diagonal);
-    if (held_) factor_.fix(2 * mesh_.node(i, end), diagonal);
+    fixed_.push_back(2 * mesh_.node(i, 0) + 1);
+    fixed_.push_back(2 * mesh_.node(i, end) + 1);
+    if (held_) fixed_.push_back(2 * mesh_.node(i, end));
   }
-  const auto negative = factor_.factorise([this] { return late(); });
+  const double diagonal = *system_.matrix.column(2 * mesh_.node(mesh_.across() / 2, end / 2));
+  const auto negative = factor_.factorise(system_.matrix, fixed_, diagonal, [this] { return late(); });
   has_factor_ = negative.has_value();
   negative_ = negative.value_or(0);
   ++effort_.factorisations;
@@ -130,8 +128,10 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
   effort_.steps.clear();
   mixes_ = false;
   double last = std::numeric_limits<double>::infinity();
-  // Near the last solution its factor comes close before a new one makes it exact.
+  double away = last;  // how far the state of the factor is
+  // Near the last solution its factor comes close before a new one is made beside this one.
   bool full = !(full_steps && has_factor_);
+  const bool anew = full && full_steps;
   for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
@@ -161,10 +161,11 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     // The matrix of a material that remembers is not quite its tangent: see Material.
     if (full && material_->remembers())
       left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
-    if (left < tolerance && (!full_steps || (full && step < consistent))) return {};
+    away = full ? step : away + step;
+    if (left < tolerance && (!full_steps || away < near)) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
     last = step;
-    full = full_steps ? full || step < consistent || step > frozen_below : step > frozen_below;
+    full = step > frozen_below || anew || (full_steps && step < near && away >= near);
     if (full) system_.gamma = incompressibility * system_.stiffness;
   }
   return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));
@@ -262,61 +263,6 @@ void Solver::derive(std::span<const double> right, std::span<const double> moved
   prescribe(derivative.x);
   for (std::size_t i = 0; i < moved.size(); ++i) derivative.x[i] += moved[i];
   assembly_->pressures(system_, derivative.x, {}, derivative.q);
-}
-
-/// Let b · right + a · dx be the observable (b and a = −K̂ b for the axial force, K̂ the condensed matrix), with
-/// dx = K̂⁻¹ (right − γ G M⁻¹ dilation − K̂ moved) + moved. With z = K̂⁻¹ a its weights are z + b, h = −γ M⁻¹ Gᵀ (z + b)
-/// and a − K̂ z, but for the compressibility of the matrix: Gᵀ (z + b) should be nothing. With the forces of the
-/// pressures h one more solution takes that out to second order in 1/γ: z becomes z + K̂⁻¹ G h, a becomes a + G h, and
-/// what Gᵀ (z + b) is then adds to h.
-void Solver::weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights) {
-  const std::size_t size = dx_.size(), end = 2 * mesh_.node(0, mesh_.planes() - 1);
-  const std::size_t count = positions.size() + (axial_force ? 1 : 0);
-  const double own = 2 * std::numbers::pi;  // b, over the plane of symmetry
-  weights.resize(count);
-  spread_.resize(count);
-  std::vector<std::span<double>> together;
-  const auto solve_free = [&] {
-    for (const std::span<double> x : together) prescribe(x);
-    factor_.solve(together);
-    for (const std::span<double> x : together) prescribe(x);
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double>& a = weights[k].moved;
-    a.assign(size, 0);
-    if (k < positions.size())
-      a[positions[k]] = 1;
-    else
-      for (std::size_t i = 0; i < middle_.size(); ++i) a[i] = -own * middle_[i];
-    if (k == positions.size()) a[outer()] -= own * middle_pressed_;
-    weights[k].right = a;
-    together.emplace_back(weights[k].right);
-  }
-  solve_free();
-  const auto add_own = [&](std::size_t k, double sign) {
-    for (std::size_t i = 0; i < (k == positions.size() ? mesh_.across() : 0); ++i)
-      weights[k].right[2 * mesh_.node(i, 0) + 1] += sign * own;
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    add_own(k, 1);
-    weights[k].dilation.resize(dq_.size());
-    assembly_->pressures(system_, weights[k].right, {}, weights[k].dilation);
-    add_own(k, -1);
-    spread_[k].resize(size);
-    assembly_->spread(system_, weights[k].dilation, spread_[k]);
-    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] += spread_[k][i];
-    together[k] = spread_[k];
-  }
-  solve_free();
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double>& z = weights[k].right;
-    for (std::size_t i = 0; i < size; ++i) z[i] += spread_[k][i];
-    // only the end is ever moved
-    for (std::size_t i = end; i < size; ++i) weights[k].moved[i] -= system_.matrix.row_times(i, z);
-    add_own(k, 1);
-    assembly_->pressures(system_, z, {}, dq_);
-    for (std::size_t i = 0; i < dq_.size(); ++i) weights[k].dilation[i] += dq_[i];
-  }
 }
 
 /// To first order after a step: ∂Π/∂x + K dx − G dq = −right + (K + γ G M⁻¹ Gᵀ) dx.

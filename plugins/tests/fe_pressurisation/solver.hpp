@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly.hpp"
+#include "factor.hpp"
 
 namespace tunica::fe {
 
@@ -26,7 +27,7 @@ struct Effort {
 ///
 /// A step assembles and factorises until the state moves by less than 1e-3 of the radius; from there on the last factor
 /// serves, while each of its steps is three tenths of the one before at most: a residual costs a fifth of a factor. For
-/// exact sensitivities it is full steps to the end, so that the factor belongs to the solution to within 1e-7.
+/// sensitivities the last factor is one of a state within 2e-5 of the solution.
 class Solver {
  public:
   static constexpr double tolerance = 1e-11;  ///< of the positions, over the outer radius
@@ -71,10 +72,15 @@ class Solver {
   [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
   [[nodiscard]] std::span<const double> by_stretch() const { return end_moved_; }
 
-  /// The weights of some entries of State::x and, on demand, last of all of the axial force, by the adjoint of the
-  /// equations: whatever the number of parameters. Needs the factor of the solution itself. `moved` counts at the end
-  /// alone.
-  void weigh(std::span<const std::size_t> positions, bool axial_force, std::vector<Weights>& weights);
+  /// The weights of some entries of State::x and, on demand, last of all of the axial force at a solution, by the
+  /// adjoint of the equations: whatever the number of parameters. `moved` counts at the end alone. With a factor of a
+  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing.
+  Status weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
+               std::vector<Weights>& weights);
+  /// After weigh(), what the observables of the solution that the state nearly is have more than those of the state, to
+  /// second order of what is left to it. The axial force has it in place of all but the support.
+  [[nodiscard]] std::span<const double> defects() const { return defects_; }
+  [[nodiscard]] double force_of_support() const { return -2 * std::numbers::pi * middle_support_; }
   [[nodiscard]] std::size_t outer() const { return 2 * (mesh_.across() - 1); }  ///< r there at mid-length, in State::x
   [[nodiscard]] std::size_t inner() const { return 0; }
 
@@ -91,6 +97,11 @@ class Solver {
   /// False where the deadline came first.
   bool factorise();
   void move(State& state, bool mixed);
+  void begin_adjoint(std::span<const std::size_t> positions, bool axial_force);
+  Status refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions, double& change);
+  void add_observable(std::span<const std::size_t> positions, std::size_t k, std::span<double> to) const;
+  void add_own(std::span<const std::size_t> positions, std::size_t k, std::span<double> x) const;
+  void solve_rights();
   void note_force();
   void note_support(const State& state);
   /// Sets prescribed entries to zero.
@@ -103,8 +114,12 @@ class Solver {
   std::vector<double> held_radius_;  ///< r at the far end, where it is held
   std::vector<double> end_moved_;    ///< ∂x/∂λz of the prescribed positions
   System system_;
-  Banded factor_;
-  std::vector<std::vector<double>> spread_;
+  Factor factor_;
+  std::vector<std::size_t> fixed_;           ///< positions that are prescribed
+  std::vector<State> adjoint_, multiplied_;  ///< of each observable, and what the equations make of it
+  State residual_;
+  std::vector<std::vector<double>> rights_, moved_ends_;
+  std::vector<double> defects_;
   std::vector<double> dx_, dq_, product_, middle_;  ///< middle_: the sum of the matrix's rows of z at mid-length
   double middle_force_ = 0;                         ///< Σ ∂Π/∂z there after the last step
   double middle_support_ = 0, middle_pressed_ = 0;  ///< h of the support there and h'(r), after the last solution

@@ -29,7 +29,7 @@ struct EdgePoint {
 
 template <std::size_t Order>
 void add_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
-                 std::vector<double>& force, Stencil* matrix) {
+                 std::vector<double>& force) {
   for (std::size_t row = 0; row < mesh.axial; ++row)
     for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
       const EdgePoint<Order> at(mesh, element, support, state, row, g);
@@ -40,10 +40,22 @@ void add_support(const Mesh& mesh, const Element<Order>& element, const Support&
         force[at.dof[k]] += w * at.z * pressed * N[k];
         force[at.dof[k] + 1] += w * Support::stored(at.r, at.rho) * D[k];
       }
-      for (std::size_t k = 0; k < (matrix == nullptr ? 0 : at.side); ++k)
+    }
+}
+
+template <std::size_t Order>
+void stiffen_by_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
+                        std::vector<Entry>& matrix) {
+  for (std::size_t row = 0; row < mesh.axial; ++row)
+    for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
+      const EdgePoint<Order> at(mesh, element, support, state, row, g);
+      const auto& N = element.shape_1d[g];
+      const auto& D = element.slope_1d[g];
+      const double w = element.weight_1d[g] * support.slope, pressed = Support::pressed(at.r, at.rho);
+      for (std::size_t k = 0; k < at.side; ++k)
         for (std::size_t l = 0; l < at.side; ++l) {
-          if (k <= l) matrix->add(at.dof[k], at.dof[l], w * at.z * (2 * at.r - at.rho) * N[k] * N[l]);
-          matrix->add(at.dof[k], at.dof[l] + 1, w * pressed * N[k] * D[l]);
+          if (k <= l) matrix.push_back({at.dof[k], at.dof[l], w * at.z * (2 * at.r - at.rho) * N[k] * N[l]});
+          matrix.push_back({at.dof[k], at.dof[l] + 1, w * pressed * N[k] * D[l]});
         }
     }
 }
@@ -69,10 +81,10 @@ double contract_support(const Mesh& mesh, const Element<Order>& element, const S
   return by_slope;
 }
 
-template void add_support<1>(const Mesh&, const Element<1>&, const Support&, const State&, std::vector<double>&,
-                             Stencil*);
-template void add_support<2>(const Mesh&, const Element<2>&, const Support&, const State&, std::vector<double>&,
-                             Stencil*);
+template void add_support<1>(const Mesh&, const Element<1>&, const Support&, const State&, std::vector<double>&);
+template void add_support<2>(const Mesh&, const Element<2>&, const Support&, const State&, std::vector<double>&);
+template void stiffen_by_support<1>(const Mesh&, const Element<1>&, const Support&, const State&, std::vector<Entry>&);
+template void stiffen_by_support<2>(const Mesh&, const Element<2>&, const Support&, const State&, std::vector<Entry>&);
 template double contract_support<1>(const Mesh&, const Element<1>&, const Support&, const State&,
                                     std::span<const double>, std::span<double>);
 template double contract_support<2>(const Mesh&, const Element<2>&, const Support&, const State&,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "row.hpp"
-#include "stencil.hpp"
 
 namespace tunica::fe {
 
@@ -27,10 +26,21 @@ struct Support {
   static double by_free(double r, double rho) { return -(r - rho) * (r + rho) / 2; }  ///< ∂(h/κ)/∂ρ
 };
 
-/// Adds ∂Π/∂x of the support to `force` and, unless `matrix` is null, ∂²Π/∂x² to it.
+/// Of a symmetric matrix: adds to (i, j) and thereby to (j, i).
+struct Entry {
+  std::size_t i, j;
+  double value;
+};
+
+/// Adds ∂Π/∂x of the support to `force`.
 template <std::size_t Order>
 void add_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
-                 std::vector<double>& force, Stencil* matrix);
+                 std::vector<double>& force);
+
+/// Appends ∂²Π/∂x² of the support.
+template <std::size_t Order>
+void stiffen_by_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
+                        std::vector<Entry>& matrix);
 
 /// −right · ∂(∂Π/∂x)/∂κ, and by the free radius of each plane.
 template <std::size_t Order>
