@@ -269,47 +269,54 @@ WallForcesJet Sections::forces_jet(std::size_t i) const {
   const Section& at = sections_[i];
   const Shape<Jet> form = shape_jet(*wall_, at.y, at.axial_stretch);
   Jet I(0.), J(0.);
+  double I_a = 0, I_b = 0, I_z = 0, J_a = 0, J_b = 0, J_z = 0;
+  const auto add_edge = [](Jet& to, double weight, const Jet& edge) {
+    for (int k = 0; k < variable_count; ++k) to.v[k] += weight * edge.v[k];
+  };
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
     const Piece& piece = pieces_[p];
-    double S = 0, S_a = 0, S_b = 0, S_z = 0, R = 0, R_a = 0, R_b = 0, R_z = 0;
-    double S_left = 0, S_right = 0, R_left = 0, R_right = 0;
+    double S = 0, R = 0, S_left = 0, S_right = 0, R_left = 0, R_right = 0;
     for (std::size_t m = 0; m < rule_->node.size(); ++m) {
       const std::size_t k = piece.first + m;
-      S += w_[k] * h_[k];
-      S_a += w_[k] * h_c_[k] * inverse_[k];
-      S_b += w_[k] * h_c_[k];
-      S_z += w_[k] * h_z_[k];
-      R += w_[k] * s_[k] * q_[k];
-      R_a += w_[k] * q_c_[k];
-      R_b += w_[k] * s_[k] * q_c_[k];
-      R_z += w_[k] * s_[k] * q_z_[k];
+      const double wh = w_[k] * h_[k], wq = w_[k] * s_[k] * q_[k], wh_c = w_[k] * h_c_[k], wq_c = w_[k] * q_c_[k];
+      S += wh;
+      I_a += wh_c * inverse_[k];
+      I_b += wh_c;
+      I_z += w_[k] * h_z_[k];
+      R += wq;
+      J_a += wq_c;
+      J_b += s_[k] * wq_c;
+      J_z += w_[k] * s_[k] * q_z_[k];
       // A node moves with the edges of its piece: ∂c/∂x = −2 (c − b), ∂R²/∂x = 2 R².
-      const double slope = -2 * (c_[k] - form.b.a);
-      const double h_x = w_[k] * slope * h_c_[k], q_x = w_[k] * s_[k] * (slope * q_c_[k] + 2 * q_[k]);
+      const double slope = -2 * (c_[k] - form.b.a), h_x = slope * wh_c, q_x = s_[k] * slope * wq_c + 2 * wq;
       S_left += (1 - rule_->node[m]) * h_x;
       S_right += rule_->node[m] * h_x;
       R_left += (1 - rule_->node[m]) * q_x;
       R_right += rule_->node[m] * q_x;
     }
-    Jet piece_I = S_a * form.a + S_b * form.b + S_z * form.cz, piece_J = R_a * form.a + R_b * form.b + R_z * form.cz;
     // The integrand is continuous at a cut: moving one changes nothing.
     if (piece.begins) {
       const Jet& edge = edges_[piece.layer];
-      piece_I += (S_left - S / piece.length) * edge;
-      piece_J += (R_left - R / piece.length) * edge;
+      add_edge(I, S_left - S / piece.length, edge);
+      add_edge(J, R_left - R / piece.length, edge);
     }
     if (piece.ends) {
       const Jet& edge = edges_[piece.layer + 1];
-      piece_I += (S_right + S / piece.length) * edge;
-      piece_J += (R_right + R / piece.length) * edge;
+      add_edge(I, S_right + S / piece.length, edge);
+      add_edge(J, R_right + R / piece.length, edge);
     }
-    piece_I.a = S;
-    piece_J.a = R;
-    I += piece_I;
-    J += piece_J;
+    I.a += S;
+    J.a += R;
   }
-  const Jet K(wall_->K, closing);
-  return {form.b * I, std::numbers::pi * form.b / (K * K) * J};
+  const double K = wall_->K, force = std::numbers::pi / (K * K);
+  WallForcesJet forces{Jet(form.b.a * I.a), Jet(force * form.b.a * J.a)};
+  for (int k = 0; k < variable_count; ++k) {
+    const double a_k = form.a.v[k], b_k = form.b.v[k], z_k = form.cz.v[k];
+    forces.p.v[k] = b_k * I.a + form.b.a * (I.v[k] + I_a * a_k + I_b * b_k + I_z * z_k);
+    forces.F.v[k] = force * (b_k * J.a + form.b.a * (J.v[k] + J_a * a_k + J_b * b_k + J_z * z_k));
+  }
+  forces.F.v[closing] -= 2 * forces.F.a / K;
+  return forces;
 }
 
 std::pair<std::size_t, std::size_t> Sections::points_of(std::size_t i, std::size_t material) const {
@@ -332,7 +339,7 @@ Sections::Change Sections::by_parameter(std::size_t i, std::size_t j) const {
   double I = 0, J = 0;
   for (std::size_t k = first; k < last; ++k) {
     const double normal = c_[2 * n_ + k] * gr[k], T = 2 * (c_[k] * gt[k] - normal) - at_rest;
-    I += w_[k] * T / c_[k];
+    I += w_[k] * T * (c_[n_ + k] * c_[2 * n_ + k]);  // c_t c_z c_r = 1
     J += w_[k] * s_[k] * (4 * (c_[n_ + k] * gz[k] - normal) - T);
   }
   const double b = wall_->K / sections_[i].axial_stretch;
