@@ -26,13 +26,18 @@ double along(const Jet& f, const std::array<double, variable_count>& by) {
 struct RowJet {
   Jet p, F, ri, ro;
 
+  static Jet root(const Jet& square) {
+    Jet f(std::sqrt(square.a));
+    for (int k = 0; k < variable_count; ++k) f.v[k] = square.v[k] / (2 * f.a);
+    return f;
+  }
   RowJet(const Sections& sections, std::size_t i, const Wall& wall, const Row& row) {
     const WallForcesJet forces = sections.forces_jet(i);
     const Shape<Jet> form = shape_jet(wall, row.y, row.axial_stretch);
     p = forces.p;
     F = forces.F;
-    ri = sqrt(form.ri2);
-    ro = sqrt(form.ro2);
+    ri = root(form.ri2);
+    ro = root(form.ro2);
   }
 };
 

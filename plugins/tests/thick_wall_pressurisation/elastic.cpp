@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "curve.hpp"
 #include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::thick_wall {
@@ -95,6 +96,39 @@ Status polish(std::vector<Row>& rows, Sections& sections, const Wall& wall, doub
   return status;
 }
 
+/// The unpressurised states first: where there is support, rows refer to them.
+Status polish_all(bool want_free_rows, Sections& sections, const Wall& wall, Solution& solution) {
+  if (want_free_rows || wall.tether != 0) {
+    if (Status status = polish(solution.free_rows, sections, wall, solution.error); !status.ok()) return status;
+    for (Row& row : solution.rows) {
+      const Row& without = solution.free_rows[row.free_row];
+      if (wall.tether != 0) row.support_free = outer_radius(wall, without.y + without.step, without.axial_stretch);
+    }
+  }
+  return polish(solution.rows, sections, wall, solution.error);
+}
+
+/// Starts of all rows from the curve at their one axial stretch, and the unpressurised state there; false = they have
+/// to be followed.
+bool on_curve(Path& path, Equilibrium free, std::span<const double> pressure, std::span<const double> axial_stretch,
+              Sections& sections, Solution& solution) {
+  thread_local std::vector<double> y;
+  const std::size_t n = pressure.size();
+  const double lz = axial_stretch[0];
+  if (n < fewest_on_curve ||
+      std::any_of(axial_stretch.begin(), axial_stretch.end(), [lz](double l) { return l != lz; }))
+    return false;
+  y.resize(n);
+  if (!path.follow(free, lz, 0).ok() || !find_on_curve(free, pressure, sections, y, solution.error)) {
+    solution.error = 0;
+    return false;
+  }
+  solution.free_rows.push_back({.axial_stretch = lz, .pressure = 0, .y = free.y});
+  for (std::size_t i = 0; i < n; ++i)
+    solution.rows.push_back({.axial_stretch = lz, .pressure = pressure[i], .y = y[i], .step = 0, .free_row = 0});
+  return true;
+}
+
 }  // namespace
 
 Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall) {
@@ -103,7 +137,7 @@ Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections
 }
 
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
-                  Sections& sections, const Wall& wall, Solution& solution) {
+                  Sections& sections, const Wall& wall, double enough, Solution& solution) {
   const bool supported = wall.tether != 0;
   solution.rows.clear();
   solution.free_rows.clear();
@@ -111,6 +145,13 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
   Path path(sections, wall);
   Equilibrium free, at;  // the unpressurised state, and the one of the row
   Status status = path.begin(free);
+  if (status.ok() && !supported && on_curve(path, free, pressure, axial_stretch, sections, solution)) {
+    if (solution.error > enough) return {};
+    if (polish_all(want_free_rows, sections, wall, solution).ok()) return {};
+    solution.rows.clear();
+    solution.free_rows.clear();
+    solution.error = 0;
+  }
   for (std::size_t i = 0; i < pressure.size() && status.ok(); ++i) {
     const double lz = axial_stretch[i], p = pressure[i];
     if (i == 0 || lz != axial_stretch[i - 1]) {
@@ -131,14 +172,17 @@ Status solve_rows(std::span<const double> pressure, std::span<const double> axia
   if (!status.ok())
     return Status::failed(fmt::format("thick_wall_pressurisation: no equilibrium at {}: {}",
                                       TubeRows::row_name(0, pressure[0], axial_stretch[0]), status.reason()));
-  if (want_free_rows || supported) {
-    if (status = polish(solution.free_rows, sections, wall, solution.error); !status.ok()) return status;
-    for (Row& row : solution.rows) {
-      const Row& without = solution.free_rows[row.free_row];
-      if (supported) row.support_free = outer_radius(wall, without.y + without.step, without.axial_stretch);
+  return polish_all(want_free_rows, sections, wall, solution);
+}
+
+Status refine_rows(bool want_free_rows, Sections& sections, const Wall& wall, Solution& solution) {
+  solution.error = 0;
+  for (auto* rows : {&solution.free_rows, &solution.rows})
+    for (Row& row : *rows) {
+      row.y += row.step;
+      row.step = 0;
     }
-  }
-  return polish(solution.rows, sections, wall, solution.error);
+  return polish_all(want_free_rows, sections, wall, solution);
 }
 
 double channel_value(Channel channel, const Wall& wall, const Row& row) {
@@ -200,21 +244,25 @@ Status predict_elastic(const Tube& tube, const Rule* rule, const TestInput& inpu
   Wall wall(tube, input.test_parameters);
   const Layers layers(input);
   if (Status status = prescribed(tube, input, pressure, axial_stretch); !status.ok()) return status;
-  const auto solve = [&](const Rule& with) {
+  const auto solve = [&](const Rule& with, double enough, bool from_found) {
     wall = Wall(tube, input.test_parameters);
     Status status = close_sector(tube, layers, with, sections, wall, parameters ? &sector : nullptr);
     if (!status.ok()) return status;
     sections.begin(layers, wall, with);
-    return solve_rows(pressure, axial_stretch, parameters, sections, wall, solution);
+    if (from_found && refine_rows(parameters, sections, wall, solution).ok()) return Status();
+    return solve_rows(pressure, axial_stretch, parameters, sections, wall, enough, solution);
   };
+  constexpr double any = std::numeric_limits<double>::infinity();
   if (rule != nullptr) {
-    if (Status status = solve(*rule); !status.ok()) return status;
+    if (Status status = solve(*rule, any, false); !status.ok()) return status;
   } else {
     // From the coarsest on; a failure counts where a fine rule confirms it.
     const std::span<const Rule> all = rules();
     constexpr std::size_t confirming = 7;
+    bool found = false;
     for (std::size_t k = 0; k < all.size();) {
-      Status status = solve(all[k]);
+      Status status = solve(all[k], k + 1 < all.size() ? quadrature_error : any, found);
+      found = status.ok();
       if (status.ok() && solution.error <= quadrature_error) break;
       if (!status.ok() && k >= confirming) return status;
       if (status.ok() && k + 1 == all.size() && solution.error > tolerable_error)

@@ -24,9 +24,13 @@ struct Solution {
   double error = 0;  ///< estimate of what quadrature leaves in y, the largest of all
 };
 
-/// Finds every row on the path from rest; then Newton's method on all of them at once.
+/// Finds every row on the path from rest; then Newton's method on all of them at once. Where quadrature is seen to
+/// leave more than `enough` in y before that, it is left out: `error` says so, and refine_rows() is called with a finer
+/// rule.
 Status solve_rows(std::span<const double> pressure, std::span<const double> axial_stretch, bool want_free_rows,
-                  Sections& sections, const Wall& wall, Solution& solution);
+                  Sections& sections, const Wall& wall, double enough, Solution& solution);
+/// The same rows with another rule, from where they are.
+Status refine_rows(bool want_free_rows, Sections& sections, const Wall& wall, Solution& solution);
 
 /// Takes up the steps left and evaluates once more, with parameter derivatives; `sections` then holds these rows.
 Status evaluate_rows(std::vector<Row>& rows, bool parameters, Sections& sections, const Wall& wall);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tunica/detail/vector_level.hpp"
+
 namespace tunica::thick_wall {
 namespace {
 
@@ -36,20 +38,32 @@ void Sections::begin(const Layers& layers, const Wall& wall, const Rule& rule) {
   rule_ = &rule;
   wall.edges(edges_);
   cuts_.resize(layers.size());
+  inside_.resize(layers.size());
   can_be_cut_ = false;
   for (std::size_t m = 0; m < layers.size(); ++m) {
     cuts_[m].clear();
     can_be_cut_ |= !layers.of(m).switches().empty();
+    const bool throughout = layers.size() == 1;
+    const double from = edges_[throughout ? 0 : m].a, to = edges_[throughout ? wall.layer_count() : m + 1].a;
+    inside_[m] = {std::exp(2 * (from + smallest_piece)), std::exp(2 * (to - smallest_piece))};
   }
-  w_.clear();
-  s_.clear();
-  inverse_.clear();
-  pieces_.clear();
+  clear_points();
   for (std::size_t layer = 0; layer < wall.layer_count(); ++layer)
     add_piece(edges_[layer].a, edges_[layer + 1].a, layer, true, true);
   base_weight_ = w_;
   base_s_ = s_;
   base_inverse_ = inverse_;
+  clear_points();
+}
+
+void Sections::clear_points() {
+  w_.clear();
+  s_.clear();
+  inverse_.clear();
+  pieces_.clear();
+  first_piece_.assign(1, 0);
+  first_point_.assign(1, 0);
+  uncut_ = 0;
 }
 
 void Sections::add_piece(double from, double to, std::size_t layer, bool begins, bool ends) {
@@ -75,29 +89,33 @@ bool Sections::find_cuts(const Shape<double>& at) {
       for (const Switch& change : switches) roots(change, at.cz, kinks_);
     for (const double c : kinks_) {
       const double s = at.a / (c - at.b);
-      if (s > 0 && std::isfinite(s)) cuts.push_back(0.5 * std::log(s));
+      if (s > inside_[m][0] && s < inside_[m][1]) cuts.push_back(0.5 * std::log(s));
     }
     std::sort(cuts.begin(), cuts.end());
-    const bool throughout = layers_->size() == 1;
-    const double from = edges_[throughout ? 0 : m].a, to = edges_[throughout ? wall_->layer_count() : m + 1].a;
-    for (const double x : cuts) cut |= x > from + smallest_piece && x < to - smallest_piece;
+    cut |= !cuts.empty();
   }
   return cut;
 }
 
-/// Points of one section behind those of the sections before it.
-void Sections::lay_points(const Section& section) {
-  const std::size_t layers = wall_->layer_count();
-  if (!can_be_cut_ || !find_cuts(shape(*wall_, section.y, section.axial_stretch))) {
-    for (std::size_t layer = 0; layer < layers; ++layer)
+/// Points of so many sections, where nothing cuts the layers of any. They depend on nothing but the wall, so those that
+/// are there already stay.
+void Sections::lay_uncut(std::size_t count) {
+  for (; uncut_ < count; ++uncut_) {
+    for (std::size_t layer = 0; layer < wall_->layer_count(); ++layer)
       pieces_.push_back(
           {w_.size() + layer * rule_->node.size(), edges_[layer + 1].a - edges_[layer].a, layer, true, true});
     w_.insert(w_.end(), base_weight_.begin(), base_weight_.end());
     s_.insert(s_.end(), base_s_.begin(), base_s_.end());
     inverse_.insert(inverse_.end(), base_inverse_.begin(), base_inverse_.end());
-    return;
+    first_piece_.push_back(pieces_.size());
+    first_point_.push_back(w_.size());
   }
-  for (std::size_t layer = 0; layer < layers; ++layer) {
+}
+
+/// Points of one section behind those of the sections before it.
+void Sections::lay_points(const Shape<double>& at) {
+  find_cuts(at);
+  for (std::size_t layer = 0; layer < wall_->layer_count(); ++layer) {
     double from = edges_[layer].a;
     bool begins = true;
     for (const double x : cuts_[layers_->size() == 1 ? 0 : layer]) {
@@ -108,53 +126,63 @@ void Sections::lay_points(const Section& section) {
     }
     add_piece(from, edges_[layer + 1].a, layer, begins, true);
   }
+  first_piece_.push_back(pieces_.size());
+  first_point_.push_back(w_.size());
 }
 
 Status Sections::evaluate(std::span<const Section> sections, bool parameters, const Memory& memory,
                           const RestStress* rest) {
   sections_.assign(sections.begin(), sections.end());
-  w_.clear();
-  s_.clear();
-  inverse_.clear();
-  pieces_.clear();
-  first_piece_.assign(1, 0);
-  first_point_.assign(1, 0);
-  for (const Section& section : sections) {
-    lay_points(section);
-    first_piece_.push_back(pieces_.size());
-    first_point_.push_back(w_.size());
+  shapes_.clear();
+  for (const Section& section : sections) shapes_.push_back(shape(*wall_, section.y, section.axial_stretch));
+  if (can_be_cut_ &&
+      std::any_of(shapes_.begin(), shapes_.end(), [this](const Shape<double>& at) { return find_cuts(at); })) {
+    clear_points();
+    for (const Shape<double>& at : shapes_) lay_points(at);
+  } else {
+    if (uncut_ == 0) clear_points();
+    lay_uncut(sections.size());
   }
-  n_ = w_.size();
+  n_ = first_point_[sections.size()];
   if (h_.size() < n_) {
     c_.resize(3 * n_);
     gradient_.resize(3 * n_);
     hessian_.resize(6 * n_);
     for (auto* v : {&h_, &h_c_, &h_z_, &q_, &q_c_, &q_z_}) v->resize(n_);
   }
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const Shape<double> at = shape(*wall_, sections[i].y, sections[i].axial_stretch);
+  detail::vectorised([this] {
     double* const ct = c_.data();
-    for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
-      ct[k] = at.b + at.a * inverse_[k];
-      ct[n_ + k] = at.cz;
-      ct[2 * n_ + k] = 1 / (ct[k] * at.cz);
+    double* const cz = ct + n_;
+    double* const cr = cz + n_;
+    const double* const inverse = inverse_.data();
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const double a = shapes_[i].a, b = shapes_[i].b, z = shapes_[i].cz;
+      const std::size_t end = first_point_[i + 1];
+      TUNICA_LANES
+      for (std::size_t k = first_point_[i]; k < end; ++k) {
+        ct[k] = b + a * inverse[k];
+        cz[k] = z;
+        cr[k] = 1 / (ct[k] * z);
+      }
     }
-  }
+  });
   rest_ = rest;
   if (Status status = respond(parameters, memory); !status.ok()) return status;
   if (rest == nullptr) {
     form(0, n_, 0);
     return {};
   }
-  for (const Piece& piece : pieces_)
-    form(piece.first, piece.first + rule_->node.size(), rest->value[layers_->size() == 1 ? 0 : piece.layer]);
+  for (std::size_t p = 0; p < first_piece_[sections.size()]; ++p)
+    form(pieces_[p].first, pieces_[p].first + rule_->node.size(),
+         rest->value[layers_->size() == 1 ? 0 : pieces_[p].layer]);
   return {};
 }
 
 Status Sections::respond(bool parameters, const Memory& memory) {
   runs_.clear();
   if (layers_->size() > 1)
-    for (const Piece& piece : pieces_) runs_.push_back({piece.layer, piece.first, rule_->node.size()});
+    for (std::size_t p = 0; p < first_piece_[sections_.size()]; ++p)
+      runs_.push_back({pieces_[p].layer, pieces_[p].first, rule_->node.size()});
   const std::size_t of_parameters = parameters ? 3 * n_ * layers_->parameter_count() : 0;
   if (gradient_dp_.size() < of_parameters) gradient_dp_.resize(of_parameters);
   return layers_->evaluate(n_, runs_, {c_.data(), 3 * n_}, {gradient_.data(), 3 * n_}, {hessian_.data(), 6 * n_},
@@ -163,42 +191,45 @@ Status Sections::respond(bool parameters, const Memory& memory) {
 
 /// h = T/c and q = 2Z − T with their derivatives by c at fixed c_z and by c_z at fixed c, where c_r = 1/(c c_z).
 void Sections::form(std::size_t first, std::size_t last, double at_rest) {
-  const double* __restrict c = c_.data();
-  const double* __restrict cz = c + n_;
-  const double* __restrict cr = c + 2 * n_;
-  const double* __restrict g = gradient_.data();
-  const double* __restrict H = hessian_.data();
-  double* __restrict h = h_.data();
-  double* __restrict h_c = h_c_.data();
-  double* __restrict h_z = h_z_.data();
-  double* __restrict q = q_.data();
-  double* __restrict q_c = q_c_.data();
-  double* __restrict q_z = q_z_.data();
-  const std::size_t n = n_;
-  for (std::size_t k = first; k < last; ++k) {
-    const double gt = g[k], gz = g[n + k], gr = g[2 * n + k];
-    const double Htt = H[k], Hzz = H[n + k], Hrr = H[2 * n + k];
-    const double Htz = H[3 * n + k], Hzr = H[4 * n + k], Htr = H[5 * n + k];
-    const double by_c = cr[k] / c[k], by_z = cr[k] / cz[k];  // −∂c_r/∂c, −∂c_r/∂c_z
-    const double normal = cr[k] * gr;
-    const double normal_c = by_c * (cr[k] * Hrr + gr) - cr[k] * Htr;  // −∂(c_r g_r)/∂c
-    const double normal_z = by_z * (cr[k] * Hrr + gr) - cr[k] * Hzr;
-    const double T = 2 * (c[k] * gt - normal) - at_rest;
-    const double T_c = 2 * (gt + c[k] * (Htt - by_c * Htr) + normal_c);
-    const double T_z = 2 * (c[k] * (Htz - by_z * Htr) + normal_z);
-    const double inverse = 1 / c[k];
-    h[k] = T * inverse;
-    h_c[k] = (T_c - h[k]) * inverse;
-    h_z[k] = T_z * inverse;
-    q[k] = 4 * (cz[k] * gz - normal) - T;
-    q_c[k] = 4 * (cz[k] * (Htz - by_c * Hzr) + normal_c) - T_c;
-    q_z[k] = 4 * (gz + cz[k] * (Hzz - by_z * Hzr) + normal_z) - T_z;
-  }
+  detail::vectorised([this, first, last, at_rest] {
+    const double* const c = c_.data();
+    const double* const cz = c + n_;
+    const double* const cr = c + 2 * n_;
+    const double* const g = gradient_.data();
+    const double* const H = hessian_.data();
+    double* const h = h_.data();
+    double* const h_c = h_c_.data();
+    double* const h_z = h_z_.data();
+    double* const q = q_.data();
+    double* const q_c = q_c_.data();
+    double* const q_z = q_z_.data();
+    const std::size_t n = n_;
+    TUNICA_LANES
+    for (std::size_t k = first; k < last; ++k) {
+      const double gt = g[k], gz = g[n + k], gr = g[2 * n + k];
+      const double Htt = H[k], Hzz = H[n + k], Hrr = H[2 * n + k];
+      const double Htz = H[3 * n + k], Hzr = H[4 * n + k], Htr = H[5 * n + k];
+      const double inverse = 1 / c[k], by_c = cr[k] * inverse, by_z = cr[k] / cz[k];  // −∂c_r/∂c, −∂c_r/∂c_z
+      const double normal = cr[k] * gr;
+      const double normal_c = by_c * (cr[k] * Hrr + gr) - cr[k] * Htr;  // −∂(c_r g_r)/∂c
+      const double normal_z = by_z * (cr[k] * Hrr + gr) - cr[k] * Hzr;
+      const double T = 2 * (c[k] * gt - normal) - at_rest;
+      const double T_c = 2 * (gt + c[k] * (Htt - by_c * Htr) + normal_c);
+      const double T_z = 2 * (c[k] * (Htz - by_z * Htr) + normal_z);
+      const double h_k = T * inverse;
+      h[k] = h_k;
+      h_c[k] = (T_c - h_k) * inverse;
+      h_z[k] = T_z * inverse;
+      q[k] = 4 * (cz[k] * gz - normal) - T;
+      q_c[k] = 4 * (cz[k] * (Htz - by_c * Hzr) + normal_c) - T_c;
+      q_z[k] = 4 * (gz + cz[k] * (Hzz - by_z * Hzr) + normal_z) - T_z;
+    }
+  });
 }
 
 WallForces Sections::forces(std::size_t i) const {
   const Section& at = sections_[i];
-  const Shape<double> form = shape(*wall_, at.y, at.axial_stretch);
+  const Shape<double>& form = shapes_[i];
   double I = 0, I_a = 0, I_b = 0, I_z = 0, J = 0, J_a = 0;
   for (std::size_t k = first_point_[i]; k < first_point_[i + 1]; ++k) {
     I += w_[k] * h_[k];
@@ -238,47 +269,54 @@ WallForcesJet Sections::forces_jet(std::size_t i) const {
   const Section& at = sections_[i];
   const Shape<Jet> form = shape_jet(*wall_, at.y, at.axial_stretch);
   Jet I(0.), J(0.);
+  double I_a = 0, I_b = 0, I_z = 0, J_a = 0, J_b = 0, J_z = 0;
+  const auto add_edge = [](Jet& to, double weight, const Jet& edge) {
+    for (int k = 0; k < variable_count; ++k) to.v[k] += weight * edge.v[k];
+  };
   for (std::size_t p = first_piece_[i]; p < first_piece_[i + 1]; ++p) {
     const Piece& piece = pieces_[p];
-    double S = 0, S_a = 0, S_b = 0, S_z = 0, R = 0, R_a = 0, R_b = 0, R_z = 0;
-    double S_left = 0, S_right = 0, R_left = 0, R_right = 0;
+    double S = 0, R = 0, S_left = 0, S_right = 0, R_left = 0, R_right = 0;
     for (std::size_t m = 0; m < rule_->node.size(); ++m) {
       const std::size_t k = piece.first + m;
-      S += w_[k] * h_[k];
-      S_a += w_[k] * h_c_[k] * inverse_[k];
-      S_b += w_[k] * h_c_[k];
-      S_z += w_[k] * h_z_[k];
-      R += w_[k] * s_[k] * q_[k];
-      R_a += w_[k] * q_c_[k];
-      R_b += w_[k] * s_[k] * q_c_[k];
-      R_z += w_[k] * s_[k] * q_z_[k];
+      const double wh = w_[k] * h_[k], wq = w_[k] * s_[k] * q_[k], wh_c = w_[k] * h_c_[k], wq_c = w_[k] * q_c_[k];
+      S += wh;
+      I_a += wh_c * inverse_[k];
+      I_b += wh_c;
+      I_z += w_[k] * h_z_[k];
+      R += wq;
+      J_a += wq_c;
+      J_b += s_[k] * wq_c;
+      J_z += w_[k] * s_[k] * q_z_[k];
       // A node moves with the edges of its piece: ∂c/∂x = −2 (c − b), ∂R²/∂x = 2 R².
-      const double slope = -2 * (c_[k] - form.b.a);
-      const double h_x = w_[k] * slope * h_c_[k], q_x = w_[k] * s_[k] * (slope * q_c_[k] + 2 * q_[k]);
+      const double slope = -2 * (c_[k] - form.b.a), h_x = slope * wh_c, q_x = s_[k] * slope * wq_c + 2 * wq;
       S_left += (1 - rule_->node[m]) * h_x;
       S_right += rule_->node[m] * h_x;
       R_left += (1 - rule_->node[m]) * q_x;
       R_right += rule_->node[m] * q_x;
     }
-    Jet piece_I = S_a * form.a + S_b * form.b + S_z * form.cz, piece_J = R_a * form.a + R_b * form.b + R_z * form.cz;
     // The integrand is continuous at a cut: moving one changes nothing.
     if (piece.begins) {
       const Jet& edge = edges_[piece.layer];
-      piece_I += (S_left - S / piece.length) * edge;
-      piece_J += (R_left - R / piece.length) * edge;
+      add_edge(I, S_left - S / piece.length, edge);
+      add_edge(J, R_left - R / piece.length, edge);
     }
     if (piece.ends) {
       const Jet& edge = edges_[piece.layer + 1];
-      piece_I += (S_right + S / piece.length) * edge;
-      piece_J += (R_right + R / piece.length) * edge;
+      add_edge(I, S_right + S / piece.length, edge);
+      add_edge(J, R_right + R / piece.length, edge);
     }
-    piece_I.a = S;
-    piece_J.a = R;
-    I += piece_I;
-    J += piece_J;
+    I.a += S;
+    J.a += R;
   }
-  const Jet K(wall_->K, closing);
-  return {form.b * I, std::numbers::pi * form.b / (K * K) * J};
+  const double K = wall_->K, force = std::numbers::pi / (K * K);
+  WallForcesJet forces{Jet(form.b.a * I.a), Jet(force * form.b.a * J.a)};
+  for (int k = 0; k < variable_count; ++k) {
+    const double a_k = form.a.v[k], b_k = form.b.v[k], z_k = form.cz.v[k];
+    forces.p.v[k] = b_k * I.a + form.b.a * (I.v[k] + I_a * a_k + I_b * b_k + I_z * z_k);
+    forces.F.v[k] = force * (b_k * J.a + form.b.a * (J.v[k] + J_a * a_k + J_b * b_k + J_z * z_k));
+  }
+  forces.F.v[closing] -= 2 * forces.F.a / K;
+  return forces;
 }
 
 std::pair<std::size_t, std::size_t> Sections::points_of(std::size_t i, std::size_t material) const {
@@ -301,7 +339,7 @@ Sections::Change Sections::by_parameter(std::size_t i, std::size_t j) const {
   double I = 0, J = 0;
   for (std::size_t k = first; k < last; ++k) {
     const double normal = c_[2 * n_ + k] * gr[k], T = 2 * (c_[k] * gt[k] - normal) - at_rest;
-    I += w_[k] * T / c_[k];
+    I += w_[k] * T * (c_[n_ + k] * c_[2 * n_ + k]);  // c_t c_z c_r = 1
     J += w_[k] * s_[k] * (4 * (c_[n_ + k] * gz[k] - normal) - T);
   }
   const double b = wall_->K / sections_[i].axial_stretch;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "layers.hpp"
@@ -76,7 +77,9 @@ class Sections {
     std::size_t layer;
     bool begins, ends;  ///< at the edges of its layer
   };
-  void lay_points(const Section& section);
+  void clear_points();
+  void lay_uncut(std::size_t count);
+  void lay_points(const Shape<double>& at);
   void add_piece(double from, double to, std::size_t layer, bool begins, bool ends);
   /// Where kinks of its materials cut the wall under a section of this shape; false = nowhere.
   bool find_cuts(const Shape<double>& at);
@@ -91,11 +94,15 @@ class Sections {
 
   std::vector<Jet> edges_;  ///< ln R where layers begin and end
   std::vector<double> base_weight_, base_s_, base_inverse_;
+  std::size_t uncut_ = 0;  ///< leading sections whose points lie as nothing cuts the layers
   bool can_be_cut_ = false;
   std::vector<std::vector<double>> cuts_;  ///< by material, ln R
+  /// By material: R² between which a kink cuts it.
+  std::vector<std::array<double, 2>> inside_;
   std::vector<double> kinks_;
 
   std::vector<Section> sections_;
+  std::vector<Shape<double>> shapes_;                   ///< of the sections
   std::vector<std::size_t> first_piece_, first_point_;  ///< of each section, one more at the end
   std::vector<Piece> pieces_;
   std::vector<Layers::Run> runs_;

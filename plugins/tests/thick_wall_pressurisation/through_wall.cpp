@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sector.hpp"
@@ -58,9 +59,11 @@ Status through_wall(const Tube& tube, const TestInput& input, std::span<const st
   Wall wall(tube, input.test_parameters);
   Sections sections;
   Solution solution;
+  constexpr double any_error = std::numeric_limits<double>::infinity();
   if (Status status = close_sector(tube, layers, rule, sections, wall, nullptr); !status.ok()) return status;
   sections.begin(layers, wall, rule);
-  if (Status status = solve_rows(pressure, axial_stretch, false, sections, wall, solution); !status.ok()) return status;
+  if (Status status = solve_rows(pressure, axial_stretch, false, sections, wall, any_error, solution); !status.ok())
+    return status;
   if (Status status = evaluate_rows(solution.rows, false, sections, wall); !status.ok()) return status;
   for (const std::size_t row : rows) {
     found.push_back(table_of(sections, row, wall, solution.rows[row]));

@@ -47,26 +47,32 @@ struct Wall {
   void edges(std::vector<Jet>& all) const;
 };
 
-/// Geometry of a section, for numbers or for jets over the variables.
+/// Geometry of a section, in numbers or in jets over the variables.
 template <class T>
 struct Shape {
   T ri2, ro2, a, b, cz;
-
-  Shape(const T& y, const T& lambda_z, const T& K, const T& V, const T& iota) {
-    using std::exp;
-    ri2 = exp(2.0 * y);
-    ro2 = ri2 + V / lambda_z;
-    b = K / lambda_z;
-    a = K * K * ri2 - b * exp(2.0 * iota);
-    cz = lambda_z * lambda_z;
-  }
 };
 
 inline Shape<double> shape(const Wall& wall, double y, double lambda_z) {
-  return {y, lambda_z, wall.K, wall.V, wall.iota};
+  const double ri2 = std::exp(2 * y), b = wall.K / lambda_z;
+  return {ri2, ri2 + wall.V / lambda_z, wall.K * wall.K * ri2 - b * std::exp(2 * wall.iota), b, lambda_z * lambda_z};
 }
+/// By hand: an expression of jets costs as much as the model at the points of a section.
 inline Shape<Jet> shape_jet(const Wall& wall, double y, double lambda_z) {
-  return {Jet(y, ln_inner), Jet(lambda_z, axial), Jet(wall.K, closing), Jet(wall.V, area), Jet(wall.iota, ln_sector)};
+  const Shape<double> at = shape(wall, y, lambda_z);
+  const double K = wall.K, sector2 = std::exp(2 * wall.iota);
+  Shape<Jet> jet{Jet(at.ri2), Jet(at.ro2), Jet(at.a), Jet(at.b), Jet(at.cz)};
+  jet.ri2.v[ln_inner] = jet.ro2.v[ln_inner] = 2 * at.ri2;
+  jet.ro2.v[axial] = -wall.V / (lambda_z * lambda_z);
+  jet.ro2.v[area] = 1 / lambda_z;
+  jet.b.v[axial] = -at.b / lambda_z;
+  jet.b.v[closing] = 1 / lambda_z;
+  jet.a.v[ln_inner] = 2 * K * K * at.ri2;
+  jet.a.v[axial] = at.b * sector2 / lambda_z;
+  jet.a.v[closing] = 2 * K * at.ri2 - sector2 / lambda_z;
+  jet.a.v[ln_sector] = -2 * at.b * sector2;
+  jet.cz.v[axial] = 2 * lambda_z;
+  return jet;
 }
 
 }  // namespace tunica::thick_wall
