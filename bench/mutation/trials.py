@@ -17,14 +17,17 @@ LONG_SUITE = 4  # seconds: a longer suite is looked at case by case
 
 
 def run(program, cases, mutant, reach=None, limit=600):
-    """(fails, seconds) of some cases of a program. A crash and a time-out are failures."""
+    """(fails, seconds) of some cases of a program. A crash and a time-out are failures.
+
+    A program may also be the words of a command, which is a test as a whole."""
     environment = dict(os.environ, TUNICA_MUTANT=str(mutant), GTEST_COLOR="no")
     if reach:
         environment["TUNICA_MUTANT_REACH"] = str(reach)
     with tempfile.TemporaryDirectory(prefix="tunica-mutant-") as folder:
         flags = folder + "/flags"  # thousands of names do not fit on a command line
         pathlib.Path(flags).write_text("--gtest_filter=" + ":".join(cases) + "\n--gtest_fail_fast\n")
-        process = subprocess.Popen(["prlimit", f"--cpu={int(limit) + 1}", program, f"--gtest_flagfile={flags}"],
+        command = list(program) if isinstance(program, tuple) else [program, f"--gtest_flagfile={flags}"]
+        process = subprocess.Popen(["prlimit", f"--cpu={int(limit) + 1}", *command],
                                    env=environment, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL, start_new_session=True)
         # The programs that the tests have started end too.
@@ -36,8 +39,21 @@ def run(program, cases, mutant, reach=None, limit=600):
     return process.returncode != 0, used.ru_utime + used.ru_stime
 
 
+def commands(build, names):
+    """The commands of the tests of CTest whose names match, and that are no program of many cases."""
+    listing = subprocess.run(["ctest", "--show-only=json-v1", "-R", names], cwd=build, capture_output=True, check=True)
+    return [tuple(test["command"]) for test in json.loads(listing.stdout)["tests"]
+            if not any(word.startswith("--gtest_filter") for word in test["command"])]
+
+
+def title(program):
+    return " ".join(pathlib.Path(word).name for word in program) if isinstance(program, tuple) else pathlib.Path(program).name
+
+
 def cases_of(program):
     """Suite -> its cases, but for those that are switched off."""
+    if isinstance(program, tuple):
+        return {"": ["as a whole"]}
     listing = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
     suite, found = "", {}
     for line in listing.splitlines():
@@ -75,7 +91,7 @@ def reach(programs, copies, state, jobs):
     for program in programs:
         work, seen = [], {}
         for suite, cases in cases_of(program).items():
-            digest = hashlib.sha256(copies + "\n".join([program, *cases]).encode()).hexdigest()
+            digest = hashlib.sha256(copies + "\n".join([str(program), *cases]).encode()).hexdigest()
             seen[digest] = known.get(digest)
             if seen[digest] is None:
                 work.append((digest, suite, cases))
@@ -84,11 +100,11 @@ def reach(programs, copies, state, jobs):
             for (digest, suite, _), looked in zip(work, looks):
                 known[digest] = seen[digest] = looked
                 for name in [name for name, (_, numbers) in looked.items() if numbers is None]:
-                    print(f"  {pathlib.Path(program).name} {name} fails without a mutant; left out", flush=True)
+                    print(f"  {title(program)} {name} fails without a mutant; left out", flush=True)
                 file.write_text(json.dumps(known))
         own = [(program, name, seconds, set(numbers)) for looked in seen.values()
                for name, (seconds, numbers) in looked.items() if numbers]
-        print(f"  {pathlib.Path(program).name}: {len(own)} suites and cases reach a mutant, "
+        print(f"  {title(program)}: {len(own)} suites and cases reach a mutant, "
               f"{sum(case[2] for case in own):.0f} s", flush=True)
         found += own
     return found
@@ -109,12 +125,12 @@ def attempt(mutant, cases, budget):
         if spent and spent + planned > budget:
             break
         now, reaching = reaching[:take], reaching[take:]
-        for program in sorted({case[0] for case in now}):
+        for program in dict.fromkeys(case[0] for case in now):
             own = [case for case in now if case[0] == program]
             fails, seconds = run(program, [case[1] for case in own], mutant["number"],
                                  limit=10 * sum(case[2] for case in own) + SPARE)
             spent += seconds
             verdict["cases"] += len(own)
             if fails:
-                return {**verdict, "verdict": "killed", "by": pathlib.Path(program).name}
+                return {**verdict, "verdict": "killed", "by": title(program)}
     return verdict
