@@ -8,7 +8,8 @@
 
 Every source is compiled once, with all its mutants side by side; TUNICA_MUTANT chooses one. Only test cases that reach a
 mutant are run against it, the quick ones first. Output: mutants.json and survivors.md in the folder `mutation/out` of the
-build; what each case reaches is remembered in `mutation/reach.json`. Mutants that change nothing anybody can see are listed in bench/mutation/equivalent.txt, with the reason.
+build; what each case reaches is remembered in `mutation/reach.json`. Mutants that change nothing anybody can see are
+listed in bench/mutation/equivalent.txt, with the reason.
 Needs the Debian packages python3-clang-14, libclang-14-dev and libgtest-dev."""
 import argparse
 import concurrent.futures
