@@ -166,8 +166,6 @@ TEST_F(Summary, SaysOfACauseWhereAndHowMuchItIs) {
   EXPECT_EQ(lines("Cause")[1], "second in the test 'strip' (of the rig), value = 0.123; probability 0.20");
   claim.causes[1].amplitude.unit = "";
   EXPECT_EQ(lines("Cause")[1], "second in the test 'strip' (of the rig), value = 0.123; probability 0.20");
-  claim.causes.resize(1);  // of a claim that is cut short
-  EXPECT_EQ(lines("Cause").size(), 1u);
 }
 
 TEST_F(Summary, ListsFourRivalsAndCountsTheRest) {
