@@ -8,7 +8,8 @@
 
 Every source is compiled once, with all its mutants side by side; TUNICA_MUTANT chooses one. Only test cases that reach a
 mutant are run against it, the quick ones first. Output: mutants.json and survivors.md in the folder `mutation/out` of the
-build. Mutants that change nothing anybody can see are listed in bench/mutation/equivalent.txt, with the reason.
+build; what each case reaches is remembered in `mutation/reach.json`. Mutants that change nothing anybody can see are
+listed in bench/mutation/equivalent.txt, with the reason.
 Needs the Debian packages python3-clang-14, libclang-14-dev and libgtest-dev."""
 import argparse
 import concurrent.futures
@@ -24,7 +25,9 @@ from mutation import building, report, trials  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["core/src/calibration", "core/src/diagnosis", "core/src/discovery", "plugins/models", "plugins/mechanisms"]
-PROGRAMS = ["test_mechanisms", "test_models", "test_diagnosis", "test_discover", "test_calibration"]
+PROGRAMS = ["test_mechanisms", "test_models", "test_diagnosis", "test_discover", "test_calibration", "test_cohort_diagnosis"]
+# What of the rest of the suite looks at these folders without starting a search.
+COMMANDS = r"^(Schema\.CommittedIsWhat|Conformance\.BuiltIn_|Docs\.PagePrintsWhatItShows)"
 
 
 def options():
@@ -32,6 +35,7 @@ def options():
     parser.add_argument("folders", nargs="*", default=FOLDERS, help="folders of sources, or single sources")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/mutants", help="its own build folder")
     parser.add_argument("--tests", default=",".join(PROGRAMS), metavar="A,B", help="test programs to run")
+    parser.add_argument("--ctest", default=COMMANDS, metavar="REGEX", help="tests of CTest to run beside them; '': none")
     parser.add_argument("--sample", type=int, default=150, help="mutants to try; 0: all")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", metavar="REGEX", help="only mutants whose file, line, text or words match")
@@ -87,6 +91,7 @@ def main():
     if chosen.build_only or not mutants:
         return 0
     programs = [str(build / "bin" / name) for name in chosen.tests]
+    programs += trials.commands(build, chosen.ctest) if chosen.ctest else []
     copies = hashlib.sha256(json.dumps(sorted((name, entry["hash"]) for name, entry in found.items())).encode()).digest()
     cases = trials.reach(programs, copies, state, chosen.jobs)
     known = report.load(out / "mutants.json") if chosen.again else {}

@@ -12,6 +12,8 @@ from . import schemata, units
 from .finding import Finder, Place
 
 HERE = pathlib.Path(__file__).resolve().parent
+# Flags of libclang that its Python does not name: the headers are read once, and without the bodies of their functions.
+FIRST_PREAMBLE, ONLY_OF_HEADERS = 0x100, 0x800
 
 
 def configure(root, build):
@@ -36,7 +38,8 @@ def find(job):
     name, path, options = job
     text = path.read_bytes()
     options = options + ["-include", str(HERE / "runtime.hpp"), "-w", "-ferror-limit=0"]
-    reading = TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD | TranslationUnit.PARSE_PRECOMPILED_PREAMBLE | 0x100
+    reading = (TranslationUnit.PARSE_DETAILED_PROCESSING_RECORD | TranslationUnit.PARSE_PRECOMPILED_PREAMBLE | FIRST_PREAMBLE |
+               TranslationUnit.PARSE_SKIP_FUNCTION_BODIES | ONLY_OF_HEADERS)
     try:
         unit = Index.create().parse(str(path), args=options, options=reading)
     except TranslationUnitLoadError:  # a header changed while it was read
@@ -66,7 +69,7 @@ def prepare(root, build, folders, jobs):
     state, copies = build / "mutation", build / "mutation/copies"
     copies.mkdir(parents=True, exist_ok=True)
     tool = b"".join((HERE / name).read_bytes() for name in ("finding.py", "schemata.py"))
-    known, work, found = remembered(state / "places.json"), [], {}
+    known, work, digests, found = remembered(state / "places.json"), [], {}, {}
     sources = units.wanted(build, root, folders)
     for source, unit in sorted(sources.items()):
         name = str(source.relative_to(root))
@@ -75,13 +78,12 @@ def prepare(root, build, folders, jobs):
             found[name] = known[name]
         else:
             work.append((name, source, unit.options))
-            known[name] = {"hash": digest}
+            digests[name] = digest
     with multiprocessing.Pool(jobs) as pool:
         for done, (name, places, copy, remark) in enumerate(pool.imap_unordered(find, work), 1):
-            found[name] = {**known[name], "places": [dataclasses.asdict(place) for place in places]}
-            if not places and remark:
-                del known[name]  # to be tried again
-            else:
+            found[name] = {"hash": digests[name], "places": [dataclasses.asdict(place) for place in places]}
+            known.pop(name, None)
+            if places or not remark:  # else it is tried again
                 known[name] = found[name]
             target = copies / name
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -33,9 +33,28 @@ check(schemata.instrumented(text, schemata.numbered("x.cpp", places)).decode(),
 copy = schemata.instrumented(text, schemata.numbered("x.cpp", places))
 check([place.kind for place in schemata.around(places, "x.cpp", text, [copy.index(b"whole")])], ["whole_from_one"])
 
-# Quick cases come first, and none beyond the budget.
-cases = [("p", "slow", 50, {1}), ("p", "quick", 1, {1}), ("p", "middle", 3, {1}), ("p", "never", 200, {1})]
-check([[case[1] for case in batch] for batch in trials.batches(cases, 60)], [["quick", "middle"], ["slow"]])
+# Quick cases come first, a round as long as what was spent before it, and none beyond the budget.
+cases = [("p", "slow", 50, {1}), ("p", "quick", 1, {1}), ("p", "middle", 3, {1}), ("p", "other", 1, {2}), ("p", "small", 0.5, {1}),
+         ("p", "never", 200, {1})]
+rounds = []
+
+
+def noticed_by(culprit):
+    def run(program, names, mutant, limit):
+        rounds.append(names)
+        return culprit in names, sum(case[2] for case in cases if case[1] in names)
+    return run
+
+
+trials.run = noticed_by("nobody")
+verdict = trials.attempt({"number": 1}, cases, 60)
+check(rounds, [["small", "quick"], ["middle"], ["slow"]])
+check((verdict["verdict"], verdict["cases"], verdict["of"]), ("survived", 4, 5))
+rounds.clear()
+trials.run = noticed_by("middle")
+check(trials.attempt({"number": 1}, cases, 60)["verdict"], "killed")
+check(rounds, [["small", "quick"], ["middle"]])
+check(trials.attempt({"number": 3}, cases, 60)["verdict"], "not reached")
 
 # A reason belongs to a place, whatever lines are added before it.
 with tempfile.TemporaryDirectory() as folder:
