@@ -141,9 +141,10 @@ def fuzz_one(step, target):
     command = [target, grown, f"tests/fuzz/corpus/{name}", f"-dict=tests/fuzz/dictionaries/{name}.dict",
                f"-artifact_prefix={found}/", f"-max_total_time={step.options.seconds}", "-timeout=20",
                "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1"]
+    in_memory = {"TMPDIR": "/dev/shm"} if pathlib.Path("/dev/shm").is_dir() else {}  # some write a file an execution
     with open(log, "w") as file:
         code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT,
-                              env=dict(os.environ, **ENVIRONMENT["asan"])).returncode
+                              env=dict(os.environ, **ENVIRONMENT["asan"], **in_memory)).returncode
     counted = re.findall(r"^stat::number_of_executed_units: (\d+)", log.read_text(errors="replace"), re.M)
     return name, code, int(counted[-1]) if counted else 0
 
