@@ -140,7 +140,7 @@ def fuzz_one(step, target):
     found.mkdir(parents=True, exist_ok=True)
     command = [target, grown, f"tests/fuzz/corpus/{name}", f"-dict=tests/fuzz/dictionaries/{name}.dict",
                f"-artifact_prefix={found}/", f"-max_total_time={step.options.seconds}", "-timeout=20",
-               "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1"]
+               "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1", "-print_funcs=0"]
     in_memory = {"TMPDIR": "/dev/shm"} if pathlib.Path("/dev/shm").is_dir() else {}  # some write a file an execution
     with open(log, "w") as file:
         code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT,
