@@ -4,19 +4,23 @@
 
     bench/analyse.py                      all of them, hours on two cores: what runs nightly
     bench/analyse.py tidy cppcheck fuzz   some of them
-    bench/analyse.py asan --tests Csv     of the sanitizers, valgrind and coverage only some tests
+    bench/analyse.py asan --tests Csv     of the sanitizers and valgrind only some tests
 
 asan      the suite under AddressSanitizer and UndefinedBehaviorSanitizer
+coverage  the share of lines of core and plugins that step asan has run, by gcov; its build counts them
 tsan      the suite under ThreadSanitizer; what TBB does inside is not instrumented and is left out (cmake/tsan.supp)
 valgrind  every plugin of the release build under `tunica plugin check` in valgrind
 tidy      clang-tidy over core, plugins and apps
 cppcheck  cppcheck over the same
-coverage  the suite with gcov; prints the share of lines of core and plugins that it runs
 fuzz      every fuzz target with libFuzzer for --seconds
+
+The suite is here every test that is a program of the build. Scripts are left out: they build, install and read sources,
+start other tools, or measure and damage the program from outside, and see nothing more under a sanitizer.
 
 Logs: build/analysis/NAME.log. The exit code is 1 where a check has found something."""
 import argparse
 import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -30,7 +34,6 @@ ENVIRONMENT = {
     "asan": {"ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1",
              "UBSAN_OPTIONS": "print_stacktrace=1", "LSAN_OPTIONS": f"suppressions={ROOT}/cmake/lsan.supp:print_suppressions=0"},
     "tsan": {"TSAN_OPTIONS": f"suppressions={ROOT}/cmake/tsan.supp:second_deadlock_stack=1"},
-    "coverage": {},
 }
 
 
@@ -59,13 +62,22 @@ class Step:
         return self.log.read_text(errors="replace")
 
 
+def programs_of(build, wanted):
+    """Numbers of the tests whose command is a program of the build, as ctest -I reads them from a file."""
+    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE)
+    tests = json.loads(shown.stdout)["tests"]
+    return [number for number, test in enumerate(tests, 1)
+            if str(build) in test.get("command", [""])[0] and re.search(wanted or "", test["name"])]
+
+
 def suite(step, preset):
     """Builds a preset and runs its tests; returns whether all passed, and how many."""
     if not step.build(preset, *step.options.target):
         return False, "does not build"
-    chosen = ["-R", step.options.tests] if step.options.tests else []
-    code = step.run("ctest", "--test-dir", f"build/{preset}", "--output-on-failure", "--timeout", "3600", "-j",
-                    step.options.jobs, *chosen, environment=ENVIRONMENT[step.name])
+    build, chosen = ROOT / "build" / preset, LOGS / f"{step.name}-tests.txt"
+    chosen.write_text("0,0,0," + ",".join(map(str, programs_of(build, step.options.tests))))
+    code = step.run("ctest", "--test-dir", build, "--output-on-failure", "--timeout", "3600", "-j", step.options.jobs,
+                    "-I", chosen, environment=ENVIRONMENT[step.name])
     verdict = re.findall(r"^(\d+)% tests passed, (\d+) tests failed out of (\d+)", step.text(), re.M)
     return code == 0, f"{verdict[-1][1]} of {verdict[-1][2]} tests failed" if verdict else "no verdict"
 
@@ -79,12 +91,11 @@ def tsan(step):
 
 
 def coverage(step):
-    passed, words = suite(step, "coverage")
-    step.run("gcovr", "--root", ".", "--object-directory", "build/coverage", "--filter", "core/", "--filter", "plugins/",
-             "--gcov-ignore-parse-errors", "--exclude-throw-branches", "--txt", "build/analysis/coverage.txt",
-             "--print-summary", "-j", step.options.jobs)
+    code = step.run("gcovr", "--root", ".", "--object-directory", "build/asan-ubsan", "--filter", "core/", "--filter",
+                    "plugins/", "--gcov-ignore-parse-errors", "--exclude-throw-branches", "--txt",
+                    "build/analysis/coverage.txt", "--print-summary", "-j", step.options.jobs)
     lines = re.findall(r"^lines: ([\d.]+)% \((\d+) out of (\d+)\)", step.text(), re.M)
-    return passed, words + (f"; {lines[-1][0]} % of {lines[-1][2]} lines" if lines else "; no figure")
+    return code == 0 and bool(lines), f"{lines[-1][0]} % of {lines[-1][2]} lines" if lines else "no figure"
 
 
 def valgrind(step):
@@ -105,9 +116,9 @@ def valgrind(step):
 
 
 def tidy(step):
-    if step.run("cmake", "--preset", "dev"):
+    if step.run("cmake", "--preset", "dev", "-B", "build/tidy", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16"):
         return False, "cannot be configured"
-    code = step.run("cmake", "--build", "build/dev", "--target", "lint")
+    code = step.run("cmake", "--build", "build/tidy", "--target", "lint")
     return code == 0, f"{len(re.findall(r'(?:error|warning): .*[[]', step.text()))} findings"
 
 
@@ -129,10 +140,11 @@ def fuzz_one(step, target):
     found.mkdir(parents=True, exist_ok=True)
     command = [target, grown, f"tests/fuzz/corpus/{name}", f"-dict=tests/fuzz/dictionaries/{name}.dict",
                f"-artifact_prefix={found}/", f"-max_total_time={step.options.seconds}", "-timeout=20",
-               "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1"]
+               "-rss_limit_mb=4096", "-max_len=8192", "-print_final_stats=1", "-print_funcs=0"]
+    in_memory = {"TMPDIR": "/dev/shm"} if pathlib.Path("/dev/shm").is_dir() else {}  # some write a file an execution
     with open(log, "w") as file:
         code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT,
-                              env=dict(os.environ, **ENVIRONMENT["asan"])).returncode
+                              env=dict(os.environ, **ENVIRONMENT["asan"], **in_memory)).returncode
     counted = re.findall(r"^stat::number_of_executed_units: (\d+)", log.read_text(errors="replace"), re.M)
     return name, code, int(counted[-1]) if counted else 0
 
@@ -151,7 +163,7 @@ def fuzz(step):
                                          "targets" + "".join(f"; a finding of {name}" for name in wrong))
 
 
-STEPS = {"cppcheck": cppcheck, "tidy": tidy, "asan": asan, "tsan": tsan, "valgrind": valgrind, "coverage": coverage,
+STEPS = {"cppcheck": cppcheck, "tidy": tidy, "asan": asan, "coverage": coverage, "tsan": tsan, "valgrind": valgrind,
          "fuzz": fuzz}
 
 

@@ -23,9 +23,12 @@ find_program(RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
 if(RUN_CLANG_TIDY)
   # clang does not know these options of g++; it would refuse every file for them.
   set(foreign_options -e "s/ -fno-gnu-unique//g" -e "s/ -Wno-restrict//g")
+  # In a unity build, joined files are read, which takes an eighth of the time; they include sources, as they should.
+  set(sources "/(core|plugins|apps)/.*\\.(cpp|cxx|hpp)$")
   add_custom_target(lint
     COMMAND ${CMAKE_COMMAND} -E make_directory lint
     COMMAND sed ${foreign_options} compile_commands.json > lint/compile_commands.json
-    COMMAND ${RUN_CLANG_TIDY} -quiet -p lint "${PROJECT_SOURCE_DIR}/(core|plugins|apps)/.*\\.cpp$"
+    COMMAND ${RUN_CLANG_TIDY} -quiet -p lint -header-filter=${sources} -checks=-bugprone-suspicious-include
+      "(${PROJECT_SOURCE_DIR}|${CMAKE_BINARY_DIR})${sources}"
     WORKING_DIRECTORY ${CMAKE_BINARY_DIR} VERBATIM USES_TERMINAL COMMENT "clang-tidy over core, plugins and apps")
 endif()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Input that somebody made to do harm, or that nobody thought of: one message, exit code 2, and in time.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -140,6 +141,57 @@ TEST(HostileInput, DataThatFixNothing) {
   const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_LT(ended.out.find("NOT A FIT: 'stress' of test"), 200u) << "before everything else";
+}
+
+TEST(HostileInput, ExactlyLinearDataAreToldAndTheCertificateIsHonest) {
+  trial::Bench bench;
+  double product = 0, square = 0;
+  for (const auto& [name, slope] : {std::pair{"circ", 60.0}, std::pair{"axial", 44.0}}) {
+    std::string text = "stretch [1],stress [kPa]\n";
+    for (int i = 1; i <= 20; ++i) {
+      const double stretch = 1 + 0.02 * i, stress = slope * 0.02 * i, shape = stretch * stretch - 1 / stretch;
+      text += fmt::format("{},{}\n", stretch, stress);
+      product += shape * stress;
+      square += shape * shape;
+    }
+    bench.folder.write(fmt::format("{}.csv", name), text);
+    bench.experiment["tests"][name]["data"]["noise"] = {{"absolute", 1e-14}};
+  }
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_LT(ended.out.find("NOT A FIT: 'stress' of test 'circ'"), 200u) << "before everything else";
+  EXPECT_THAT(ended.out, HasSubstr("rows lie on a"));
+  const auto result = bench.result("out");
+  int told = 0;
+  for (const auto& warning : result["warning_details"]) told += warning["kind"] == "misfit_out_of_scale";
+  EXPECT_EQ(told, 2) << "each run";
+  for (const auto& run : result["runs"]) {
+    const auto& best = run["best"];
+    const auto& certificate = best["certificate"];
+    const double objective = best["objective"], lowest = certificate["neighbours"]["lowest"]["objective"];
+    EXPECT_GT(objective, 1e27) << "residuals of a kPa, in units of 1e-14 kPa";
+    EXPECT_EQ(certificate["verdict_code"] == "confirmed", !certificate["neighbours"]["better"]);
+    EXPECT_EQ(certificate["neighbours"]["better"].get<bool>(), lowest < objective);
+  }
+  // The objective of neo-Hooke is a parabola in mu: its least squares are known.
+  const auto& neo = result["runs"][0]["best"];
+  EXPECT_NEAR(neo["parameters"]["mu"]["value"], product / square, 1e-7 * product / square);
+  EXPECT_EQ(neo["certificate"]["verdict_code"], "confirmed");
+  // 600 evaluations of an evolution strategy do not end at an optimum of five parameters.
+  EXPECT_EQ(result["runs"][1]["best"]["certificate"]["verdict_code"], "not_an_optimum");
+}
+
+TEST(HostileInput, ExactlyLinearDataWithoutANoiseAreFittedToOnePercent) {
+  trial::Bench bench;
+  std::string text = "stretch [1],stress [kPa]\n";
+  for (int i = 1; i <= 20; ++i) text += fmt::format("{},{}\n", 1 + 0.02 * i, 1.2 * i);
+  bench.folder.write("circ.csv", text);
+  bench.folder.write("axial.csv", text);
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--no-certificate"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("rows lie on a"));
+  EXPECT_THAT(ended.out, HasSubstr("0.24 kPa assumed, 1 % of the largest value"));
+  for (const auto& run : bench.result("out")["runs"]) EXPECT_LT(run["best"]["objective"], 1e6);
 }
 
 TEST(HostileInput, ATruncatedPluginInAFolderIsOneWarning) {

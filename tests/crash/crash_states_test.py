@@ -5,7 +5,8 @@
 Records the system calls of a short piece of work, builds the states that a loss of power may leave after each of them,
 and goes on from each: the result is the identical one, or it is refused with words. After an fsync of a file its data
 are there, after one of its folder its name is; everything else may be there, be lost or be torn. N states are drawn;
-without N there are all calls with five states each. Exit code 77: strace cannot run here."""
+without N there are all calls with seven states each, three of them torn. States that are equal are tried once. Exit code
+77: strace cannot run here."""
 import argparse
 import collections
 import pathlib
@@ -25,21 +26,21 @@ def states_of(calls, folder, wanted, draw):
     for k, one in enumerate(calls):
         if disk.take(*one):
             points.append(k)
-    kinds = ["everything", "nothing unsynced", "names only", "data only", "torn"]
+    kinds = ["everything", "nothing unsynced", "names only", "data only", "torn", "torn again", "torn once more"]
     chosen = [(k, kind) for k in points for kind in kinds]
     if wanted and wanted < len(chosen):
         chosen = sorted(draw.sample(chosen, wanted))
-    chosen.append((points[-1], "nothing unsynced"))
+    chosen.append((points[-1], "at the end"))
     disk, at = recorded.Disk(folder, "out"), 0
     for k, kind in chosen:
         while at <= k:
             disk.take(*calls[at])
             at += 1
         names, data = {"everything": (recorded.every, recorded.all_data),
-                       "nothing unsynced": (recorded.none, recorded.no_data),
+                       "nothing unsynced": (recorded.none, recorded.no_data), "at the end": (recorded.none, recorded.no_data),
                        "names only": (recorded.every, recorded.no_data),
-                       "data only": (recorded.none, recorded.all_data),
-                       "torn": (recorded.some_names(draw), recorded.torn_data(draw))}[kind]
+                       "data only": (recorded.none, recorded.all_data)}.get(
+                           kind, (recorded.some_names(draw), recorded.torn_data(draw)))
         yield k, kind, disk.after_a_crash(names, data)
 
 
@@ -60,8 +61,14 @@ def examine(kind, executable, wanted, draw, room):
     if code != 0:
         raise SystemExit(f"{kind}: ended with {code} under strace")
     expected = work.results(original)
-    counts, refusals, problems, last = collections.Counter(), collections.Counter(), [], None
+    counts, refusals, problems, last, tried = collections.Counter(), collections.Counter(), [], None, set()
     for k, how, state in states_of(calls, original, wanted, draw):
+        counts["states"] += 1
+        if (content := frozenset(state.items())) in tried and how != "at the end":
+            continue
+        tried.add(content)
+        if len(tried) % 50 == 0:
+            print(f"{kind}: {len(tried)} states tried, {len(problems)} wrong", flush=True)
         shutil.rmtree(original / "out", ignore_errors=True)
         put(state)
         last = work.results(original)  # of the final state in the end
@@ -76,7 +83,7 @@ def examine(kind, executable, wanted, draw, room):
             problems.append(f"after call {k} ({calls[k][0]}), {how}: exit code {code}, other than before: {different}\n{said}")
     if differing(last, expected):
         problems.append("of work that had ended well, a loss of power takes results away")
-    print(f"{kind}: {len(calls)} calls, {sum(counts.values()) + len(problems)} states: "
+    print(f"{kind}: {len(calls)} calls, {counts['states']} states, {len(tried)} different ones: "
           f"{counts['identical']} identical, {counts['refused']} refused, {len(problems)} wrong", flush=True)
     for words, number in refusals.most_common():
         print(f"    {number} times {words}")

@@ -72,7 +72,9 @@ def examine(kind, executable, library, wanted, draw, room):
     if wanted and wanted < number:
         faults = draw.sample(faults, wanted)
     ends, problems = collections.Counter(), []
-    for fault in faults:
+    for number_tried, fault in enumerate(faults):
+        if number_tried % 50 == 49:
+            print(f"{kind}: {number_tried} of {len(faults)} faults tried, {len(problems)} wrong", flush=True)
         shutil.rmtree(original / "out", ignore_errors=True)
         code, said = call(program(executable, *work.start), original,
                           {"LD_PRELOAD": library, "FAULT_UNDER": f"{original}/out", "FAULT": fault})

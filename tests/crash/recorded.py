@@ -28,10 +28,15 @@ def record(command, folder, trace):
             process = line.split(" ", 1)[0]
             if line.endswith("<unfinished ...>\n"):
                 begun[process] = line[:-len("<unfinished ...>\n")].rstrip()
+                # Another thread may be given the descriptor before close() comes back.
+                if closed := re.match(r"^\d+ +close\((\d+)", line):
+                    calls.append(("close", [closed[1]], 0))
                 continue
             resumed = re.match(r"^\d+ +<\.\.\. \w+ resumed>(.*)$", line, re.S)
             if resumed:
                 line = begun.pop(process) + resumed[1]
+                if " close(" in line:
+                    continue
             found = LINE.match(line)
             if found and found[4] != "?":
                 calls.append((found[2], split(found[3]), int(found[4])))

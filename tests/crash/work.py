@@ -24,6 +24,8 @@ def timeless(value):
 def rows(text):
     """The cells of a table without columns of a clock, and without rows about one."""
     table = list(csv.reader(line for line in text.splitlines() if not line.startswith("#")))
+    if not table:
+        return []
     kept = [k for k, title in enumerate(table[0]) if not any(word in title for word in CLOCK)]
     return [[row[k] for k in kept if k < len(row)] for row in table
             if not any(word in cell for word in CLOCK for cell in row[:4])]

@@ -129,6 +129,17 @@ TEST(FiniteElementMessages, TheTimeLimitIsKept) {
   EXPECT_SAYS(late, "the time limit is reached");
 }
 
+// One factorisation of this mesh takes seconds, so the limit has to be looked at within it.
+TEST(FiniteElementMessages, TheTimeLimitIsKeptWithinASecondOnALargeMesh) {
+  const auto tube = make_fe_tube({5, 20}, {.elements = "[200, 500]", .options = option("time_limit", 1.)});
+  const auto start = std::chrono::steady_clock::now();
+  const std::string late = reason(*tube, "gho", set_s);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GE(seconds, 1);
+  EXPECT_LT(seconds, 2);
+  EXPECT_SAYS(late, "the time limit is reached");
+}
+
 TEST(FiniteElementMessages, TheStepsAreCounted) {
   const auto tube = make_fe_tube({2, 8, 20}, {.elements = "[2, 3]", .options = option("max_steps", std::int64_t{2})});
   EXPECT_SAYS(reason(*tube, "gho", set_s), "2 load steps were not enough");

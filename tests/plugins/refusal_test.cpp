@@ -202,6 +202,27 @@ TEST(Refusal, FolderAboveThatOthersCanWriteUnlessItIsSticky) {
   EXPECT_EQ(reason_for(file), "loaded") << "as below /tmp";
 }
 
+TEST(Refusal, FolderAboveOfAnotherUserOrThatAGroupCanWrite) {
+  const TemporaryFolder folder;
+  const fs::path above = folder.subfolder("above");
+  const fs::path file = copy_plugin("good", folder.subfolder("above/plugins"));
+  constexpr unsigned other = 65534;
+  if (::chown(above.c_str(), static_cast<uid_t>(-1), other) != 0) GTEST_SKIP() << "only root gives folders away";
+  EXPECT_EQ(reason_for(file), "loaded") << "the group may read";
+  fs::permissions(above, fs::perms::group_write, fs::perm_options::add);
+  EXPECT_EQ(reason_for(file),
+            "the folder '" + above.string() +
+                "' above it can be written by its group, so that any member could replace what lies below; expected a "
+                "folder writable by its owner only; run: chmod g-w '" +
+                above.string() + "' (or pass --allow-world-writable-plugins)");
+  EXPECT_EQ(reason_for(file, true), "loaded") << "the override";
+  fs::permissions(above, fs::perms::group_write, fs::perm_options::remove);
+  ASSERT_EQ(::chown(above.c_str(), other, static_cast<gid_t>(-1)), 0);
+  EXPECT_THAT(reason_for(file), HasSubstr("the folder '" + above.string() + "' above it belongs to the user "));
+  fs::permissions(above, fs::perms::sticky_bit, fs::perm_options::add);
+  EXPECT_THAT(reason_for(file), HasSubstr("above it belongs to the user ")) << "its owner may replace all the same";
+}
+
 TEST(Refusal, ALinkDoesNotHideAWorldWritableFolder) {
   const TemporaryFolder folder;
   const fs::path open = folder.subfolder("open"), closed = folder.subfolder("closed");

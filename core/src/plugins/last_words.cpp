@@ -231,10 +231,8 @@ void leave_last_words() {
     ::sigaction(signal.number, &action, nullptr);
   }
   // One for each thread that may call exit() while another one does: whoever finds none left ends the process.
-  for (int thread = 0; thread < 64; ++thread) {
-    std::atexit(on_exit_in_plugin);
-    std::at_quick_exit(on_exit_in_plugin);
-  }
+  for (int thread = 0; thread < 64; ++thread)
+    if (std::atexit(on_exit_in_plugin) != 0 || std::at_quick_exit(on_exit_in_plugin) != 0) break;  // memory lacks
 }
 
 CallWatch::CallWatch(Limits limits) {
