@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compare result.json of two builds: every number must be the same to its last bit.
 
-    bench/compare_results.py OLD NEW        two result.json, or two folders with result.json anywhere below them
+    bench/compare_results.py OLD NEW                 two result.json, or two folders with result.json anywhere below them
+    bench/compare_results.py OLD NEW --within 1e-10  floating-point numbers may differ by so much, relatively
 
 Numbers, true, false and null are compared at the same JSON path; lists and objects must have the same size. Sentences may
 change, and so may short codes such as "named"; both are listed. Keys that NEW adds are listed as well. Left out are clock
@@ -26,7 +27,8 @@ def bits(value):
 
 
 class Comparison:
-    def __init__(self):
+    def __init__(self, within=0.0):
+        self.within, self.largest = within, 0.0
         self.numbers, self.missing, self.added, self.codes, self.sentences = [], [], [], [], []
         self.compared = 0
 
@@ -66,11 +68,20 @@ class Comparison:
         if isinstance(old, plain) or isinstance(new, plain):
             same = old is new
         elif isinstance(old, (int, float)) and isinstance(new, (int, float)):
-            same = bits(old) == bits(new)
+            same = bits(old) == bits(new) or self.close(old, new)
         else:
             same = False
         if not same:
             self.numbers.append((path, old, new))
+
+    def close(self, old, new):
+        """Within the tolerance; counts must be equal all the same."""
+        if self.within == 0 or not (isinstance(old, float) and isinstance(new, float)):
+            return False
+        change = abs(new - old) / max(abs(old), abs(new))
+        if change <= self.within:
+            self.largest = max(self.largest, change)
+        return change <= self.within
 
 
 def results(place):
@@ -99,6 +110,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("old", type=pathlib.Path)
     parser.add_argument("new", type=pathlib.Path)
+    parser.add_argument("--within", type=float, default=0.0, metavar="R", help="relative difference that is let pass (default: 0)")
     parser.add_argument("--most", type=int, default=20, help="entries shown of each kind (default: 20)")
     parser.add_argument("--quiet", action="store_true", help="neither changed sentences nor new keys")
     parser.add_argument("--finished", action="store_true", help="only results that NEW has, for a run that still goes on")
@@ -109,7 +121,7 @@ def main():
     if not old:
         print(f"{options.old}: no result.json to compare with {options.new}", file=sys.stderr)
         return 2
-    seen = Comparison()
+    seen = Comparison(options.within)
     for name, file in old.items():
         if name not in new:
             seen.missing.append((name or str(file), "result.json", "missing"))
@@ -124,6 +136,8 @@ def main():
     show("DIFFERENT NUMBERS", seen.numbers, options.most)
     print(f"{len(old)} results, {seen.compared} numbers compared: {len(seen.numbers)} differ, {len(seen.missing)} keys are "
           f"missing; {len(seen.codes)} codes and {len(seen.sentences)} sentences changed, {len(seen.added)} keys are new")
+    if options.within:
+        print(f"the largest relative difference that was let pass is {seen.largest:.2g}")
     return 1 if seen.numbers or seen.missing else 0
 
 

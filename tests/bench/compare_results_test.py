@@ -14,7 +14,7 @@ RESULT = {"runs": [{"run": "gho/lm", "best": {"objective": 66.1, "stable": None}
 
 
 class CompareResults(unittest.TestCase):
-    def compare(self, change):
+    def compare(self, change, *options):
         """Exit code and output for a result and a changed copy of it."""
         with tempfile.TemporaryDirectory() as folder:
             new = json.loads(json.dumps(RESULT))
@@ -23,7 +23,7 @@ class CompareResults(unittest.TestCase):
                 place = pathlib.Path(folder) / name / "example"
                 place.mkdir(parents=True)
                 (place / "result.json").write_text(json.dumps(result), encoding="utf-8")
-            ended = subprocess.run([sys.executable, SCRIPT, f"{folder}/old", f"{folder}/new"], capture_output=True, text=True)
+            ended = subprocess.run([sys.executable, SCRIPT, f"{folder}/old", f"{folder}/new", *options], capture_output=True, text=True)
             return ended.returncode, ended.stdout
 
     def test_times_and_the_program_do_not_count(self):
@@ -36,6 +36,15 @@ class CompareResults(unittest.TestCase):
         code, text = self.compare(lambda new: new["runs"][0]["best"].update(objective=66.10000000000001))
         self.assertEqual(code, 1)
         self.assertIn("example.runs[0].best.objective", text)
+
+    def test_a_tolerance_lets_rounding_pass_and_no_count(self):
+        def change(new):
+            new["runs"][0]["best"]["objective"] = 66.1 * (1 + 1e-11)
+        code, text = self.compare(change, "--within", "1e-10")
+        self.assertEqual(code, 0)
+        self.assertIn("the largest relative difference that was let pass is 1e-11", text)
+        self.assertEqual(self.compare(change, "--within", "1e-12")[0], 1)
+        self.assertEqual(self.compare(lambda new: new["provenance"].update(seed=8), "--within", "1")[0], 1)
 
     def test_null_is_no_number(self):
         self.assertEqual(self.compare(lambda new: new["runs"][0]["best"].update(stable=0))[0], 1)

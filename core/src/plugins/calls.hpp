@@ -43,8 +43,8 @@ inline CallsOfThread& calls_of_this_thread() {
 }
 /// Every thread that has called a plugin. Entries stay when a thread ends, and are used again.
 std::vector<CallsOfThread*> calls_of_all_threads();
-/// Whether an evaluation came to an end. Threads look at it before they write, for a shared line that is written at
-/// every evaluation costs two threads a tenth of their gain.
+/// Whether an evaluation came to an end. Threads look at it before they write: a line of memory that all of them write
+/// at every evaluation would go from one to the other.
 inline std::atomic<bool> evaluated = false;
 inline void set_evaluated() {
   if (!evaluated.load(std::memory_order_relaxed)) evaluated.store(true, std::memory_order_relaxed);

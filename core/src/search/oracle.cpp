@@ -203,7 +203,7 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
     residuals = workspace.residuals;
   }
   const auto evaluate = [&](std::span<const double> point) {
-    shared_.box.from_unit(point, free);
+    if (point.data() != x.data()) shared_.box.from_unit(point, free);
     return shared_.assembly.evaluator().evaluate(free, made.objectives[slot], per_test, residuals, jacobian, workspace,
                                                  costly);
   };
@@ -217,7 +217,7 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   plugins::set_evaluated();
   if (status.kind() == Status::Kind::failed) shared_.watch.add(plugins::take_time_lost());
   if (status.kind() == Status::Kind::failed) return status;
-  shared_.box.jacobian_to_unit(free, jacobian);
+  if (!jacobian.empty()) shared_.box.jacobian_to_unit(free, jacobian);
   if (correction != nullptr)
     made.objectives[slot] = correction->apply(x, shared_.assembly.layout().blocks, residuals, jacobian);
   return status;
