@@ -12,8 +12,6 @@ namespace tunica::conformance {
 namespace {
 
 constexpr double tolerance = 1e-6;
-/// Of tests that are costly: finite elements are solved to a tolerance, and so are their sensitivities.
-constexpr double coarse_tolerance = 5e-6;
 /// Differences that settle no better than to this say nothing.
 constexpr double useless = 1e-2;
 
@@ -73,8 +71,7 @@ struct Comparison {
 
 Verdict jacobian_matches_differences(const Simulation& s, std::uint64_t) {
   const std::size_t rows = size_of(s), models = s.model_parameters.size(), all = models + s.test_parameters.size();
-  Meter meter("the Jacobian with differences of the predictions",
-              s.test.describe().costly ? coarse_tolerance : tolerance);
+  Meter meter("the Jacobian with differences of the predictions", tolerance);
   const auto [status, values, jacobian, by_abscissae, shown] = predict(s.test, s.input(), {.jacobian = true});
   if (!status.ok()) {
     if (!s.model.describe().parameter_derivatives)

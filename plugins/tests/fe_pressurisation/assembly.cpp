@@ -35,6 +35,7 @@ class AssemblyOf final : public Assembly {
     prepare(system, size, tangent);
     double stiffness = 0, largest = 0;
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      if (row % 64 == 63 && late && late()) return Status::failed("the time limit is reached");
       row_.take(state, row);
       if (Status status = row_.evaluate(material, tangent, false); !status.ok()) return status;
       row_.integrate(material.sees_shear(), tangent, stiffness);
@@ -141,11 +142,14 @@ class AssemblyOf final : public Assembly {
       for (std::size_t e = 0; e < n_; ++e)
         for (std::size_t m = 0; m < np; ++m) {
           const std::size_t at = (row * n_ + e) * np + m;
-          double sum = dilation.empty() ? 0 : dilation[at];
-          for (std::size_t a = 0; a < (dx.empty() ? 0 : nn); ++a) {
-            const std::size_t dof = 2 * row_.node(a, e, row);
-            sum += system.coupling[at * dofs + 2 * a] * dx[dof] + system.coupling[at * dofs + 2 * a + 1] * dx[dof + 1];
+          std::array<double, width> sums{};
+          for (std::size_t k = 0; k < (dx.empty() ? 0 : E::side); ++k) {
+            const double* const x = dx.data() + line(row, e, k);
+            const double* const g = system.coupling.data() + at * dofs + k * width;
+            for (std::size_t i = 0; i < width; ++i) sums[i] += g[i] * x[i];
           }
+          double sum = dilation.empty() ? 0 : dilation[at];
+          for (const double part : sums) sum += part;
           dq[at] = -system.gamma * sum / mass(m, e, row);
         }
   }
@@ -156,10 +160,10 @@ class AssemblyOf final : public Assembly {
       for (std::size_t e = 0; e < n_; ++e)
         for (std::size_t m = 0; m < np; ++m) {
           const std::size_t at = (row * n_ + e) * np + m;
-          for (std::size_t a = 0; a < nn; ++a) {
-            const std::size_t dof = 2 * row_.node(a, e, row);
-            force[dof] += system.coupling[at * dofs + 2 * a] * dq[at];
-            force[dof + 1] += system.coupling[at * dofs + 2 * a + 1] * dq[at];
+          for (std::size_t k = 0; k < E::side; ++k) {
+            double* const f = force.data() + line(row, e, k);
+            const double* const g = system.coupling.data() + at * dofs + k * width;
+            for (std::size_t i = 0; i < width; ++i) f[i] += g[i] * dq[at];
           }
         }
   }
@@ -207,6 +211,12 @@ class AssemblyOf final : public Assembly {
   }
 
  private:
+  /// Positions of the nodes of an element in its plane k follow each other, from here on.
+  static constexpr std::size_t width = 2 * E::side;
+  [[nodiscard]] std::size_t line(std::size_t row, std::size_t e, std::size_t k) const {
+    return 2 * mesh_.node(e * Order, row * Order + k);
+  }
+
   /// ∫ ψ_m² dV of an element: M up to what R varies within it, which decides nothing (see the class).
   [[nodiscard]] double mass(std::size_t m, std::size_t e, std::size_t row) const {
     return column_[e] * row_.height(row) / (m == 0 ? 1 : 3);

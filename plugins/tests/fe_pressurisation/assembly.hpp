@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -92,7 +93,8 @@ class Assembly {
 
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
 
-  Support support;  ///< acts where its slope is not 0
+  Support support;             ///< acts where its slope is not 0
+  std::function<bool()> late;  ///< asked now and then, where it is set: assemble() fails where it says yes
 };
 
 }  // namespace tunica::fe

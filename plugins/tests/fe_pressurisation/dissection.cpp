@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
+constexpr double per_entry = 100;  ///< operations that memory costs which is touched for the first time
+
 std::size_t filled(std::size_t rows) { return (rows + panel - 1) / panel * panel; }
 
 /// Σ (h − j)²/2 over the columns eliminated.
@@ -101,7 +103,7 @@ std::size_t Dissection::dissect(const Mesh& mesh, const Part& part, std::vector<
   return fronts_.size() - 1;
 }
 
-void Dissection::prepare(const Mesh& mesh, const Stencil& matrix) {
+bool Dissection::prepare(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late) {
   size_ = 2 * mesh.nodes();
   fronts_.clear();
   positions_.clear();
@@ -143,18 +145,20 @@ void Dissection::prepare(const Mesh& mesh, const Stencil& matrix) {
   scaled_.resize(widest * panel);
   inverse_.resize(panels * panel * panel);
   inverse_pivot_.resize(panels * panel);
-  locate(mesh, matrix);
+  return locate(mesh, matrix, late);
 }
 
 /// Where the entries of the matrix go, and what a front leaves.
-void Dissection::locate(const Mesh& mesh, const Stencil& matrix) {
+bool Dissection::locate(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late) {
   entries_.clear();
   std::vector<std::size_t> row(size_, nowhere);
   const auto elements = [&](std::size_t i, std::size_t last) {  // that a line of nodes belongs to: first and last
     const std::size_t n = mesh.order;
     return std::array{i % n == 0 && i > 0 ? i / n - 1 : i / n, std::min(i / n, last - 1)};
   };
-  for (Front& front : fronts_) {
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    if (late && f % 1024 == 1023 && late()) return false;
+    Front& front = fronts_[f];
     const std::span<const std::uint32_t> at(&positions_[front.positions], front.eliminated + front.around);
     for (std::size_t r = 0; r < at.size(); ++r)
       row[at[r]] = r < front.eliminated ? r : front.own + r - front.eliminated;
@@ -187,6 +191,7 @@ void Dissection::locate(const Mesh& mesh, const Stencil& matrix) {
     }
     for (const std::uint32_t position : at) row[position] = nowhere;
   }
+  return true;
 }
 
 /// What the matrix has of a front.
@@ -257,7 +262,7 @@ std::optional<std::size_t> Dissection::factorise(const Stencil& matrix, std::spa
   std::size_t negative = 0;
   double since = 0;
   for (const Front& front : fronts_) {
-    since += operations_of(front.own, front.height);
+    since += operations_of(front.own, front.height) + per_entry * static_cast<double>(front.own * front.height);
     if (late && since > between_questions) {
       since = 0;
       if (late()) return {};

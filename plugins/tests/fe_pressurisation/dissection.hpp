@@ -33,8 +33,8 @@ class Dissection {
  public:
   static FactorCost cost(const Mesh& mesh);
 
-  /// The order of a mesh and the places of the entries of its matrix.
-  void prepare(const Mesh& mesh, const Stencil& matrix);
+  /// The order of a mesh and the places of the entries of its matrix. False where it became late.
+  bool prepare(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late = {});
   /// Rows and columns `fixed` become those of the unit matrix, times `diagonal`; then as Banded::factorise().
   std::optional<std::size_t> factorise(const Stencil& matrix, std::span<const std::size_t> fixed, double diagonal,
                                        const std::function<bool()>& late);
@@ -78,7 +78,7 @@ class Dissection {
   static Nodes nodes_of(const Mesh& mesh, const Part& part);
   static FactorCost cost(const Mesh& mesh, const Part& part, double& left);
   std::size_t dissect(const Mesh& mesh, const Part& part, std::vector<Nodes>& nodes);
-  void locate(const Mesh& mesh, const Stencil& matrix);
+  bool locate(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late);
   void load(const Front& front, const Stencil& matrix, double diagonal);
   static void extend(const Front& from, const Front& to, const double* left, double* a, double* to_left);
   template <class Vector, std::size_t Vectors, std::size_t Columns>

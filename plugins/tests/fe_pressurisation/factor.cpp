@@ -26,8 +26,8 @@ double Factor::bytes(const Mesh& mesh) { return cost(mesh).bytes() + (dissects(m
 std::optional<std::size_t> Factor::factorise(const Stencil& matrix, std::span<const std::size_t> fixed, double diagonal,
                                              const std::function<bool()>& late) {
   if (dissected_) {
-    if (!prepared_) dissection_.prepare(mesh_, matrix);
-    prepared_ = true;
+    prepared_ = prepared_ || dissection_.prepare(mesh_, matrix, late);
+    if (!prepared_) return {};
     return dissection_.factorise(matrix, fixed, diagonal, late);
   }
   matrix.spread(band_);

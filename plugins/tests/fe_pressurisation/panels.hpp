@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 
 namespace tunica::fe {
 
-/// Memory that begins at a cache line, so that no vector of it lies across two.
+/// Memory that begins at a cache line, so that no vector of it lies across two. Of numbers that nobody gave it stays
+/// untouched: a large factor takes seconds to be cleared at once, and is cleared block by block.
 template <class T>
 struct Aligned {
   using value_type = T;
@@ -17,6 +19,14 @@ struct Aligned {
   explicit(false) Aligned(const Aligned<U>&) {}
   T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
   void deallocate(T* at, std::size_t) { ::operator delete(at, line); }
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
   friend bool operator==(const Aligned&, const Aligned&) { return true; }
 };
 

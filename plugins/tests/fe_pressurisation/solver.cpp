@@ -37,6 +37,7 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)),
       rest_.x[2 * mesh_.node(i, k) + 1] = mesh_.layer[k];
     }
   rest_.q.assign(assembly_->pressure_count(), 0);
+  assembly_->late = [this] { return late(); };
   end_moved_.assign(rest_.x.size(), 0);
   for (std::size_t i = 0; i < mesh_.across(); ++i)
     end_moved_[2 * mesh_.node(i, mesh_.planes() - 1) + 1] = mesh_.half_length();

@@ -33,6 +33,8 @@ class Solver {
   static constexpr double tolerance = 1e-11;  ///< of the positions, over the outer radius
 
   explicit Solver(const Mesh& mesh);
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
   /// Of memory that it takes, as far as it grows with the mesh.
   static double bytes(const Mesh& mesh);
 
