@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tunica/detail/lanes.hpp"
 #include "tunica/detail/taylor.hpp"
 #include "tunica/models/jet_functions.hpp"
 
@@ -27,6 +28,9 @@ Nested nested(double value, int place) {
   return x;
 }
 
+/// Two points at once.
+using InLanes = Taylor<1, detail::Lanes<2>>;
+
 /// One formula for every kind of number.
 struct Formula {
   std::string name;
@@ -34,10 +38,11 @@ struct Formula {
   std::function<Jet(Jet, Jet)> single;
   std::function<Nested(Nested, Nested)> twofold;
   std::function<Taylor<1>(Taylor<1>, Taylor<1>)> taylor;
+  std::function<InLanes(InLanes, InLanes)> lanes;
 };
 template <class F>
 Formula formula(std::string name, F f) {
-  return {std::move(name), f, f, f, f};
+  return {std::move(name), f, f, f, f, f};
 }
 #define FORMULA(expression)                               \
   formula(#expression, [](const auto& x, const auto& y) { \
@@ -142,6 +147,35 @@ TEST(TaylorNumbers, HaveTheDerivativesOfJetsTwice) {
     expect_near(found.p[0], jets.a.v[1], 1e-13, f.name + " by y");
     expect_near(found.xp[0], jets.v[0].v[1], 1e-13, f.name + " by x and y");
   }
+}
+
+TEST(TaylorNumbers, AreTheSameInEveryLane) {
+  const double x1 = 1.01 * x0, y1 = 0.99 * y0;  // of the same branch
+  for (const Formula& f : formulas()) {
+    detail::Lanes<2> x(x0), y(y0);
+    x.v[1] = x1;
+    y.v[1] = y1;
+    detail::lanes_in_step = 3;
+    const InLanes found = f.lanes(InLanes::argument(x), InLanes::parameter(y, 0));
+    EXPECT_EQ(detail::lanes_in_step, 3u) << f.name;
+    for (const int lane : {0, 1}) {
+      const Taylor<1> alone =
+          f.taylor(Taylor<1>::argument(lane == 0 ? x0 : x1), Taylor<1>::parameter(lane == 0 ? y0 : y1, 0));
+      expect_near(found.value.v[lane], alone.value, 1e-14, f.name);
+      expect_near(found.x.v[lane], alone.x, 1e-14, f.name + " by x");
+      expect_near(found.xx.v[lane], alone.xx, 1e-14, f.name + " by x twice");
+      expect_near(found.p[0].v[lane], alone.p[0], 1e-14, f.name + " by y");
+      expect_near(found.xp[0].v[lane], alone.xp[0], 1e-14, f.name + " by x and y");
+    }
+  }
+}
+
+TEST(TaylorNumbers, TellWhichLanesTookTheBranchOfTheFirst) {
+  detail::Lanes<2> x(1.0);
+  x.v[1] = -1;
+  detail::lanes_in_step = 3;
+  EXPECT_EQ(abs(InLanes::argument(x)).value.v[0], 1);
+  EXPECT_EQ(detail::lanes_in_step, 1u);
 }
 
 /// x^2 by x at x = 0 and below, where logarithms are not.

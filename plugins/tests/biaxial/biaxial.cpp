@@ -5,6 +5,8 @@
 
 #include "response.hpp"
 #include "sheet.hpp"
+#include "tunica/detail/vector_level.hpp"
+#include "tunica/detail/vector_math.hpp"
 #include "tunica/plugin.hpp"
 
 namespace tunica::biaxial {
@@ -13,9 +15,7 @@ namespace {
 /// Positions of the tangent's components (a, b) in the order tt, zz, rr, tz, zr, tr.
 constexpr std::array<std::array<std::size_t, 3>, 3> place{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
 
-bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-}
+bool all_finite(std::span<const double> values) { return detail::all_finite(values.data(), values.size()); }
 
 /// A thin sheet, both in-plane stretches prescribed, its faces free: λr = 1/(λt λz), σr = 0, so that no equation has to
 /// be solved. With the squared stretches c and S = 2 ∂W/∂C
@@ -41,6 +41,8 @@ class Biaxial final : public Test {
     }
     rows_.channels = setup.rows.channels;
     rows_.time = sheet_.time;
+    c_.resize(3 * rows_.count);
+    set_stretches(bound_, c_);
   }
 
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
@@ -59,7 +61,10 @@ class Biaxial final : public Test {
 
     thread_local Response r;
     r.reserve(n, parameters);
-    set_stretches(columns, r.c);
+    if (input.abscissae.empty())
+      std::copy(c_.begin(), c_.end(), r.c.begin());
+    else
+      set_stretches(columns, r.c);
     if (!output.diagnostics.empty())
       for (std::size_t i = 0; i < n; ++i) output.diagnostics[i] = std::sqrt(r.c[2 * n + i]);
     if (Status status = r.evaluate(input.model, input.model_parameters, sheet_.time, n, sheet_.angle, wants);
@@ -68,18 +73,15 @@ class Biaxial final : public Test {
     if (sheet_.angle != 0 && !output.diagnostics.empty())  // σ_tz = λt λz S_tz
       for (std::size_t i = 0; i < n; ++i) output.diagnostics[n + i] = std::sqrt(r.c[i] * r.c[n + i]) * r.shear[i];
 
-    for (std::size_t i = 0; i < n; ++i) {
-      const InPlane stress = cauchy(r, r.stress, i), factor = measure(r, i);
-      if (!std::isfinite(stress[0] + stress[1]))
-        return Status::failed("biaxial: the energy overflows or is undefined at " + sheet_.row_name(columns, i));
-      if (!output.values.empty()) set(output.values, i, {factor[0] * stress[0], factor[1] * stress[1]});
-      for (std::size_t j = 0; wants.parameters && j < parameters; ++j) {
-        const InPlane by_p = cauchy(r, std::span<const double>(r.stress_dp).subspan(3 * j * n, 3 * n), i);
-        set(output.jacobian.subspan(j * rows, rows), i, {factor[0] * by_p[0], factor[1] * by_p[1]});
-      }
-      for (std::size_t k = 0; wants.tangent && k < columns.size(); ++k)
-        set(output.abscissa_derivative.subspan(k * rows, rows), i, by_column(r, i, stress, factor, k));
-    }
+    r.set_factors(n, sheet_.power);
+    if (const std::size_t bad = first_undefined(r); bad < n)
+      return Status::failed("biaxial: the energy overflows or is undefined at " + sheet_.row_name(columns, bad));
+    if (!output.values.empty()) write(r, r.stress.data(), output.values);
+    for (std::size_t j = 0; wants.parameters && j < parameters; ++j)
+      write(r, r.stress_dp.data() + 3 * j * n, output.jacobian.subspan(j * rows, rows));
+    for (std::size_t k = 0; wants.tangent && k < columns.size(); ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        set(output.abscissa_derivative.subspan(k * rows, rows), i, by_column(r, i, k));
     if (!all_finite(output.values) || !all_finite(output.jacobian) || !all_finite(output.abscissa_derivative))
       return Status::failed("biaxial: a stress or its derivative overflows, first at " +
                             sheet_.row_name(columns, first_overflow(output)));
@@ -99,25 +101,49 @@ class Biaxial final : public Test {
     }
   }
 
-  /// c_a S_aa − c_r S_rr, of S or of a derivative of S at fixed stretches.
-  InPlane cauchy(const Response& r, std::span<const double> S, std::size_t i) const {
+  /// c_a S_aa − c_r S_rr
+  InPlane cauchy(const Response& r, std::size_t i) const {
     const std::size_t n = rows_.count;
-    const double normal = r.c[2 * n + i] * S[2 * n + i];
-    return {r.c[i] * S[i] - normal, r.c[n + i] * S[n + i] - normal};
+    const double normal = r.c[2 * n + i] * r.stress[2 * n + i];
+    return {r.c[i] * r.stress[i] - normal, r.c[n + i] * r.stress[n + i] - normal};
   }
 
-  /// Cauchy stress to the data's measure: P = σ/λ, S = σ/λ².
-  InPlane measure(const Response& r, std::size_t i) const {
-    if (sheet_.power == 0) return {1, 1};
-    const InPlane c{r.c[i], r.c[rows_.count + i]};
-    return sheet_.power == 2 ? InPlane{1 / c[0], 1 / c[1]} : InPlane{1 / std::sqrt(c[0]), 1 / std::sqrt(c[1])};
+  /// The first row where σ_t + σ_z is no number, or their number.
+  std::size_t first_undefined(const Response& r) const {
+    const std::size_t n = rows_.count;
+    const auto is_undefined = [this, &r](std::size_t i) {
+      const InPlane stress = cauchy(r, i);
+      return !std::isfinite(stress[0] + stress[1]);
+    };
+    std::size_t undefined = 0;
+    for (std::size_t i = 0; i < n; ++i) undefined += is_undefined(i) ? 1u : 0u;
+    std::size_t first = undefined > 0 ? 0 : n;
+    while (first < n && !is_undefined(first)) ++first;
+    return first;
+  }
+
+  /// Every channel of S, or of a derivative of S at fixed stretches, in the data's measure.
+  void write(const Response& r, const double* S, std::span<double> out) const {
+    const std::size_t n = rows_.count;
+    for (std::size_t k = 0; k < sheet_.channels.size(); ++k) {
+      const auto [t, z] = sheet_.channels[k];
+      const double *const c = r.c.data(), *const factor = r.factor.data();
+      double* const to = out.data() + k * n;
+      detail::vectorised([=] {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < n; ++i) {
+          const double normal = c[2 * n + i] * S[2 * n + i];
+          to[i] = t * factor[i] * (c[i] * S[i] - normal) + z * factor[n + i] * (c[n + i] * S[n + i] - normal);
+        }
+      });
+    }
   }
 
   /// Stresses in the data's measure by abscissa k. With l_b = ln λ_b: ∂c_b/∂l_b = 2 c_b and ∂c_r/∂l_b = −2 c_r, hence
   ///   ∂S_xx/∂l_b = A_xb c_b − A_xr c_r with A = 2 ∂S/∂C.
-  InPlane by_column(const Response& r, std::size_t i, const InPlane& stress, const InPlane& factor,
-                    std::size_t k) const {
+  InPlane by_column(const Response& r, std::size_t i, std::size_t k) const {
     const std::size_t n = rows_.count;
+    const InPlane stress = cauchy(r, i);
     const double cr = r.c[2 * n + i];
     InPlane sum{0, 0};
     for (std::size_t b = 0; b < 2; ++b) {
@@ -129,7 +155,7 @@ class Biaxial final : public Test {
       for (std::size_t a = 0; a < 2; ++a) {
         const double ca = r.c[a * n + i], own = a == b ? 2 * ca * r.stress[a * n + i] - sheet_.power * stress[a] : 0;
         const double by_l = own + ca * change(a) + 2 * cr * r.stress[2 * n + i] - cr * change(2);
-        sum[a] += along * factor[a] * by_l / std::sqrt(cb);
+        sum[a] += along * r.factor[a * n + i] * by_l / std::sqrt(cb);
       }
     }
     return sum;
@@ -151,6 +177,7 @@ class Biaxial final : public Test {
 
   Sheet sheet_;
   std::vector<std::span<const double>> bound_;
+  std::vector<double> c_;  ///< squared stretches of the bound rows, as Response::c
   TestRows rows_;
   TestDescription description_;
 };

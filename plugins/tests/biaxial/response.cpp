@@ -41,8 +41,15 @@ void Response::reserve(std::size_t n, std::size_t parameters) {
     shear.resize(n);
     stress.resize(3 * n);
     tangent.resize(6 * n);
+    factor.resize(2 * n);
   }
   if (stress_dp.size() < 3 * n * parameters) stress_dp.resize(3 * n * parameters);
+}
+
+/// P = σ/λ, S = σ/λ².
+void Response::set_factors(std::size_t n, int power) {
+  if (power == 0) std::fill_n(factor.begin(), 2 * n, 1.0);
+  for (std::size_t k = 0; power != 0 && k < 2 * n; ++k) factor[k] = power == 2 ? 1 / c[k] : 1 / std::sqrt(c[k]);
 }
 
 Status Response::evaluate(const Model& model, std::span<const double> parameters, std::span<const double> time,

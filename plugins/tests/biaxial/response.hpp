@@ -20,11 +20,15 @@ struct Response {
   std::vector<double> tangent;    ///< 6n; 2 ∂S_aa/∂C_bb in the order tt, zz, rr, tz, zr, tr
   std::vector<double> stress_dp;  ///< n_p·3n; ∂S_aa/∂p_j at [(3j + a)n + i]
 
+  std::vector<double> factor;  ///< 2n; Cauchy stress in direction a to the data's measure at [a·n + i]
+
   struct Wants {
     bool tangent, parameters;
   };
 
   void reserve(std::size_t n, std::size_t parameters);
+  /// Sets `factor` at the stretches c: λ_a^−power, with power 0, 1 or 2.
+  void set_factors(std::size_t n, int power);
   /// Evaluates all n rows: in principal axes where the model offers that and the sheet is not turned, else over full
   /// tensors, in the rows' order. `time`: n clock readings, or empty. `angle`: as Sheet::angle.
   Status evaluate(const Model& model, std::span<const double> parameters, std::span<const double> time, std::size_t n,

@@ -11,7 +11,8 @@ namespace tunica::hyperelastic {
 /// y_k (+)= a_k x for three rows in one sweep. `assign`: the first part that has something to say writes, the others
 /// add. Nothing overlaps.
 template <bool assign>
-void sweep3(double* y, std::size_t n, const double* __restrict x, const std::array<double, 3>& a, std::size_t m) {
+[[gnu::always_inline]] inline void sweep3(double* y, std::size_t n, const double* __restrict x,
+                                          const std::array<double, 3>& a, std::size_t m) {
   double* __restrict y0 = y;
   double* __restrict y1 = y + n;
   double* __restrict y2 = y + 2 * n;
@@ -25,8 +26,9 @@ void sweep3(double* y, std::size_t n, const double* __restrict x, const std::arr
 }
 /// y_k (+)= a_k x + b_k z
 template <bool assign>
-void sweep_both(double* y, std::size_t n, const double* __restrict x, const std::array<double, 3>& a,
-                const double* __restrict z, const std::array<double, 3>& b, std::size_t m) {
+[[gnu::always_inline]] inline void sweep_both(double* y, std::size_t n, const double* __restrict x,
+                                              const std::array<double, 3>& a, const double* __restrict z,
+                                              const std::array<double, 3>& b, std::size_t m) {
   double* __restrict y0 = y;
   double* __restrict y1 = y + n;
   double* __restrict y2 = y + 2 * n;
@@ -41,8 +43,8 @@ void sweep_both(double* y, std::size_t n, const double* __restrict x, const std:
 }
 /// H_ab (+)= w ψ'' A_a A_b, six rows in the order tt, zz, rr, tz, zr, tr.
 template <bool assign>
-void sweep_hessian(double* h, std::size_t n, const double* __restrict second, const std::array<double, 3>& a, double w,
-                   std::size_t m) {
+[[gnu::always_inline]] inline void sweep_hessian(double* h, std::size_t n, const double* __restrict second,
+                                                 const std::array<double, 3>& a, double w, std::size_t m) {
   sweep3<assign>(h, n, second, {w * a[0] * a[0], w * a[1] * a[1], w * a[2] * a[2]}, m);
   sweep3<assign>(h + 3 * n, n, second, {w * a[0] * a[1], w * a[1] * a[2], w * a[2] * a[0]}, m);
 }
@@ -129,7 +131,7 @@ class AxesPart {
   /// g_a = Σ w ψ' ∂x/∂c_a
   void add_gradient(bool onto) const {
     double* const g = out_.gradient.data() + begin_;
-    if (a_.i2 == 0) return (onto ? sweep3<false> : sweep3<true>)(g, n_, batch_.first.data(), scaled(diagonal_), m_);
+    if (a_.i2 == 0) return sweep(onto, g, batch_.first.data());
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t i = 0; i < m_; ++i)
         g[k * n_ + i] = (onto ? g[k * n_ + i] : 0) + weight_ * batch_.first[i] * slope(k, i);
@@ -139,7 +141,13 @@ class AxesPart {
   void add_hessian(bool onto) const {
     double* const h = out_.hessian.data() + begin_;
     const double* const second = batch_.second.data();
-    if (a_.i2 == 0) return (onto ? sweep_hessian<false> : sweep_hessian<true>)(h, n_, second, diagonal_, weight_, m_);
+    if (a_.i2 == 0) {
+      if (onto)
+        sweep_hessian<false>(h, n_, second, diagonal_, weight_, m_);
+      else
+        sweep_hessian<true>(h, n_, second, diagonal_, weight_, m_);
+      return;
+    }
     static constexpr std::array<std::array<std::size_t, 2>, 6> pair{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
     for (std::size_t k = 0; k < 6; ++k) {
       const auto [p, q] = pair[k];
@@ -189,8 +197,11 @@ class AxesPart {
       double* const g = dp(parameter);
       const bool onto = written.parameters[parameter];
       if (a_.i2 == 0 && d.i2 == 0) {
-        (onto ? sweep_both<false> : sweep_both<true>)(g, n_, x_p.data(), scaled(diagonal_), batch_.first.data(),
-                                                      scaled(d_diagonal), m_);
+        const std::array<double, 3> of_x = scaled(diagonal_), of_first = scaled(d_diagonal);
+        if (onto)
+          sweep_both<false>(g, n_, x_p.data(), of_x, batch_.first.data(), of_first, m_);
+        else
+          sweep_both<true>(g, n_, x_p.data(), of_x, batch_.first.data(), of_first, m_);
       } else {
         for (std::size_t k = 0; k < 3; ++k)
           for (std::size_t i = 0; i < m_; ++i)
@@ -210,7 +221,7 @@ class AxesPart {
       double* const g = dp(parameter);
       const bool onto = written.parameters[parameter];
       if (a_.i2 == 0) {
-        (onto ? sweep3<false> : sweep3<true>)(g, n_, first_p, scaled(diagonal_), m_);
+        sweep(onto, g, first_p);
       } else {
         for (std::size_t k = 0; k < 3; ++k)
           for (std::size_t i = 0; i < m_; ++i)
@@ -220,6 +231,13 @@ class AxesPart {
     }
   }
 
+  /// y_k (+)= w A_k x. No pointers to functions: what is called by one is not inlined.
+  void sweep(bool onto, double* y, const double* x) const {
+    if (onto)
+      sweep3<false>(y, n_, x, scaled(diagonal_), m_);
+    else
+      sweep3<true>(y, n_, x, scaled(diagonal_), m_);
+  }
   [[nodiscard]] std::array<double, 3> scaled(const std::array<double, 3>& a) const {
     return {weight_ * a[0], weight_ * a[1], weight_ * a[2]};
   }

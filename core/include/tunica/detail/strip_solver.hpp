@@ -4,46 +4,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <memory>
 #include <span>
 
 #include "tunica/detail/free_strip.hpp"
 #include "tunica/detail/strip_derivatives.hpp"
-#include "tunica/detail/strip_lanes.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/detail/vector_math.hpp"
 #include "tunica/strip_path.hpp"
 
 namespace tunica::hyperelastic {
 
-/// Equilibrium of all rows of a free strip, of a model that is a sum of parts. What does not change along the strip,
-/// such as the invariants of the parts, is evaluated once; nothing is allocated unless a row is lost on the way.
+/// Equilibrium of all rows of a free strip. Nothing is allocated unless a row is lost on the way.
 ///
 /// Nodes first, then the rows from where the nodes lead to (free_strip::Start); derivatives by parameters and by the
-/// stretch are evaluated once more, at the equilibrium.
+/// stretch are evaluated once more, at the equilibrium. Everything that runs over lanes is inlined by force: of what
+/// the compiler has specialised, `flatten` does not see the body. `Along` is W(l, y) along the strip (strip_lanes.hpp
+/// has what it sets; StripOfParts is one):
+///
+///     template <std::size_t width> void evaluate(StripLanes&, std::size_t lanes) const;
+///     template <std::size_t width>
+///     void differentiate(StripLanes&, bool parameters, StripByParameters&, std::size_t lanes) const;
+template <class Along, std::size_t width>
 class StripSolver {
  public:
-  static constexpr std::size_t max_parts = 32;
+  /// `model` solves rows that Newton's method over lanes does not bring home.
+  StripSolver(const Model& model, const Along& along, const StripPath& strip)
+      : model_(model), along_(along), strip_(strip) {}
 
-  /// `model` is the sum of `parts`; it solves rows that Newton's method over lanes does not bring home.
-  StripSolver(const Model& model, const Parts& parts, const StripPath& strip)
-      : model_(model), strip_(strip), width_(detail::lanes_of(detail::vector_level())) {
-    for (const auto& part : parts) add(*part);
-    if (curved_count_ != 1) return;
-    const StripInvariant& x = parts_[curved_[0]].part.x;
-    single_ = x.i2 == 0 && x.f1 == 0 && x.f2 == 0;
-  }
-
-  /// Everything on the level of this library, so that there is one copy of it a level.
-  Status solve() {
-    Status status;
-    detail::vectorised([this, &status] { status = solve_on_this_level(); });
-    return status;
-  }
-
- private:
-  Status solve_on_this_level() {
+  [[gnu::always_inline]] Status solve() {
     StripLanes lanes;
     AtNodes at_nodes;
     if (!strip_.nodes.empty()) {
@@ -72,62 +62,16 @@ class StripSolver {
     return {};
   }
 
+ private:
   static constexpr std::size_t node_count = free_strip::Start::node_count;
   static constexpr double coarse = 1e-3;  ///< a step at a node; the next one's error is its square and less
   using AtNodes = std::array<double, 2 * node_count>;
 
-  /// Room for a part that nothing is set to beforehand.
-  union Slot {
-    Slot() {}
-    StripPart part;
-  };
-
   /// Rows filled up to whole vectors.
-  [[nodiscard]] std::size_t padded(std::size_t n) const { return (n + width_ - 1) / width_ * width_; }
-
-  void add(const EnergyPart& part) {
-    StripPart& p = *std::construct_at(&parts_[count_++].part);
-    p.part = &part;
-    p.description = &part.describe();
-    p.invariant = {};
-    part.invariant(strip_.parameters, p.invariant, {});
-    p.direction = Direction(p.invariant, 1);
-    const Structure a = structure(p.invariant, p.direction);
-    const bool axial = strip_.loaded == 1;
-    const EnergyPart::Active active = p.description->active;
-    constexpr double tolerance = 1e-12;  // as PartBatch::switch_off_below
-    p.x = {axial ? a.zz : a.tt,
-           axial ? a.tt : a.zz,
-           a.rr,
-           a.i2,
-           a.offset,
-           p.description->mirrored ? 2. : 1.,
-           -std::numeric_limits<double>::infinity(),
-           0,
-           0,
-           -1};
-    if (active == EnergyPart::Active::argument_positive) p.x.edge = -tolerance;
-    if (active == EnergyPart::Active::fibre_stretched) {
-      const double s2 = p.direction.s * p.direction.s, c2 = p.direction.c * p.direction.c;
-      p.x.f1 = axial ? c2 : s2;
-      p.x.f2 = axial ? s2 : c2;
-      p.x.fibre_edge = 1 - tolerance;
-    }
-    p.is_linear = p.description->linear && active == EnergyPart::Active::always && a.i2 == 0;
-    if (!p.is_linear) {
-      curved_[curved_count_++] = count_ - 1;
-      return;
-    }
-    const double anywhere = 0;
-    part.respond(strip_.parameters, {{&anywhere, 1}, {}, {&p.slope, 1}, {}, {}, {}});
-    p.slope *= p.x.weight;
-    linear_[0] += p.slope * p.x.a1;
-    linear_[1] += p.slope * p.x.a2;
-    linear_[2] += p.slope * p.x.a3;
-  }
+  [[nodiscard]] static constexpr std::size_t padded(std::size_t n) { return (n + width - 1) / width * width; }
 
   /// c1 and the u of an isotropic material.
-  void begin(StripLanes& s, std::span<const double> stretch) const {
+  [[gnu::always_inline]] void begin(StripLanes& s, std::span<const double> stretch) const {
     const std::size_t m = stretch.size();
     TUNICA_LANES
     for (std::size_t i = 0; i < m; ++i) {
@@ -142,7 +86,7 @@ class StripSolver {
 
   /// Two guesses a node, evaluated at once: a pass over few lanes takes as long as one over twice as many. The inverse
   /// of W_y is interpolated through both.
-  Status solve_nodes(StripLanes& s) const {
+  [[gnu::always_inline]] Status solve_nodes(StripLanes& s) const {
     for (std::size_t k = 0; k < node_count; ++k) {
       s.c1[k] = s.c1[node_count + k] = strip_.nodes[k] * strip_.nodes[k];
       s.u[k] = strip_.guesses[k];
@@ -168,17 +112,18 @@ class StripSolver {
       s.r_before[k] = one(s.by_y[b], s.by_y[k]);
       s.u_per_r[k] = s.u_before[k] / one(s.by_yy[b], s.by_yy[k]);
     }
-    std::copy_n(u.data(), node_count, s.u.data());
-    std::copy_n(r.data(), node_count, s.by_y.data());
-    std::copy_n(slope.data(), node_count, s.by_yy.data());
-    std::copy_n(step.data(), node_count, s.step.data());
+    // Of known size, and so without a call.
+    std::memcpy(s.u.data(), u.data(), sizeof u);
+    std::memcpy(s.by_y.data(), r.data(), sizeof r);
+    std::memcpy(s.by_yy.data(), slope.data(), sizeof slope);
+    std::memcpy(s.step.data(), step.data(), sizeof step);
     move<true>(s, node_count);
     if (Status status = newton<true>(s, strip_.nodes, coarse, 1); !status.ok()) return status;
     keep_bend(s);
     return {};
   }
 
-  static void keep_bend(StripLanes& s) {
+  [[gnu::always_inline]] static void keep_bend(StripLanes& s) {
     TUNICA_LANES
     for (std::size_t k = 0; k < node_count; ++k) {
       s.bend_before[k] = s.bend[k];
@@ -189,9 +134,9 @@ class StripSolver {
   /// u of each node after its last step, and its slope along the path: with f = λ1 u
   ///     ∂f/∂λ1 = u (1 + y_l),  y_l = −W_ly/W_yy,
   /// the latter followed from the last pass to the end of the step as it changed from the pass before.
-  static void read_nodes(StripLanes& s, AtNodes& at) {
+  [[gnu::always_inline]] static void read_nodes(StripLanes& s, AtNodes& at) {
     std::array<double, node_count> before;
-    std::copy_n(s.u_before.data(), node_count, before.data());
+    std::memcpy(before.data(), s.u_before.data(), sizeof before);
     move<true>(s, node_count);
     TUNICA_LANES
     for (std::size_t k = 0; k < node_count; ++k) {
@@ -204,14 +149,16 @@ class StripSolver {
   }
 
   /// u of the rows. Eight weights at a time, which fit into registers.
-  void interpolate(StripLanes& s, const AtNodes& at_nodes, std::size_t first, std::size_t m) const {
+  [[gnu::always_inline]] void interpolate(StripLanes& s, const AtNodes& at_nodes, std::size_t first,
+                                          std::size_t m) const {
     const double* const weights = strip_.interpolation.data() + first;
     const std::size_t stride = strip_.row_stride, end = padded(m);
     add_nodes<true>(s, at_nodes.data(), weights, stride, end);
     add_nodes<false>(s, at_nodes.data() + node_count, weights + node_count * stride, stride, end);
   }
   template <bool assign>
-  static void add_nodes(StripLanes& s, const double* at, const double* w, std::size_t stride, std::size_t end) {
+  [[gnu::always_inline]] static void add_nodes(StripLanes& s, const double* at, const double* w, std::size_t stride,
+                                               std::size_t end) {
     static_assert(node_count == 8);
     const double a0 = at[0], a1 = at[1], a2 = at[2], a3 = at[3], a4 = at[4], a5 = at[5], a6 = at[6], a7 = at[7];
     TUNICA_LANES
@@ -223,37 +170,14 @@ class StripSolver {
     }
   }
 
-  /// The derivatives of W at u, Newton's step, and σ after it.
-  void evaluate(StripLanes& s, std::size_t lanes) const {
-    if (single_) {
-      const StripPart& p = parts_[curved_[0]].part;
-      begin_single(s, p.x, lanes);
-      respond(s, p, lanes, {}, {});
-      return end_single(s, p.x, linear_, lanes);
-    }
-    begin_strip(s, linear_, lanes);
-    for (std::size_t k = 0; k < curved_count_; ++k) {
-      const StripPart& p = parts_[curved_[k]].part;
-      strip_invariant(s, p.x, lanes);
-      respond(s, p, lanes, {}, {});
-      add_to_strip(s, p.x, lanes);
-    }
-    end_strip(s, lanes);
-  }
-
-  void respond(StripLanes& s, const StripPart& p, std::size_t lanes, std::span<double> value_dp,
-               std::span<double> first_dp) const {
-    const bool curved = !p.description->linear;
-    p.part->respond(
-        strip_.parameters,
-        {{s.x.data(), lanes}, {}, {s.first.data(), lanes}, {s.second.data(), curved ? lanes : 0}, value_dp, first_dp});
-    if (!curved) std::fill_n(s.second.data(), lanes, 0.0);
+  [[gnu::always_inline]] void evaluate(StripLanes& s, std::size_t lanes) const {
+    along_.template evaluate<width>(s, lanes);
   }
 
   /// u after a step. From the second step on the inverse of W_y is interpolated through both passes with its slopes
   /// (Hermite): of order 2.7 instead of 2 (Traub 1964, §5.2). Rows without a step stay where they are.
   template <bool again>
-  static void move(StripLanes& s, std::size_t lanes) {
+  [[gnu::always_inline]] static void move(StripLanes& s, std::size_t lanes) {
     TUNICA_LANES
     for (std::size_t i = 0; i < lanes; ++i) {
       const double u = s.u[i], r = s.by_y[i], step = s.step[i], by_r = u / s.by_yy[i];
@@ -275,7 +199,8 @@ class StripSolver {
   /// Passes until every step is below the tolerance; that last step is left to be applied to first order. Rows that do
   /// not get there are followed from rest, one by one.
   template <bool nodes = false>
-  Status newton(StripLanes& s, std::span<const double> stretch, double tolerance, int pass = 0) const {
+  [[gnu::always_inline]] Status newton(StripLanes& s, std::span<const double> stretch, double tolerance,
+                                       int pass = 0) const {
     const std::size_t lanes = padded(stretch.size());
     for (; pass < free_strip::newton_iterations; ++pass) {
       evaluate(s, lanes);
@@ -287,11 +212,13 @@ class StripSolver {
       else
         move<true>(s, lanes);
     }
-    return follow_from_rest(s, stretch, tolerance);
+    Status status = follow_from_rest(s, stretch, tolerance);
+    if (status.ok()) evaluate(s, lanes);
+    return status;
   }
 
   /// Whether all that is open has no step at all.
-  static bool none_moves(const StripLanes& s, std::size_t lanes, double tolerance) {
+  [[gnu::always_inline]] static bool none_moves(const StripLanes& s, std::size_t lanes, double tolerance) {
     return std::none_of(s.step.data(), s.step.data() + lanes,
                         [tolerance](double step) { return std::abs(step) < sound && !(std::abs(step) < tolerance); });
   }
@@ -305,28 +232,19 @@ class StripSolver {
       if (strip_.lost != nullptr) *strip_.lost = i;
       return Status::failed(free_strip::lost_row);
     }
-    const std::size_t m = stretch.size(), lanes = padded(m);
-    for (std::size_t i = m; i < lanes; ++i) s.u[i] = s.u[m - 1];
-    evaluate(s, lanes);
+    const std::size_t m = stretch.size();
+    for (std::size_t i = m; i < padded(m); ++i) s.u[i] = s.u[m - 1];
     return {};
   }
 
   /// Derivatives of σ and y at the equilibrium, by parameters and along the path:
   ///     dy/dp = −W_yp/W_yy,  dσ/dp = W_lp + W_ly dy/dp,   dy/dl = −W_ly/W_yy,  dσ/dl = W_ll + W_ly dy/dl
-  void differentiate(StripLanes& s, std::size_t first, std::size_t m) {
+  [[gnu::always_inline]] void differentiate(StripLanes& s, std::size_t first, std::size_t m) {
     const std::size_t lanes = padded(m);
     StripByParameters by_p;
-    const double k1 = linear_[0], k2 = linear_[1], k3 = linear_[2];
     TUNICA_LANES
-    for (std::size_t i = 0; i < lanes; ++i) {
-      s.u[i] *= 1 + s.step[i];
-      const double c1 = s.c1[i], u = s.u[i], c3 = 1 / (c1 * u);
-      s.c3[i] = c3;
-      s.by_yy[i] = k2 * u + k3 * c3;
-      s.by_ly[i] = k3 * c3;
-      s.by_ll[i] = k1 * c1 + k3 * c3;
-    }
-    for (std::size_t k = 0; k < count_; ++k) add_derivatives(s, parts_[k].part, lanes, by_p);
+    for (std::size_t i = 0; i < lanes; ++i) s.u[i] *= 1 + s.step[i];
+    along_.template differentiate<width>(s, !strip_.stress_dp.empty(), by_p, lanes);
     const std::size_t n = strip_.stretch.size(), parameters = strip_.stress_dp.size() / n;
     for (std::size_t i = 0; i < lanes; ++i) s.x[i] = 1 / s.by_yy[i];
     for (std::size_t i = 0; !strip_.stress_by_l.empty() && i < m; ++i)
@@ -351,39 +269,22 @@ class StripSolver {
     }
   }
 
-  void add_derivatives(StripLanes& s, const StripPart& p, std::size_t lanes, StripByParameters& by_p) const {
-    const bool parameters = !strip_.stress_dp.empty();
-    if (p.is_linear && !parameters) return;
-    const auto& responses = p.description->response_parameters;
-    const auto& moving = p.description->invariant_parameters;
-    std::array<Invariant, max_part_parameters> derivatives;
-    alignas(64) std::array<double, chunk * max_part_parameters> first_dp;
-    if (parameters && !moving.empty()) {
-      Invariant again;
-      p.part->invariant(strip_.parameters, again, {derivatives.data(), moving.size()});
-    }
-    strip_invariant(s, p.x, lanes);
-    respond(s, p, lanes, {}, {first_dp.data(), parameters ? responses.size() * lanes : 0});
-    StripSlopes slopes;
-    begin_derivatives(s, p, slopes, lanes);
-    if (!parameters) return;
-    for (std::size_t j = 0; j < responses.size(); ++j)
-      by_p.add_response(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
-    for (std::size_t j = 0; j < moving.size(); ++j) {
-      const Structure d = structure_derivative(p.invariant, derivatives[j], p.direction, 1);
-      by_p.add_invariant(s, slopes, d, strip_.loaded == 1, moving[j], lanes);
-    }
-  }
-
   static constexpr double sound = 1e10;  ///< a larger step is none
 
   const Model& model_;
+  const Along& along_;
   const StripPath& strip_;
-  std::size_t width_, count_ = 0, curved_count_ = 0;
-  bool single_ = false;             ///< one curved part without I2 or a switch by the fibres' own stretch
-  std::array<double, 3> linear_{};  ///< w ψ' a of the linear parts, summed up
-  std::array<std::size_t, max_parts> curved_;
-  std::array<Slot, max_parts> parts_;
 };
+
+/// The same on the level of this library, so that there is one copy of it a level. Along is made from `arguments`.
+template <class Along, class... Argument>
+Status solve_strip(const Model& model, const StripPath& strip, const Argument&... arguments) {
+  Status status;
+  detail::vectorised([&](auto width) __attribute__((always_inline)) {
+    const Along along(arguments...);
+    status = StripSolver<Along, width>(model, along, strip).solve();
+  });
+  return status;
+}
 
 }  // namespace tunica::hyperelastic

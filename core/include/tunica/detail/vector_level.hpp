@@ -6,11 +6,12 @@
 #include <cstdlib>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 
 /// Vector units of the machine, chosen at run time inside one library.
 ///
-/// A kernel is a callable without arguments. `vectorised()` runs a copy of it that is compiled for the instructions of
-/// the level, with everything inlined that it calls:
+/// A kernel is a callable, without arguments or with the lanes of the level as a constant. `vectorised()` runs a copy
+/// of it that is compiled for the instructions of the level, with everything inlined that it calls:
 ///
 ///     detail::vectorised([&] {
 ///       for (std::size_t i = 0; i < n; ++i) y[i] = a * x[i] + y[i];
@@ -20,14 +21,19 @@
 /// the ordinary code of an inline function. No compiler flag changes, and no type that crosses a plugin's boundary.
 ///
 /// Results: within a level every evaluation gives the same bits. Levels differ in rounding (fused multiplication and
-/// addition, vector functions of libmvec), by 1e-13 relative or less. Loops over lanes have to be padded where a value
-/// must not depend on its place: the compiler finishes a loop of odd length with scalar functions.
+/// addition, vector functions of libmvec): energies by 1e-13 relative, free strips by 2e-12, derivatives of finite
+/// elements by up to 1e-6, because the penalty in their matrix magnifies rounding. Loops over lanes have to be padded
+/// where a value must not depend on its place: the compiler finishes a loop of odd length with scalar functions.
 /// Threads: everything here is thread-safe.
 /// Before a loop over lanes: no lane reads what another one writes, whatever the pointers.
 #if defined(__clang__)
 #define TUNICA_LANES _Pragma("clang loop vectorize(assume_safety)")
+#define TUNICA_FOR_KERNELS [[gnu::flatten]]
 #else
 #define TUNICA_LANES _Pragma("GCC ivdep")
+/// On a function that calls a formula of an author's: the formula comes with it into a kernel. What the compiler has
+/// specialised instead, `flatten` would leave outside, with the instructions of the baseline.
+#define TUNICA_FOR_KERNELS [[gnu::flatten, gnu::noclone]]
 #endif
 
 namespace tunica::detail {
@@ -97,15 +103,28 @@ inline VectorLevel vector_level() {
   return static_cast<VectorLevel>(level);
 }
 
+/// The lanes of a level, as a constant.
+template <VectorLevel level>
+using LaneCount = std::integral_constant<std::size_t, lanes_of(level)>;
+
+/// The kernel itself; one with an argument gets the level's LaneCount.
+template <VectorLevel level, class Kernel>
+[[gnu::always_inline]] inline void run(const Kernel& kernel) {
+  if constexpr (std::is_invocable_v<const Kernel&, LaneCount<level>>)
+    kernel(LaneCount<level>());
+  else
+    kernel();
+}
+
 #ifdef TUNICA_VECTOR_LEVELS_
 template <class Kernel>
 [[gnu::target("avx2,fma"), gnu::flatten, gnu::noinline]] void run_on_avx2(const Kernel& kernel) {
-  kernel();
+  run<VectorLevel::avx2>(kernel);
 }
 template <class Kernel>
 [[gnu::target("avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512"), gnu::flatten, gnu::noinline]] void
 run_on_avx512(const Kernel& kernel) {
-  kernel();
+  run<VectorLevel::avx512>(kernel);
 }
 #endif
 
@@ -122,7 +141,7 @@ inline void vectorised(const Kernel& kernel) {
       break;
   }
 #endif
-  kernel();
+  run<VectorLevel::baseline>(kernel);
 }
 
 }  // namespace tunica::detail

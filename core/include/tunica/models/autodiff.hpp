@@ -15,15 +15,22 @@
 
 namespace tunica {
 
+/// The formula of a law, as kernels call it.
+template <class Law, class T>
+TUNICA_FOR_KERNELS inline T formula(const T& x, std::span<const T> p) {
+  return Law::template energy<T>(x, p);
+}
+
 /// Evaluates ψ, ψ', ψ'' and their parameter derivatives from the formula of a law (laws.hpp) alone.
 ///
 /// Sizes and meaning are those of ResponseBatch. Method: the formula on Taylor numbers (tunica/detail/taylor.hpp), over
-/// lanes; without parameters unless their derivatives are wanted. Thread-safe; allocates nothing.
+/// lanes; without parameters unless their derivatives are wanted. Inlined by force: a copy that the compiler has
+/// specialised would stay outside of the kernels of vector_level.hpp. Thread-safe; allocates nothing.
 template <class Law>
-void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
+[[gnu::always_inline]] inline void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
   static constexpr std::size_t n = Law::parameter_count, chunk = 64;
   const std::size_t count = b.x.size();
-  const auto evaluate = [p, &b, count](auto zero, bool by_parameters) {
+  const auto evaluate = [ p, &b, count ](auto zero, bool by_parameters) __attribute__((always_inline)) {
     using T = decltype(zero);
     std::array<T, n> parameters;
     for (std::size_t j = 0; j < n; ++j) parameters[j] = T::parameter(p[j], j);
@@ -34,7 +41,7 @@ void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
       const double* const x = b.x.data() + begin;
       TUNICA_LANES
       for (std::size_t i = 0; i < m; ++i) {
-        const T w = Law::template energy<T>(T::argument(x[i]), std::span<const T>(parameters));
+        const T w = formula<Law, T>(T::argument(x[i]), parameters);
         value[i] = w.value;
         first[i] = w.x;
         second[i] = w.xx;
@@ -63,7 +70,7 @@ void respond_by_autodiff(std::span<const double> p, const ResponseBatch& b) {
 
 /// The law's own respond() if it has one, else the formula.
 template <class Law>
-void respond_on_this_level(std::span<const double> p, const ResponseBatch& batch) {
+[[gnu::always_inline]] inline void respond_on_this_level(std::span<const double> p, const ResponseBatch& batch) {
   if constexpr (requires { Law::respond(p, batch); }) {
     Law::respond(p, batch);
   } else {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 
+#include "tunica/detail/vector_level.hpp"
 #include "tunica/models/laws.hpp"
 
 /// Convex responses beyond those of named models: the laws that `composed` adds to laws.hpp and rubber_laws.hpp, whose
@@ -139,40 +141,74 @@ struct Logarithm {
   }
 };
 
-/// L(β) = coth β − 1/β, the mean extension of a freely jointed chain, and its slope. The series about 0 keeps the
-/// digits that the difference would lose.
-struct Langevin {
-  double value;  ///< L(β)
-  double slope;  ///< dL/dβ
+/// Freely jointed chains over lanes: β with L(β) = y, L(β) = coth β − 1/β the mean extension, and what comes with it.
+struct Chains {
+  using Row = std::array<double, 64>;  ///< a number for each of up to 64 points
+  Chains() {}                          // leaves the rows as they are: entries that are read were written
+  alignas(64) Row y;                   ///< extension, set by the caller
+  alignas(64) Row beta;                ///< meaningless where not y < 1
+  alignas(64) Row slope;               ///< dL/dβ
+  alignas(64) Row grown;               ///< y β + ln(β/sinh β)
 
-  /// At β ≥ 0.
-  explicit Langevin(double beta) {
-    const double b = beta * beta;
-    if (b < 0.04) {
-      value = beta * (1. / 3 - b * (1. / 45 - b * (2. / 945 - b * (1. / 4725 - b * (2. / 93555 - b * 2.1644e-6)))));
-      slope = 1. / 3 - b * (1. / 15 - b * (2. / 189 - b * (1. / 675 - b * (2. / 10395 - b * 2.38084e-5))));
-    } else {
-      const double s = std::sinh(std::min(beta, 300.0));
-      value = 1 / std::tanh(beta) - 1 / beta;
-      slope = 1 / b - 1 / (s * s);
+  /// Newton's method from Jedynak's quotient (2015, Rheol. Acta 54:29), which is within 2 %: five steps leave rounding.
+  void solve(std::size_t n, bool energy) {
+    constexpr int steps = 5;
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) {
+      y[i] = y[i] < 1 ? y[i] : 0.5;
+      beta[i] = y[i] * (3 - 2.6 * y[i] + 0.7 * y[i] * y[i]) / ((1 - y[i]) * (1 + 0.1 * y[i]));
+    }
+    for (int step = 0; step < steps; ++step) {
+      TUNICA_LANES
+      for (std::size_t i = 0; i < n; ++i) {
+        const Langevin at(beta[i]);
+        beta[i] -= (at.value - y[i]) / at.slope;
+      }
+    }
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) slope[i] = Langevin(beta[i]).slope;
+    if (!energy) return;
+    // ln(sinh β/β), without overflow
+    TUNICA_LANES
+    for (std::size_t i = 0; i < n; ++i) {
+      const double b = beta[i] * beta[i], left = 1 - detail::lane_exp(-2 * beta[i]);
+      const double log_near = b * series(b, [](double order) { return 1 / (2 * order); });
+      const double log_far = beta[i] - detail::lane_log(2 * beta[i] / left);
+      grown[i] = y[i] * beta[i] - (b < near ? log_near : log_far);
     }
   }
-};
 
-/// β with L(β) = y on [0, 1) to rounding: Newton's method from Jedynak's quotient (2015, Rheol. Acta 54:29), which is
-/// within 2 %. Infinite from y = 1 on.
-inline double inverse_langevin(double y) {
-  if (!(y < 1)) return std::numeric_limits<double>::infinity();
-  double beta = y * (3 - 2.6 * y + 0.7 * y * y) / ((1 - y) * (1 + 0.1 * y));
-  for (int step = 0; step < 8; ++step) {
-    const Langevin at(beta);
-    const double next = beta - (at.value - y) / at.slope;
-    const bool found = std::abs(next - beta) <= 1e-14 * beta;
-    beta = next;
-    if (found) break;
+ private:
+  /// 2^2n B_2n/(2n)!, n = 1, 2, …: L(β) = Σ c_n β^(2n−1), and ln(sinh β/β) = Σ c_n β^2n/(2n). Where b = β² is smaller
+  /// than `near` they leave rounding, and the closed forms lose digits.
+  static constexpr std::array<double, 14> c{0.3333333333333333,      -0.022222222222222223,   0.0021164021164021165,
+                                            -0.00021164021164021165, 2.1377799155576935e-05,  -2.1644042808063972e-06,
+                                            2.1925947851873778e-07,  -2.2214608789979678e-08, 2.2507846516808994e-09,
+                                            -2.2805151204592183e-10, 2.3106432599002624e-11,  -2.3411706819824882e-12,
+                                            2.3721017400233653e-13,  -2.4034415333307705e-14};
+  static constexpr double near = 0.5;
+  /// Σ weight(n) c_n b^(n−1)
+  template <class Weight>
+  [[gnu::always_inline]] static double series(double b, const Weight& weight) {
+    double sum = 0;
+    for (std::size_t k = c.size(); k-- > 0;) sum = sum * b + weight(static_cast<double>(k + 1)) * c[k];
+    return sum;
   }
-  return beta;
-}
+
+  /// L and its slope at β ≥ 0.
+  struct Langevin {
+    double value, slope;
+
+    [[gnu::always_inline]] explicit Langevin(double beta) {
+      const double b = beta * beta, e = detail::lane_exp(-2 * beta), left = 1 - e;
+      const double value_near = beta * series(b, [](double) { return 1.0; });
+      const double slope_near = series(b, [](double order) { return 2 * order - 1; });
+      // coth β = (1 + e)/(1 − e),  1/sinh² β = 4 e/(1 − e)²,  e = exp(−2β)
+      value = b < near ? value_near : (1 + e) / left - 1 / beta;
+      slope = b < near ? slope_near : 1 / b - 4 * e / (left * left);
+    }
+  };
+};
 
 /// Eight chains of N links along the diagonals of a cube, x = I1 − 3 (Arruda, Boyce 1993), with the inverse Langevin
 /// function itself, not its series:
@@ -186,26 +222,45 @@ struct EightChain {
 
   /// Derivatives by hand.
   static void respond(std::span<const double> p, const ResponseBatch& b) {
+    constexpr double beyond = std::numeric_limits<double>::infinity();
     const double mu = p[0], links = p[1];
-    // y β + ln(β/sinh β), without overflow; the series about 0 keeps the digits that logarithms would lose
-    const auto energy = [](double y, double beta) {
-      const double b = beta * beta;
-      if (beta < 0.1) return y * beta - b * (1. / 6 - b * (1. / 180 - b * (1. / 2835 - b / 37800)));
-      return y * beta + std::log(2 * beta) - beta - std::log1p(-std::exp(-2 * beta));
-    };
-    const double y0 = 1 / std::sqrt(links), beta0 = inverse_langevin(y0), rest = energy(y0, beta0);
-    respond_pointwise<2>(b, [=](double x) -> Point<2> {
-      constexpr double beyond = std::numeric_limits<double>::infinity();
-      const double y = std::sqrt((x + 3) / (3 * links)), beta = inverse_langevin(y);
-      if (!(y < 1)) return {beyond, beyond, beyond, {beyond, beyond}, {beyond, beyond}};
-      const double grown = energy(y, beta) - rest, bend = 1 / Langevin(beta).slope - beta / y;
-      // ψ' = μ β/(6y),  dy/dx = 1/(6Ny),  dy/dN = −y/(2N)
-      return {mu * links * grown,
-              mu * beta / (6 * y),
-              mu * bend / (36 * links * y * y),
-              {links * grown, mu * (grown - 0.5 * (y * beta - y0 * beta0))},
-              {beta / (6 * y), -mu * bend / (12 * links)}};
-    });
+    const std::size_t n = b.x.size();
+    const bool energy = !b.value.empty() || !b.value_dp.empty();
+    Chains chains;
+    double y0 = 0, beta0 = 0, rest = 0;
+    if (energy) {  // as a whole vector, so that W vanishes at rest to the last bit
+      std::fill_n(chains.y.data(), detail::widest, std::sqrt(1 / links));
+      chains.solve(detail::widest, true);
+      y0 = chains.y[0];
+      beta0 = chains.beta[0];
+      rest = chains.grown[0];
+    }
+    for (std::size_t begin = 0; begin < n; begin += chains.y.size()) {
+      const std::size_t m = std::min(chains.y.size(), n - begin);
+      const double* const x = b.x.data() + begin;
+      TUNICA_LANES
+      for (std::size_t i = 0; i < m; ++i) chains.y[i] = std::sqrt((x[i] + 3) / 3 / links);
+      chains.solve(m, energy);
+      const auto set = [&](std::span<double> out, std::size_t row, const auto& value) {
+        if (out.empty()) return;
+        double* const to = out.data() + row * n + begin;
+        TUNICA_LANES
+        for (std::size_t i = 0; i < m; ++i) {
+          const double found = value(i);
+          to[i] = std::sqrt((x[i] + 3) / 3 / links) < 1 ? found : beyond;
+        }
+      };
+      const Chains::Row &y = chains.y, &beta = chains.beta, &grown = chains.grown;
+      const auto bend = [&](std::size_t i) { return 1 / chains.slope[i] - beta[i] / y[i]; };
+      // ψ' = μ β/(6y),  dy/dx = 1/(6Ny),  dy/dN = −y/(2N),  dβ/dy = 1/L'
+      set(b.value, 0, [&](std::size_t i) { return mu * links * (grown[i] - rest); });
+      set(b.first, 0, [&](std::size_t i) { return mu * beta[i] / (6 * y[i]); });
+      set(b.second, 0, [&](std::size_t i) { return mu * bend(i) / (36 * links * y[i] * y[i]); });
+      set(b.value_dp, 0, [&](std::size_t i) { return links * (grown[i] - rest); });
+      set(b.value_dp, 1, [&](std::size_t i) { return mu * (grown[i] - rest - 0.5 * (y[i] * beta[i] - y0 * beta0)); });
+      set(b.first_dp, 0, [&](std::size_t i) { return beta[i] / (6 * y[i]); });
+      set(b.first_dp, 1, [&](std::size_t i) { return -mu * bend(i) / (12 * links); });
+    }
   }
 };
 

@@ -11,6 +11,7 @@
 
 #include "tunica/detail/hyperelastic_axes.hpp"
 #include "tunica/detail/hyperelastic_tensor.hpp"
+#include "tunica/detail/strip_of_parts.hpp"
 #include "tunica/detail/strip_solver.hpp"
 #include "tunica/model.hpp"
 #include "tunica/plugin.hpp"
@@ -52,8 +53,8 @@ class Hyperelastic : public Model {
     return {};
   }
   bool solve_strip(const StripPath& strip, Status& status) const override {
-    if (parts_.size() > hyperelastic::StripSolver::max_parts) return false;
-    status = hyperelastic::StripSolver(*this, parts_, strip).solve();
+    if (parts_.size() > hyperelastic::StripOfParts::max_parts) return false;
+    status = hyperelastic::solve_strip<hyperelastic::StripOfParts>(*this, strip, parts_, strip);
     return true;
   }
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return parts_; }
