@@ -321,6 +321,18 @@ TEST_F(DiagnosisJson, HasTheExtensionAndWhatItLeaves) {
     EXPECT_FALSE(written.contains(key)) << key;
 }
 
+/// The factor of the alarm: at it the rest is still alarming, a twentieth beyond it no more (or it is twenty).
+TEST_F(DiagnosisJson, TheAlarmStandsUpToItsFactor) {
+  const Alarm& alarm = found.analysis.alarm;
+  ASSERT_TRUE(alarm.raised && alarm.factor);
+  const auto p_at = [&](double factor) {
+    return alarm.detector->test(-found.analysis.evidence.fit.residuals / factor).p;
+  };
+  EXPECT_GT(*alarm.factor, 1);
+  EXPECT_LE(p_at(*alarm.factor), found.request.alpha);
+  EXPECT_TRUE(p_at(1.0501 * *alarm.factor) > found.request.alpha || 1.05 * *alarm.factor >= 20) << *alarm.factor;
+}
+
 TEST(WarningDetails, HaveAKindAndTheSentence) {
   EXPECT_EQ(
       warning_details({{WarningKind::noise_estimated, "a sentence"}}),

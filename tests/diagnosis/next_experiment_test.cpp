@@ -167,6 +167,11 @@ TEST(Designs, ReachAsFarAsTheDataAndKnowTheirNoise) {
   std::vector<double> values;
   ASSERT_TRUE(predict(wider.front(), rivals.first().extension->assembly(), rivals.first().fit.free, values));
   EXPECT_DOUBLE_EQ(wider.front().sd[19], 1.6 * std::hypot(0.3, 0.02 * values[19] / 1.6));
+  // The second Piola–Kirchhoff stress is S = σ/λ².
+  for (auto& test : nominal.experiment.tests) test.data.stress_measure = "second_piola_kirchhoff";
+  const auto widest =
+      designs(rivals.asked.inquiry(), nominal, rivals.first().extension->assembly(), rivals.first().fit.free);
+  EXPECT_DOUBLE_EQ(widest.front().sd[19], 1.6 * 1.6 * std::hypot(0.3, 0.02 * values[19] / (1.6 * 1.6)));
   for (const Design& design : library) {
     EXPECT_EQ(design.sd.size(), design.test->rows().count * design.test->rows().channels.size());
     for (const double sd : design.sd) EXPECT_GT(sd, 0) << design.description;

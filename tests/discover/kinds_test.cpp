@@ -122,6 +122,7 @@ TEST(DiscoveryKinds, HaveCurvesWhoseKnotsAreDenserNearRest) {
 TEST(DiscoveryWords, SayASmallProbabilityAsABound) {
   EXPECT_EQ(p_words(0.034), "p = 0.034");
   EXPECT_EQ(p_words(2e-4), "p = 0.0002");
+  EXPECT_EQ(p_words(1.2e-4), "p = 0.00012");
   EXPECT_EQ(p_words(9e-5), "p < 0.0001");
 }
 

@@ -7,6 +7,7 @@
 
 #include "diagnosis/measured.hpp"
 #include "discovery/output/parts.hpp"
+#include "discovery/verdict.hpp"
 
 namespace tunica::discovery::outputs_test {
 namespace {
@@ -186,6 +187,32 @@ TEST_F(DiscoveryOutputs, SayWhatElseExplainsTheData) {
   EXPECT_THAT(page(), Not(HasSubstr("Rig:")));
   found.terms.clear();
   EXPECT_THAT(page(), Not(HasSubstr("Name:")));
+}
+
+/// Where the alarm is silent, or single rows were all that raised it.
+TEST(NothingMissing, IsSaidWithTheFitOfTheBase) {
+  diagnosis::Analysis analysis;
+  analysis.evidence.fit.chi2 = 81;
+  analysis.alarm.detection.p = 0.34;
+  analysis.evidence.warnings = {{diagnosis::WarningKind::noise_estimated, "a warning"}};
+  Request request;
+  request.model = "rubber";
+  Discovery found = nothing_missing(request, analysis);
+  EXPECT_EQ(found.judgement.verdict, Verdict::nothing_detected);
+  ASSERT_EQ(found.judgement.reasons.size(), 1u);
+  EXPECT_EQ(found.judgement.reasons[0].kind, ReasonKind::residuals_like_noise);
+  EXPECT_EQ(found.judgement.reasons[0].text, "The residuals could be noise (p = 0.34); there is nothing to discover.");
+  EXPECT_EQ(found.request.model, "rubber");
+  EXPECT_EQ(found.chi2_before, 81);
+  EXPECT_EQ(found.chi2_after, 81);
+  EXPECT_EQ(found.p_after, 0.34);
+  ASSERT_EQ(found.warnings.size(), 1u);
+  EXPECT_EQ(found.warnings[0].text, "a warning");
+  analysis.evidence.gross.resize(1);
+  found = nothing_missing(request, analysis);
+  EXPECT_EQ(found.judgement.verdict, Verdict::suspect_data);
+  ASSERT_EQ(found.judgement.reasons.size(), 1u);
+  EXPECT_EQ(found.judgement.reasons[0].kind, ReasonKind::gross_rows);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <gmock/gmock.h>
 
+#include "discover/rubber.hpp"
 #include "discovery/curves.hpp"
 #include "discovery/reach.hpp"
 #include "discovery/set_fit.hpp"
@@ -60,6 +61,97 @@ TEST(CovarianceOfASet, IsThatOfTheFreeParameters) {
   EXPECT_NEAR(held(0, 0), of_two(0, 0), 1e-12 * of_two(0, 0));
   EXPECT_NEAR(held(2, 2), of_two(1, 1), 1e-12 * of_two(1, 1));
   EXPECT_NEAR(held(0, 2), of_two(0, 1), 1e-12 * std::sqrt(of_two(0, 0) * of_two(1, 1)));
+}
+
+/// Rubber with a term in I2 that a neo-Hookean base lacks, and a fitter for it.
+class Fitting : public ::testing::Test {
+ protected:
+  Fitting() {
+    rubber.measure(
+        11, trial::hidden_term({{"invariant", "I2"}, {"law", "linear"}, {"parameters", {{"mu", {{"initial", 40}}}}}}));
+    const experiment::Experiment read = rubber.read();
+    const diagnosis::Request request = diagnosis::request_of(read);
+    const diagnosis::Progress silent;
+    evidence = diagnosis::evidence_of({read, request, testing::catalogue(), silent}, {});
+    subject.emplace(Subject{evidence.experiment, evidence.run, "rubber", false, testing::catalogue()});
+    fitter.emplace(*subject, evidence);
+    Request wanted;
+    wanted.invariants = {"I2"};
+    wanted.laws = {"linear"};
+    Kind one = kinds_of(wanted, reached_states(*subject, evidence.fit.free), false).front();
+    one.largest = fitter->largest_amplitude(one);
+    second = std::make_shared<const Kind>(one);
+  }
+
+  /// W of a parameter of the base: a Gaussian as high as the uniform prior of its box.
+  [[nodiscard]] static double of_box(const assembly::FreeParameter& parameter, double value) {
+    const double wide =
+        parameter.scale == Scale::log ? value * std::log(parameter.max / parameter.min) : parameter.max - parameter.min;
+    return wide / std::sqrt(2 * std::numbers::pi);
+  }
+  /// √Σ(y/σ)², σ = 3 kPa.
+  [[nodiscard]] double measured() const {
+    double sum = 0;
+    for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
+      for (const double y : view.measured) sum += y * y / 9;
+    return std::sqrt(sum);
+  }
+
+  const trial::Rubber rubber;
+  diagnosis::Evidence evidence;
+  std::optional<Subject> subject;
+  std::optional<Fitter> fitter;
+  KindPointer second;
+};
+
+/// ln E = −|r|²/2 − ½ ln det(I + W JᵀJ W) + ln prior; an amplitude is uniform in its logarithm from an effect of σ to
+/// all that is measured.
+TEST_F(Fitting, WeighsAFitByLaplace) {
+  const SetFit& root = fitter->root();
+  ASSERT_EQ(root.fit.jacobian.cols(), 1);
+  const double w = of_box(root.set->assembly().layout().parameters[0], root.fit.free[0]);
+  const double of_root = 1 + w * w * root.fit.jacobian.squaredNorm();
+  EXPECT_NEAR(root.log_evidence, -root.chi2() / 2 - 0.5 * std::log(of_root), 1e-9 * root.chi2());
+
+  const auto grown = fitter->grown(root, second, -INFINITY);
+  ASSERT_TRUE(grown);
+  EXPECT_LT(grown->chi2(), 0.8 * root.chi2());
+  const std::size_t amplitude = grown->set->terms().front().amplitude;
+  Eigen::MatrixXd J = grown->fit.jacobian;
+  ASSERT_EQ(J.cols(), 2);
+  for (std::size_t j = 0; j < 2; ++j) {
+    const double value = grown->fit.free[j];
+    J.col(static_cast<Eigen::Index>(j)) *= j == amplitude
+                                               ? value * std::log(measured()) / std::sqrt(2 * std::numbers::pi)
+                                               : of_box(grown->set->assembly().layout().parameters[j], value);
+  }
+  const double det = (Eigen::Matrix2d::Identity() + J.transpose() * J).determinant();
+  EXPECT_NEAR(grown->log_evidence, -grown->chi2() / 2 - 0.5 * std::log(det) + second->log_prior,
+              1e-6 * std::abs(grown->log_evidence));
+  // Truth: 40 kPa beside 300 kPa.
+  EXPECT_NEAR(grown->fit.free[amplitude], 40, 5 * std::sqrt(covariance(grown->fit)(1, 1)));
+}
+
+/// Stresses are linear in the modulus of a linear law: twenty times all that is measured, over the length of its
+/// column.
+TEST_F(Fitting, LooksForAmplitudesOfSeveralTimesAllThatIsMeasured) {
+  const auto grown = fitter->grown(fitter->root(), second, -INFINITY);
+  ASSERT_TRUE(grown);
+  const auto column = static_cast<Eigen::Index>(grown->set->terms().front().amplitude);
+  const double expected = 20 * measured() / grown->fit.jacobian.col(column).norm();
+  EXPECT_NEAR(second->largest, expected, 1e-6 * expected);
+  const auto& parameter = grown->set->assembly().layout().parameters[static_cast<std::size_t>(column)];
+  EXPECT_EQ(parameter.max, second->largest);
+  EXPECT_EQ(parameter.min, 0);
+}
+
+/// What cannot become worth it is not tried, nor what has nothing to do.
+TEST_F(Fitting, GrowsOnlyByWhatHelps) {
+  const auto grown = fitter->grown(fitter->root(), second, -INFINITY);
+  ASSERT_TRUE(grown);
+  EXPECT_FALSE(fitter->grown(fitter->root(), second, fitter->root().log_evidence + 2 * fitter->root().chi2()))
+      << "nothing takes more than all of |r|²";
+  EXPECT_FALSE(fitter->grown(*grown, second, -INFINITY)) << "it is there already";
 }
 
 /// C = FᵀF of shear by γ in the plane of axes `a`, `b`, in the order tt, zz, rr, tz, zr, tr.

@@ -29,7 +29,7 @@ std::set<std::string> invariants_of(const std::vector<KindPointer>& kinds) {
   return words;
 }
 
-/// All explanations with their probabilities, likeliest first.
+/// All explanations with their probabilities, likeliest first; there is a set at least.
 std::vector<Alternative> weighed(const Findings& found) {
   std::vector<Alternative> all;
   std::vector<double> logs;
@@ -42,11 +42,10 @@ std::vector<Alternative> weighed(const Findings& found) {
     all.push_back({{}, rival.id, rival.remembers, 0, rival.chi2});
     logs.push_back(rival.log_evidence);
   }
-  const double sum = logs.empty() ? 0 : diagnosis::log_sum(logs);
+  const double sum = diagnosis::log_sum(logs);
   for (std::size_t k = 0; k < all.size(); ++k) all[k].probability = std::exp(logs[k] - sum);
   // The set that was chosen stays ahead of those that are as likely.
-  const auto rest = all.begin() + (found.sets.empty() ? 0 : 1);
-  std::stable_sort(rest, all.end(),
+  std::stable_sort(all.begin() + 1, all.end(),
                    [](const Alternative& a, const Alternative& b) { return a.probability > b.probability; });
   return all;
 }

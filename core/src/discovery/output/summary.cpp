@@ -57,7 +57,7 @@ text::StyledText summary(const Discovery& d) {
   if (d.judgement.name && !d.terms.empty())
     page += line("Name:", fmt::format("the catalogue's {} changes the energy too and leaves |r|² {:.1f}",
                                       d.judgement.name->id, d.judgement.name->chi2));
-  if (d.judgement.verdict == Verdict::discovered && !d.rivals.empty()) {
+  if (d.judgement.verdict == Verdict::discovered) {
     const auto rig = std::find_if(d.rivals.begin(), d.rivals.end(), [](const Rival& r) { return !r.in_the_energy; });
     if (rig != d.rivals.end())
       page += line("Rig:", fmt::format("the best error of the rig, {}, leaves |r|² {:.1f}; the terms leave {:.1f}",
