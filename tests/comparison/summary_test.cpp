@@ -176,6 +176,18 @@ TEST(Summary, WarnsOfEqualCoursesBesideAnOptimiserThatCrashed) {
               Contains(HasSubstr("m/walk: all 2 realisations without such an error improved by the same steps")));
 }
 
+TEST(Summary, SaysWhyASearchEndedBeforeItEvaluatedAnything) {
+  Summarised made;
+  execution::RealisationResult crashed;
+  crashed.realisation = 1;
+  made.results[0].realisations = {crashed};
+  EXPECT_THAT(sentences(made.summarise()), Contains(HasSubstr("no result: nothing was evaluated")));
+  made.results[0].realisations[0].stopped_by = search::StopReason::optimizer_failure;
+  made.results[0].realisations[0].reason = "plugin 'walk' failed: std::bad_alloc";
+  EXPECT_THAT(sentences(made.summarise()), Contains(HasSubstr("no result: plugin 'walk' failed: std::bad_alloc")));
+  EXPECT_EQ(made.summarise().runs[0].status.reason(), "plugin 'walk' failed: std::bad_alloc");
+}
+
 TEST(Summary, TellsTheMostFrequentReasonsOfFailures) {
   Summarised made;
   made.results[0].realisations[0].tally.reasons = {{"a", 1}, {"b", 3}, {"c", 2}};

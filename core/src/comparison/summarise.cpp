@@ -116,7 +116,9 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
     summary.stop_sentence = told->stop_sentence;
   }
   if (!best) {
-    summary.status = Status::failed(summary.first_failure.empty() ? "nothing was evaluated" : summary.first_failure);
+    summary.status = Status::failed(!summary.first_failure.empty() ? summary.first_failure
+                                    : !summary.first_fault.empty() ? summary.first_fault
+                                                                   : "nothing was evaluated");
     return summary;
   }
   summary.has_result = true;

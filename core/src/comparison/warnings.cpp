@@ -59,7 +59,7 @@ void warn_of_scale(const RunSummary& run, Warnings& warnings) {
 }
 
 void warn_of_missing_result(const RunSummary& run, const std::string& reasons, Warnings& warnings) {
-  const std::string why = run.evaluations == 0 ? std::string("nothing was evaluated")
+  const std::string why = run.evaluations == 0 ? run.status.reason()
                                                : fmt::format("all {} evaluations failed; {}", run.evaluations, reasons);
   warnings.push_back({WarningKind::no_result, "no result: " + why, run.label});
 }
