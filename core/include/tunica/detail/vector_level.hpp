@@ -22,10 +22,9 @@
 ///
 /// Results: within a level every evaluation gives the same bits. Levels differ in rounding (fused multiplication and
 /// addition, vector functions of libmvec): energies by 1e-13 relative, free strips by 2e-12, curves of finite
-/// elements by 1e-13 and their derivatives by 1e-11. Loops over lanes have to be padded where a value must not depend on
-/// its place: the compiler finishes a loop of odd length with scalar functions.
-/// Threads: everything here is thread-safe.
-/// Before a loop over lanes: no lane reads what another one writes, whatever the pointers.
+/// elements by 1e-13 and their derivatives by 1e-11. Loops over lanes have to be padded where a value must not depend
+/// on its place: the compiler finishes a loop of odd length with scalar functions. Threads: everything here is
+/// thread-safe. Before a loop over lanes: no lane reads what another one writes, whatever the pointers.
 #if defined(__clang__)
 #define TUNICA_LANES _Pragma("clang loop vectorize(assume_safety)")
 #define TUNICA_FOR_KERNELS [[gnu::flatten]]
