@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <new>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,11 @@ namespace {
 
 constexpr const char* entry_symbol = "tunica_plugin";
 
+/// The linker has words for it and no code: "Cannot allocate memory", "cannot allocate symbol data", "out of memory".
+bool lacks_memory(std::string_view message) {
+  return message.find("llocate ") != std::string_view::npos || message.find("out of memory") != std::string_view::npos;
+}
+
 /// Maps the file for the life of the process. Objects, exceptions, vtables and type information of a plugin live in
 /// its image, and a library can start threads or hand out pointers before anyone knows that it is no plugin: what was
 /// mapped once is never unmapped, refused libraries included. The list itself is therefore never destroyed.
@@ -39,16 +45,20 @@ const boost::dll::shared_library& map_for_good(const fs::path& file) {
   if (error) {
     // Boost says "Bad file descriptor" whatever happened; the linker's own text names the reason.
     const char* text = dlerror();
+    if (text != nullptr && lacks_memory(text)) throw std::bad_alloc();
     throw LoadError(explain_load_failure(file, text == nullptr ? error.message() : text));
   }
   return mapped.emplace_back(std::move(library));
 }
 
-/// Runs a piece of the plugin and turns whatever it throws into LoadError.
+/// Runs a piece of the plugin and turns whatever it throws into LoadError. Lack of memory ends the work instead:
+/// without the plugin it would go on to another result.
 template <class Call>
 auto shielded(std::string_view doing, const Call& call) {
   try {
     return call();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& problem) {
     throw LoadError(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
                                 problem.what()));
