@@ -78,6 +78,8 @@ class Comparison:
         """Within the tolerance; counts must be equal all the same."""
         if self.within == 0 or not (isinstance(old, float) and isinstance(new, float)):
             return False
+        if old == new:  # 0.0 and -0.0
+            return True
         change = abs(new - old) / max(abs(old), abs(new))
         if change <= self.within:
             self.largest = max(self.largest, change)

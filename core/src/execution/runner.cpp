@@ -31,7 +31,7 @@ namespace tunica::execution {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds heartbeat{100};  // rows are on disk after this time at the latest
+constexpr std::chrono::milliseconds heartbeat{100};  // of the thread that writes rows to the disk
 constexpr std::chrono::seconds checkpoint_interval{1};
 
 /// run.log, opened like every other file of a run.
@@ -50,8 +50,8 @@ class LogFile : public spdlog::sinks::base_sink<std::mutex> {
   AppendFile file_;
 };
 
-/// State of one execution. Searches touch their own results, the journal, the meters and `ended_`; files are made
-/// durable by the pulse, so that no search waits for a disk.
+/// State of one execution. Searches touch their own results, the journal, the meters and `ended_`. The pulse makes
+/// files durable, so that no search waits for a disk, unless too many rows wait already.
 class Run {
  public:
   Run(const Plan& plan, const RunSettings& settings)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -73,9 +74,10 @@ std::filesystem::path shard_folder(const std::filesystem::path& directory, const
 void gather_shards(const Plan& plan, const std::filesystem::path& directory,
                    const std::function<void(const std::string&)>& noticed) {
   const EvaluationTable table = plan.table();
-  const Facts facts = facts_of(plan);
+  Facts facts = facts_of(plan);
   const std::string& input = plan.experiment->input_json;
   std::map<std::size_t, std::string> finished, rows;
+  std::optional<std::string> level;  // of all parts
   const auto parts = parts_of(directory);
   if (parts.empty())
     throw InputError(fmt::format(
@@ -86,6 +88,8 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory,
     const auto held = RunDirectory::reopen(part, {});  // refuses one that is still at work
     Checkpoint checkpoint = read_checkpoint(part);
     refuse_changes(part, checkpoint.facts, facts, input);
+    const std::string& its_level = checkpoint.facts.vector_level;
+    level = level && *level != its_level ? "several" : its_level;
     auto own = rows_of(part, table, plan.tasks, checkpoint.damages);
     if (noticed)
       for (const std::string& sentence : checkpoint.damages) noticed(sentence);
@@ -96,6 +100,7 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory,
     }
   }
   refuse_missing(plan, directory, finished);
+  facts.vector_level = *level;
   make_folder(directory / "parts");
   for (const auto& [task, text] : rows) write_atomically(Journal::part_file(directory, task), text);
   write_atomically(Journal::main_file(directory), table.header());

@@ -28,11 +28,6 @@ namespace {
 
 constexpr const char* entry_symbol = "tunica_plugin";
 
-/// The linker has words for it and no code: "Cannot allocate memory", "cannot allocate symbol data", "out of memory".
-bool lacks_memory(std::string_view message) {
-  return message.find("llocate ") != std::string_view::npos || message.find("out of memory") != std::string_view::npos;
-}
-
 /// Maps the file for the life of the process. Objects, exceptions, vtables and type information of a plugin live in
 /// its image, and a library can start threads or hand out pointers before anyone knows that it is no plugin: what was
 /// mapped once is never unmapped, refused libraries included. The list itself is therefore never destroyed.
@@ -40,25 +35,29 @@ const boost::dll::shared_library& map_for_good(const fs::path& file) {
   static auto& mapped = *new std::vector<boost::dll::shared_library>();
   boost::dll::shared_library library;
   boost::dll::fs::error_code error;
-  dlerror();  // forget an older message
-  library.load(fs::absolute(file), error, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
-  if (error) {
+  for (bool again : {true, false}) {
+    dlerror();  // forget an older message
+    library.load(fs::absolute(file), error, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+    if (!error) break;
     // Boost says "Bad file descriptor" whatever happened; the linker's own text names the reason.
     const char* text = dlerror();
-    if (text != nullptr && lacks_memory(text)) throw std::bad_alloc();
+    if (again) continue;  // memory that lacked for a moment says nothing of the plugin
     throw LoadError(explain_load_failure(file, text == nullptr ? error.message() : text));
   }
   return mapped.emplace_back(std::move(library));
 }
 
-/// Runs a piece of the plugin and turns whatever it throws into LoadError. Lack of memory ends the work instead:
-/// without the plugin it would go on to another result.
+/// Runs a piece of the plugin and turns whatever it throws into LoadError. What lacked memory is asked once more:
+/// without the plugin the work would go on to another result.
 template <class Call>
-auto shielded(std::string_view doing, const Call& call) {
+auto shielded(std::string_view doing, const Call& call, bool again = true) {
   try {
-    return call();
-  } catch (const std::bad_alloc&) {
-    throw;
+    try {
+      return call();
+    } catch (const std::bad_alloc&) {
+      if (!again) throw;
+    }
+    return shielded(doing, call, false);
   } catch (const std::exception& problem) {
     throw LoadError(fmt::format("{} failed: {}; expected it to return normally; nothing of the plugin was taken", doing,
                                 problem.what()));
@@ -191,8 +190,11 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
   if (const std::string reason = refuse_header(header); !reason.empty()) throw LoadError(reason);
 
   const std::string plugin = fmt::format("{} {}", header->name, header->version);
-  Catalogue::Registration registration;
-  shielded(fmt::format("registration of plugin '{}'", plugin), [&] { header->register_into(registration); });
+  Catalogue::Registration registration = shielded(fmt::format("registration of plugin '{}'", plugin), [&] {
+    Catalogue::Registration fresh;
+    header->register_into(fresh);
+    return fresh;
+  });
   try {
     catalogue.commit(std::move(registration), plugin);
   } catch (const std::invalid_argument& problem) {

@@ -13,10 +13,10 @@ namespace tunica::search {
 /// Which points of a batch are simulated in full where only the `best` lowest objectives are wanted, and a lower bound
 /// of each is known from its cheap tests.
 ///
-/// Points are taken in the order of their bounds, until the next bound exceeds the best-th lowest objective of the
-/// points before it: no other point can be among the lowest. A thread does not wait for what others still simulate, so
-/// it may take points too many. left() names them too, and what they gave is to be forgotten: what counts
-/// depends on the numbers alone, and is the same for any number of threads.
+/// Points are taken in the order of their bounds. The rule ends where the next bound exceeds the best-th lowest
+/// objective of the points before it: no other point can be among the lowest. A thread does not wait for what others
+/// still simulate, so it may take points too many. left() names them too, and what they gave is to be forgotten. So
+/// what counts depends on the numbers alone, and is the same for any number of threads.
 ///
 /// take() and found() may be called from any thread, the others from one.
 class EarlyEnd {

@@ -106,7 +106,10 @@ void evaluate_neighbours(const assembly::Assembly& assembly, std::vector<Neighbo
       early.found(*taken, neighbour.status.ok() ? std::optional(neighbour.objective) : std::nullopt);
     }
   });
-  for (const std::size_t k : early.left()) neighbours[k].simulated = false;  // taken needlessly: it is not the lowest
+  for (const std::size_t k : early.left()) {  // taken needlessly or not at all: it is not the lowest
+    neighbours[k].simulated = false;
+    neighbours[k].status = {};  // as its cheap tests are
+  }
 }
 
 }  // namespace

@@ -313,6 +313,8 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
   points_.resize(call.size);
   std::iota(points_.begin(), points_.end(), std::size_t{0});
   evaluate_slots(xs, call.first, points_, true);
+  const std::vector<double> bounds(made.objectives.begin() + first, made.objectives.end());
+  const std::vector<double> costs(made.per_test.begin() + first * tests, made.per_test.end());
   early_.clear();
   for (std::size_t k = 0; k < call.size; ++k)
     if (made.statuses[call.first + k].ok()) early_.add(k, made.objectives[call.first + k]);
@@ -323,10 +325,13 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
   simulate_early(xs, call, replayed);
   const auto left = early_.left();
   for (const std::size_t k : left) made.ended_early[call.first + k] = 1;
-  points_.clear();
-  std::copy_if(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(early_.needless()), std::back_inserter(points_),
-               [&](std::size_t k) { return k >= replayed; });
-  if (!points_.empty()) evaluate_slots(xs, call.first, points_, true);  // their bounds, for what is written
+  for (const std::size_t k : left.first(early_.needless())) {  // what is written of them is their bound
+    if (k < replayed) continue;
+    made.objectives[call.first + k] = bounds[k];
+    made.statuses[call.first + k] = {};
+    std::copy_n(costs.begin() + static_cast<std::ptrdiff_t>(k) * tests, tests,
+                made.per_test.begin() + (first + static_cast<std::ptrdiff_t>(k)) * tests);
+  }
 }
 
 void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,

@@ -13,12 +13,6 @@ constexpr double exact = 1e-9;           ///< of the adjoint
 constexpr std::size_t most_passes = 12;  ///< a factor nearby takes two to four
 constexpr double too_slow = 0.1;         ///< a pass that leaves more than this wants a factor of the solution
 
-double magnitude(std::span<const double> x) {
-  double value = 0;
-  for (const double entry : x) value = std::max(value, std::abs(entry));
-  return value;
-}
-
 }  // namespace
 
 /// The weights y, h of an observable a · x make its change by the equations −∂Π/∂x and c vanish at free positions:
@@ -130,7 +124,8 @@ Status Solver::refine_adjoint(const Load& load, const State& state, std::span<co
   solve_rights();
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
     State& y = adjoint_[k];
-    change = std::max(change, magnitude(rights_[k]) / magnitude(y.x));
+    const double of = largest(rights_[k]) / largest(y.x);
+    if (std::isfinite(change) && !(of <= change)) change = of;  // what is no number stays
     for (std::size_t i = end; i < dx_.size(); ++i) moved_ends_[k][i - end] -= system_.matrix.row_times(i, rights_[k]);
     assembly_->pressures(system_, rights_[k], multiplied_[k].q, dq_);
     for (std::size_t i = 0; i < dx_.size(); ++i) y.x[i] += rights_[k][i];

@@ -78,6 +78,7 @@ class AssemblyOf final : public Assembly {
     std::vector<double> sums(by.size() * ng * n_), dilation(np * n_);
     std::fill(by.begin(), by.end(), 0.0);
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      if (row % 64 == 63 && late && late()) return Status::failed("the time limit is reached");
       row_.take(state, row);
       if (Status status = row_.evaluate(material, true, true); !status.ok()) return status;
       row_.contract(material, directions, sums);
@@ -103,6 +104,7 @@ class AssemblyOf final : public Assembly {
     residual.q.resize(pressure_count());
     double unused = 0;
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
+      if (row % 64 == 63 && late && late()) return Status::failed("the time limit is reached");
       row_.take(state, row);
       if (Status status = row_.evaluate(material, true, false); !status.ok()) return status;
       row_.integrate(material.sees_shear(), false, unused);

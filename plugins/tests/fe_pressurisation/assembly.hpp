@@ -94,7 +94,7 @@ class Assembly {
   static std::unique_ptr<Assembly> make(const Mesh& mesh);
 
   Support support;             ///< acts where its slope is not 0
-  std::function<bool()> late;  ///< asked now and then, where it is set: assemble() fails where it says yes
+  std::function<bool()> late;  ///< asked now and then, where it is set: work fails where it says yes
 };
 
 }  // namespace tunica::fe

@@ -17,16 +17,6 @@ constexpr double slow = 0.3;               ///< a step of a frozen factor this t
 constexpr double near = 2e-5;              ///< a factor of a state this near to the solution is nearly its own
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
-/// Not finite where an entry is not.
-double largest(std::span<const double> x) {
-  double value = 0, sum = 0;
-  for (const double entry : x) {
-    value = std::max(value, std::abs(entry));
-    sum += entry;
-  }
-  return std::isfinite(sum) ? value : sum;
-}
-
 }  // namespace
 
 Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)), factor_(mesh) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -11,6 +13,16 @@
 #include "factor.hpp"
 
 namespace tunica::fe {
+
+/// max |x_i|. Not finite where an entry is not.
+inline double largest(std::span<const double> x) {
+  double value = 0, sum = 0;
+  for (const double entry : x) {
+    value = std::max(value, std::abs(entry));
+    sum += entry;
+  }
+  return std::isfinite(sum) ? value : sum;
+}
 
 /// What holds the tube: its ends at `stretch` times their distance, and a pressure in the lumen, kPa.
 struct Load {
