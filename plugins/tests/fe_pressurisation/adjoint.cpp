@@ -124,7 +124,7 @@ Status Solver::refine_adjoint(const Load& load, const State& state, std::span<co
   solve_rights();
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
     State& y = adjoint_[k];
-    const double of = largest(rights_[k]) / largest(y.x);
+    const double step = largest(rights_[k]), of = step == 0 ? 0 : step / largest(y.x);
     if (std::isfinite(change) && !(of <= change)) change = of;  // what is no number stays
     for (std::size_t i = end; i < dx_.size(); ++i) moved_ends_[k][i - end] -= system_.matrix.row_times(i, rights_[k]);
     assembly_->pressures(system_, rights_[k], multiplied_[k].q, dq_);

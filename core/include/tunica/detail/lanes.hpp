@@ -42,13 +42,20 @@ struct VectorOf<8> {
 };
 
 #ifdef TUNICA_LIBMVEC_
-// The functions of libmvec by name, each called with the instructions that its vectors are passed in.
+// The functions of libmvec by name, each called with the instructions that its vectors are passed in. Their names say
+// from which kernels: those alone may hold such instructions, also where a function is not inlined.
+#define TUNICA_KERNELS_2_ on_baseline
+#define TUNICA_KERNELS_4_ from_run_on_avx2
+#define TUNICA_KERNELS_8_ from_run_on_avx512
 #define TUNICA_VECTOR_FUNCTION_(function, width, level, instructions, parameters, arguments, ...)                  \
   extern "C" [[gnu::const, gnu::nothrow]] VectorOf<width>::Type tunica_##function##_##width##_ parameters __asm__( \
       "_ZGV" level "_" #function);                                                                                 \
-  [[gnu::target(instructions)]] inline void function##_of_lanes(VectorOf<width>::Type& z, __VA_ARGS__) {           \
-    z = tunica_##function##_##width##_ arguments;                                                                  \
-  }
+  namespace TUNICA_KERNELS_##width##_ {                                                                            \
+    [[gnu::target(instructions)]] inline void function##_of_lanes(VectorOf<width>::Type& z, __VA_ARGS__) {         \
+      z = tunica_##function##_##width##_ arguments;                                                                \
+    }                                                                                                              \
+  }                                                                                                                \
+  using TUNICA_KERNELS_##width##_::function##_of_lanes;
 #define TUNICA_ONE_(function, width, level, instructions)                                         \
   TUNICA_VECTOR_FUNCTION_(function, width, level "v", instructions, (VectorOf<width>::Type), (x), \
                           const VectorOf<width>::Type& x)
@@ -67,6 +74,9 @@ TUNICA_TWO_(pow, 8, "eN8", "avx512f")
 #undef TUNICA_TWO_
 #undef TUNICA_ONE_
 #undef TUNICA_VECTOR_FUNCTION_
+#undef TUNICA_KERNELS_8_
+#undef TUNICA_KERNELS_4_
+#undef TUNICA_KERNELS_2_
 #endif
 
 /// `width` numbers side by side: 2, 4 or 8.
