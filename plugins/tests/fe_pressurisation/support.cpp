@@ -25,39 +25,44 @@ struct EdgePoint {
   }
 };
 
+/// Calls `body` with every Gauss point of the outer edge, and with its number in the row.
+template <std::size_t Order, class Body>
+void along_edge(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
+                const Body& body) {
+  for (std::size_t row = 0; row < mesh.axial; ++row)
+    for (std::size_t g = 0; g < Element<Order>::points_1d; ++g)
+      body(EdgePoint<Order>(mesh, element, support, state, row, g), g);
+}
+
 }  // namespace
 
 template <std::size_t Order>
 void add_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
                  std::vector<double>& force) {
-  for (std::size_t row = 0; row < mesh.axial; ++row)
-    for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
-      const EdgePoint<Order> at(mesh, element, support, state, row, g);
-      const auto& N = element.shape_1d[g];
-      const auto& D = element.slope_1d[g];
-      const double w = element.weight_1d[g] * support.slope, pressed = Support::pressed(at.r, at.rho);
-      for (std::size_t k = 0; k < at.side; ++k) {
-        force[at.dof[k]] += w * at.z * pressed * N[k];
-        force[at.dof[k] + 1] += w * Support::stored(at.r, at.rho) * D[k];
-      }
+  along_edge(mesh, element, support, state, [&](const EdgePoint<Order>& at, std::size_t g) {
+    const auto& N = element.shape_1d[g];
+    const auto& D = element.slope_1d[g];
+    const double w = element.weight_1d[g] * support.slope, pressed = Support::pressed(at.r, at.rho);
+    for (std::size_t k = 0; k < at.side; ++k) {
+      force[at.dof[k]] += w * at.z * pressed * N[k];
+      force[at.dof[k] + 1] += w * Support::stored(at.r, at.rho) * D[k];
     }
+  });
 }
 
 template <std::size_t Order>
 void stiffen_by_support(const Mesh& mesh, const Element<Order>& element, const Support& support, const State& state,
                         std::vector<Entry>& matrix) {
-  for (std::size_t row = 0; row < mesh.axial; ++row)
-    for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
-      const EdgePoint<Order> at(mesh, element, support, state, row, g);
-      const auto& N = element.shape_1d[g];
-      const auto& D = element.slope_1d[g];
-      const double w = element.weight_1d[g] * support.slope, pressed = Support::pressed(at.r, at.rho);
-      for (std::size_t k = 0; k < at.side; ++k)
-        for (std::size_t l = 0; l < at.side; ++l) {
-          if (k <= l) matrix.push_back({at.dof[k], at.dof[l], w * at.z * (2 * at.r - at.rho) * N[k] * N[l]});
-          matrix.push_back({at.dof[k], at.dof[l] + 1, w * pressed * N[k] * D[l]});
-        }
-    }
+  along_edge(mesh, element, support, state, [&](const EdgePoint<Order>& at, std::size_t g) {
+    const auto& N = element.shape_1d[g];
+    const auto& D = element.slope_1d[g];
+    const double w = element.weight_1d[g] * support.slope, pressed = Support::pressed(at.r, at.rho);
+    for (std::size_t k = 0; k < at.side; ++k)
+      for (std::size_t l = 0; l < at.side; ++l) {
+        if (k <= l) matrix.push_back({at.dof[k], at.dof[l], w * at.z * (2 * at.r - at.rho) * N[k] * N[l]});
+        matrix.push_back({at.dof[k], at.dof[l] + 1, w * pressed * N[k] * D[l]});
+      }
+  });
 }
 
 template <std::size_t Order>
@@ -65,19 +70,17 @@ double contract_support(const Mesh& mesh, const Element<Order>& element, const S
                         std::span<const double> right, std::span<double> by_free) {
   std::fill(by_free.begin(), by_free.end(), 0.0);
   double by_slope = 0;
-  for (std::size_t row = 0; row < mesh.axial; ++row)
-    for (std::size_t g = 0; g < Element<Order>::points_1d; ++g) {
-      const EdgePoint<Order> at(mesh, element, support, state, row, g);
-      const double w = element.weight_1d[g];
-      double along_r = 0, along_z = 0;  // of `right`, at the point
-      for (std::size_t k = 0; k < at.side; ++k) {
-        along_r += element.shape_1d[g][k] * right[at.dof[k]];
-        along_z += element.slope_1d[g][k] * right[at.dof[k] + 1];
-      }
-      by_slope -= w * (at.z * Support::pressed(at.r, at.rho) * along_r + Support::stored(at.r, at.rho) * along_z);
-      const double change = w * support.slope * (at.z * at.r * along_r - Support::by_free(at.r, at.rho) * along_z);
-      for (std::size_t k = 0; k < at.side; ++k) by_free[at.plane[k]] += change * element.shape_1d[g][k];
+  along_edge(mesh, element, support, state, [&](const EdgePoint<Order>& at, std::size_t g) {
+    const double w = element.weight_1d[g];
+    double along_r = 0, along_z = 0;  // of `right`, at the point
+    for (std::size_t k = 0; k < at.side; ++k) {
+      along_r += element.shape_1d[g][k] * right[at.dof[k]];
+      along_z += element.slope_1d[g][k] * right[at.dof[k] + 1];
     }
+    by_slope -= w * (at.z * Support::pressed(at.r, at.rho) * along_r + Support::stored(at.r, at.rho) * along_z);
+    const double change = w * support.slope * (at.z * at.r * along_r - Support::by_free(at.r, at.rho) * along_z);
+    for (std::size_t k = 0; k < at.side; ++k) by_free[at.plane[k]] += change * element.shape_1d[g][k];
+  });
   return by_slope;
 }
 
