@@ -6,26 +6,23 @@
 
 namespace tunica::search {
 
+void Evaluations::resize(std::size_t slots, std::size_t parameter_count, std::size_t test_count) {
+  parameters.resize(slots * parameter_count);
+  per_test.resize(slots * test_count);
+  objectives.resize(slots);
+  seconds.resize(slots);
+  statuses.resize(slots);
+  ended_early.resize(slots);
+}
+
 void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count) {
   calls.push_back({size(), count, jacobian});
-  const std::size_t total = size() + count;
-  parameters.resize(total * parameter_count);
-  per_test.resize(total * test_count);
-  objectives.resize(total);
-  seconds.resize(total);
-  statuses.resize(total);
-  ended_early.resize(total);
+  resize(size() + count, parameter_count, test_count);
 }
 
 void Evaluations::drop_call(std::size_t parameter_count, std::size_t test_count) {
-  const std::size_t left = calls.back().first;
+  resize(calls.back().first, parameter_count, test_count);
   calls.pop_back();
-  parameters.resize(left * parameter_count);
-  per_test.resize(left * test_count);
-  objectives.resize(left);
-  seconds.resize(left);
-  statuses.resize(left);
-  ended_early.resize(left);
 }
 
 Extent Evaluations::extent(std::size_t slot, std::size_t test_count) const {
@@ -39,12 +36,7 @@ Extent Evaluations::extent(std::size_t slot, std::size_t test_count) const {
 
 void Evaluations::clear() {
   calls.clear();
-  parameters.clear();
-  per_test.clear();
-  objectives.clear();
-  seconds.clear();
-  statuses.clear();
-  ended_early.clear();
+  resize(0, 0, 0);
 }
 
 }  // namespace tunica::search

@@ -104,6 +104,8 @@ struct Evaluations {
   /// Takes the last call back.
   void drop_call(std::size_t parameter_count, std::size_t test_count);
   void clear();
+  /// To so many slots; calls stay.
+  void resize(std::size_t slots, std::size_t parameter_count, std::size_t test_count);
   /// How much was done at a slot; it follows from what the journal holds.
   [[nodiscard]] Extent extent(std::size_t slot, std::size_t test_count) const;
 };
