@@ -64,6 +64,7 @@ class Banded {
   [[nodiscard]] std::size_t panels() const { return (size_ + panel - 1) / panel; }
   template <class Vector, std::size_t Vectors, std::size_t Columns>
   std::optional<std::size_t> by_blocks(const std::function<bool()>& late);
+  std::optional<std::size_t> by_panels(const std::function<bool()>& late);
   template <class Vector>
   std::size_t factorise_panel_at(std::size_t J);
   void subtract_panel(std::size_t at);
