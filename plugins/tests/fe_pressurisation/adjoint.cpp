@@ -20,9 +20,9 @@ constexpr double too_slow = 0.1;         ///< a pass that leaves more than this 
 ///   K y − G h = a,   Gᵀ y = 0.
 ///
 /// The axial force has no a, but y = 2π for z over the plane of symmetry, which is prescribed, as y = 0 is elsewhere.
-/// What remains at prescribed rows is how the observable changes as they move. Solved is by the condensed factor of a
-/// state nearby, whose compressibility and rounding, magnified by γ, come off by iterative refinement: with the
-/// residuals r = a − K y + G h and g = Gᵀ y,
+/// What remains at prescribed rows is how the observable changes as they move. The condensed factor of a state nearby
+/// solves it; its compressibility and its rounding, magnified by γ, come off by iterative refinement. With the
+/// residuals r = a − K y + G h and g = Gᵀ y that is
 ///
 ///   (K + γ G M⁻¹ Gᵀ) dy = r − γ G M⁻¹ g,   dh = −γ M⁻¹ (g + Gᵀ dy).
 ///

@@ -79,8 +79,8 @@ class Solver {
   [[nodiscard]] const Effort& effort() const { return effort_; }
   [[nodiscard]] const System& system() const { return system_; }
 
-  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (empty = nothing) and moves the
-  /// prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all).
+  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state and moves the prescribed positions
+  /// by `moved` (all nodes, zero elsewhere). What is empty adds nothing, or moves nothing.
   void derive(std::span<const double> right, std::span<const double> moved, State& derivative);
   /// `right` by the pressure, ∂V/∂x; `moved` by the axial stretch.
   [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
