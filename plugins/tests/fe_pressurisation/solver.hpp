@@ -24,6 +24,18 @@ inline double largest(std::span<const double> x) {
   return std::isfinite(sum) ? value : sum;
 }
 
+/// Σ a_i b_i, in sums that do not wait for each other.
+inline double dot(std::span<const double> a, std::span<const double> b) {
+  constexpr std::size_t sums = 8;
+  double partial[sums] = {}, rest = 0;
+  std::size_t i = 0;
+  for (; i + sums <= a.size(); i += sums)
+    for (std::size_t k = 0; k < sums; ++k) partial[k] += a[i + k] * b[i + k];
+  for (; i < a.size(); ++i) rest += a[i] * b[i];
+  for (const double sum : partial) rest += sum;
+  return rest;
+}
+
 /// What holds the tube: its ends at `stretch` times their distance, and a pressure in the lumen, kPa.
 struct Load {
   double stretch = 1, pressure = 0;
@@ -88,9 +100,10 @@ class Solver {
 
   /// The weights of some entries of State::x and, on demand, last of all of the axial force at a solution, by the
   /// adjoint of the equations: whatever the number of parameters. `moved` counts at the end alone. With a factor of a
-  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing.
+  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing. `changes` are of the
+  /// equations there.
   Status weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
-               std::vector<Weights>& weights);
+               std::vector<Weights>& weights, Changes& changes);
   /// After weigh(), what the observables of the solution that the state nearly is have more than those of the state, to
   /// second order of what is left to it. The axial force has it in place of all but the support.
   [[nodiscard]] std::span<const double> defects() const { return defects_; }
@@ -112,7 +125,8 @@ class Solver {
   bool factorise();
   void move(State& state, bool mixed);
   void begin_adjoint(std::span<const std::size_t> positions, bool axial_force);
-  Status refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions, double& change);
+  Status refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions, Changes* changes,
+                        double& step);
   void add_observable(std::span<const std::size_t> positions, std::size_t k, std::span<double> to) const;
   void add_own(std::span<const std::size_t> positions, std::size_t k, std::span<double> x) const;
   void solve_rights();
