@@ -172,7 +172,7 @@ TEST(FiniteElementMessages, NewtonsMethodSaysHowItFails) {
   const auto reason_at = [](double pressure, double disturbance) {
     Kernel kernel(small_mesh(1, fe::Ends::clamped), make_model("gho"), set_s);
     fe::State state = disturbed(kernel.solver, disturbance, 0, 3);
-    return kernel.solver.solve({1.2, pressure}, state, true).reason();
+    return kernel.solver.solve({1.2, pressure}, state, fe::Aim::factor).reason();
   };
   EXPECT_EQ(reason_at(1000, 0), "Newton's method runs away");
   EXPECT_EQ(reason_at(30, 30), "the stiffness is singular");

@@ -29,7 +29,7 @@ Support support_of(const Solver& solver, const State& free, double slope) {
 Simulation::Simulation(const Tube& tube) : tube_(tube), solver_(mesh_of(tube)), sensitivity_(solver_) {}
 
 Status Simulation::take(Path& path, const Load& load, Sample& sample) {
-  if (Status status = path.go(load, derivatives_); !status.ok()) return status;
+  if (Status status = path.go(load, derivatives_ ? Aim::weights : Aim::state); !status.ok()) return status;
   ++solutions_;
   if (derivatives_) return sensitivity_.sample(path, sample);
   sample.value = path.observed();
@@ -69,7 +69,7 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     solver_.assembly().support = {};
     if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later || support != 0)
       if (Status status = path.return_to(trunk); !status.ok()) return status;
-    if (Status status = path.go({stretch, 0}, hold_later || support != 0); !status.ok()) return status;
+    if (Status status = path.go({stretch, 0}, hold_later || support != 0 ? Aim::factor : Aim::state); !status.ok()) return status;
     trunk = path.mark();
     Support free;
     if (support != 0 || derivatives_) {

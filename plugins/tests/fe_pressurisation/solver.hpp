@@ -41,6 +41,13 @@ struct Load {
   double stretch = 1, pressure = 0;
 };
 
+/// What a solution is for.
+enum class Aim {
+  state,   ///< nothing beside
+  factor,  ///< the factor of a state nearby, too
+  weights  ///< that for weigh(), which makes up for a state that is good to 1e-9 alone
+};
+
 /// What solutions took since begin(), and the last of them.
 struct Effort {
   std::size_t factorisations = 0, iterations = 0;
@@ -50,8 +57,8 @@ struct Effort {
 /// Newton's method on one mesh. Prescribed are z at both ends and, where the ends are held, r at the far one.
 ///
 /// A step assembles and factorises until the state moves by less than 1e-3 of the radius; from there on the last factor
-/// serves, while each of its steps is three tenths of the one before at most: a residual costs a fifth of a factor. For
-/// sensitivities the last factor is one of a state within 2e-5 of the solution.
+/// serves, while each of its steps is three tenths of the one before at most: a residual costs a fifth of a factor.
+/// Where a factor is wanted the last one is of a state within 2e-5 of the solution.
 class Solver {
  public:
   static constexpr double tolerance = 1e-11;  ///< of the positions, over the outer radius
@@ -79,7 +86,7 @@ class Solver {
   }
 
   /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
-  Status solve(const Load& load, State& state, bool full_steps);
+  Status solve(const Load& load, State& state, Aim aim);
   /// The same with the volume of the lumen given (of half the tube, over 2π, mm³) and the pressure found, which begins
   /// with that of `load`: there is a solution also where the pressure hardly rises any more, or falls.
   Status solve_volume(double volume, Load& load, State& state);
@@ -119,7 +126,7 @@ class Solver {
 
  private:
   void impose(const Load& load, State& state) const;
-  Status iterate(const Load& load, State& state, bool full_steps);
+  Status iterate(const Load& load, State& state, Aim aim);
   Status iterate_volume(double volume, Load& load, State& state);
   /// False where the deadline came first.
   bool factorise();
