@@ -45,7 +45,7 @@ TEST(FiniteElementMessages, TheMeshIsTwoNumbers) {
 /// Before anything of the kind is allocated.
 TEST(FiniteElementMessages, AMeshThatTakesTooMuchMemoryIsRefusedWithTheFigure) {
   EXPECT_SAYS(refusal({1}, {.element = "quadrilateral_9", .elements = "[200, 2000]"}),
-              "fe_pressurisation: a mesh of 200 × 2000 elements of 9 nodes needs 4.9 GiB of memory, and 4 GiB are "
+              "fe_pressurisation: a mesh of 200 × 2000 elements of 9 nodes needs 5.4 GiB of memory, and 4 GiB are "
               "allowed; take fewer elements across the wall");
   const fe::Mesh mesh(1, 20, 40, 3.71, 5.77, 7, 1.5, fe::Ends::clamped);
   fe::Stencil matrix;

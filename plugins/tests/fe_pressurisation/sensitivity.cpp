@@ -86,10 +86,10 @@ void Sensitivity::add_support(const Path& path, std::size_t wanted, bool axial_f
   }
 }
 
-/// Positions together, some at a time: each of them takes as much memory as the mesh.
+/// Positions together, some at a time.
 Status Sensitivity::follow(const Path& path, std::span<const std::size_t> positions,
                            std::vector<std::vector<double>>& moved) {
-  const std::size_t together = std::clamp<std::size_t>(4'000'000 / solver_.rest().x.size(), 4, 32);
+  const std::size_t together = Solver::together(solver_.mesh());
   const std::size_t directions = material_->parameter_count() + direction_count;
   std::vector<std::vector<double>> found(directions, std::vector<double>(positions.size()));
   for (std::size_t from = 0; from < positions.size(); from += together) {

@@ -37,7 +37,18 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)),
   product_.resize(rest_.x.size());
 }
 
-double Solver::bytes(const Mesh& mesh) { return Factor::bytes(mesh) + Stencil::bytes(mesh); }
+/// Of each weight of an observable State::x stands in four vectors and State::q in three.
+double Solver::bytes(const Mesh& mesh) {
+  const auto positions = static_cast<double>(2 * mesh.nodes());
+  const auto pressures = static_cast<double>((mesh.order == 1 ? 1 : 3) * mesh.radial * mesh.axial);
+  const auto weights = static_cast<double>(together(mesh));
+  return Factor::bytes(mesh) + Stencil::bytes(mesh) + 8 * weights * (4 * positions + 3 * pressures);
+}
+
+/// As many as take 30 MB in each of those vectors.
+std::size_t Solver::together(const Mesh& mesh) {
+  return std::clamp<std::size_t>(4'000'000 / (2 * mesh.nodes()), 4, 32);
+}
 
 Status Solver::begin(const Material& material) {
   material_ = &material;

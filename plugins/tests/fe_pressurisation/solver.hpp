@@ -68,6 +68,8 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
   /// Of memory that it takes, as far as it grows with the mesh.
   static double bytes(const Mesh& mesh);
+  /// Observables that weigh() is asked for at most: each takes as much memory as the mesh.
+  static std::size_t together(const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const State& rest() const { return rest_; }
