@@ -353,8 +353,8 @@ class AssemblyOf final : public Assembly {
   const std::size_t n_;  ///< elements along R
   const E element_;
   Elements row_;
-  std::vector<double> column_;  ///< ∫ R dR over each column of elements
-  std::vector<Entry> edges_;    ///< of the matrix, by what acts on the edges of the wall
+  std::vector<double> column_;                          ///< ∫ R dR over each column of elements
+  std::vector<Entry> edges_;                            ///< of the matrix, by what acts on the edges of the wall
   std::vector<double> forces_, dilations_, forces_by_;  ///< of a row, by multiply()
   std::vector<double> volume_;
 };

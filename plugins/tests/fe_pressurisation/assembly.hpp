@@ -33,7 +33,8 @@ struct Weights {
 };
 
 /// How the equations change with parameters at a fixed state. They are those of the material, then the relative
-/// thickness (x and Ro fixed), and with a differentiated closing the rest of Geometry. c depends on the thickness alone.
+/// thickness (x and Ro fixed), and with a differentiated closing the rest of Geometry. c depends on the thickness
+/// alone.
 struct Changes {
   std::vector<double> force;     ///< of ∂Π/∂x, parameter · positions + position
   std::vector<double> dilation;  ///< of c, by the thickness

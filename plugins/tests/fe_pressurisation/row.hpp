@@ -93,13 +93,13 @@ class Row {
   const double h_;       ///< their mean length
   const E element_;
   std::size_t row_ = 0;
-  std::vector<double> radius_, over_radius_;  ///< R and N/R: point · (node ·) lane
-  std::vector<double> measure_, narrow_;      ///< R times the length of the lane over the mean; the inverse ratio
-  std::vector<double> x_, q_, p_, a_;         ///< component · lane
-  std::vector<double> z_, phi_;               ///< a direction at the nodes, its f: component · point · lane
-  std::vector<double> change_, turned_, closed_;     ///< component · point · lane
-  std::vector<double> unit_volume_;                  ///< of a point over the height of the row
-  std::vector<double> moduli_;                       ///< point · as a_
+  std::vector<double> radius_, over_radius_;      ///< R and N/R: point · (node ·) lane
+  std::vector<double> measure_, narrow_;          ///< R times the length of the lane over the mean; the inverse ratio
+  std::vector<double> x_, q_, p_, a_;             ///< component · lane
+  std::vector<double> z_, phi_;                   ///< a direction at the nodes, its f: component · point · lane
+  std::vector<double> change_, turned_, closed_;  ///< component · point · lane
+  std::vector<double> unit_volume_;               ///< of a point over the height of the row
+  std::vector<double> moduli_;                    ///< point · as a_
 };
 
 extern template class Row<1>;

@@ -69,7 +69,8 @@ Status Simulation::run(const Material& material, std::span<const Load> loads, co
     solver_.assembly().support = {};
     if (path.load().stretch != trunk.load.stretch || path.load().pressure != 0 || hold_later || support != 0)
       if (Status status = path.return_to(trunk); !status.ok()) return status;
-    if (Status status = path.go({stretch, 0}, hold_later || support != 0 ? Aim::factor : Aim::state); !status.ok()) return status;
+    if (Status status = path.go({stretch, 0}, hold_later || support != 0 ? Aim::factor : Aim::state); !status.ok())
+      return status;
     trunk = path.mark();
     Support free;
     if (support != 0 || derivatives_) {

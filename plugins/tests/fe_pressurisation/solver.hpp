@@ -109,8 +109,8 @@ class Solver {
 
   /// The weights of some entries of State::x and, on demand, last of all of the axial force at a solution, by the
   /// adjoint of the equations: whatever the number of parameters. `moved` counts at the end alone. With a factor of a
-  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing. `changes` are of the
-  /// equations there.
+  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing. `changes` are of
+  /// the equations there.
   Status weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
                std::vector<Weights>& weights, Changes& changes);
   /// After weigh(), what the observables of the solution that the state nearly is have more than those of the state, to

@@ -109,7 +109,8 @@ bool find_on_curve(const Equilibrium& free, std::span<const double> pressure, Se
               0.5 * (end - free.y) * std::cos((2 * static_cast<double>(k) + 1) / (2 * count) * std::numbers::pi);
   if (!sample(free.axial_stretch, sections, at)) return false;
   for (std::size_t k = 0; k < count; ++k)
-    if (!sound(at[k]) || (k > 0 && !rises(at[k].p - at[k - 1].p, at[k].y - at[k - 1].y, at[k - 1].p_y, at[k].p_y))) return false;
+    if (!sound(at[k]) || (k > 0 && !rises(at[k].p - at[k - 1].p, at[k].y - at[k - 1].y, at[k - 1].p_y, at[k].p_y)))
+      return false;
   if (!((at.front().p - *lowest) / at.front().p_y < beyond_samples) ||
       !((*highest - at.back().p) / at.back().p_y < beyond_samples))
     return false;

@@ -44,8 +44,8 @@ class Path {
   const Wall& wall_;
 };
 
-/// Whether the pressure rises all over a step of y by dp, with these slopes at its ends. Where a cubic through all could
-/// fall it says no.
+/// Whether the pressure rises all over a step of y by dp, with these slopes at its ends. Where a cubic through all
+/// could fall it says no.
 inline bool rises(double dp, double dy, double p_y_before, double p_y_after) {
   const double mean = dp / dy, u = p_y_before / mean, v = p_y_after / mean;
   return mean > 0 && u * u + v * v <= 16;
