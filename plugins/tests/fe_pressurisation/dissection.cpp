@@ -283,28 +283,21 @@ std::optional<std::size_t> Dissection::factorise(const Stencil& matrix, std::spa
 }
 
 template <class Vector>
-void Dissection::substitute(std::span<const std::span<double>> x) const {
-  thread_local std::vector<double, Aligned<double>> rows;
-  rows.resize(tallest_ * x.size());
-  const auto each_panel = [&](const Front& front, std::size_t J, auto&& work) {
-    for (std::size_t k = 0; k < x.size(); ++k)
-      work(a_.data() + front.place + J * panel * (front.height + 1), front.height - J * panel,
-           inverse_.data() + (front.first_panel + J) * panel * panel,
-           inverse_pivot_.data() + (front.first_panel + J) * panel, rows.data() + k * tallest_ + J * panel);
-  };
+void Dissection::substitute(std::span<const std::span<double>> x, double* rows) const {
   for (const Front& front : fronts_) {
     const std::uint32_t* const at = &positions_[front.positions];
     for (std::size_t k = 0; k < x.size(); ++k) {
-      double* const y = rows.data() + k * tallest_;
+      double* const y = rows + k * tallest_;
       std::fill_n(y, front.height, 0.0);
       for (std::size_t r = 0; r < front.eliminated; ++r) y[r] = x[k][at[r]];
     }
     for (std::size_t J = 0; J < front.own / panel; ++J)
-      each_panel(front, J, [&](const double* l, std::size_t height, const double* inverse, const double*, double* y) {
-        substitute_forward<Vector>(l, front.height, height, inverse, y);
-      });
+      for (std::size_t k = 0; k < x.size(); ++k)
+        substitute_forward<Vector>(a_.data() + front.place + J * panel * (front.height + 1), front.height,
+                                   front.height - J * panel, inverse_.data() + (front.first_panel + J) * panel * panel,
+                                   rows + k * tallest_ + J * panel);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const double* const y = rows.data() + k * tallest_;
+      const double* const y = rows + k * tallest_;
       for (std::size_t r = 0; r < front.eliminated; ++r) x[k][at[r]] = y[r];
       for (std::size_t r = 0; r < front.around; ++r) x[k][at[front.eliminated + r]] += y[front.own + r];
     }
@@ -312,23 +305,27 @@ void Dissection::substitute(std::span<const std::span<double>> x) const {
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const std::uint32_t* const at = &positions_[front->positions];
     for (std::size_t k = 0; k < x.size(); ++k) {
-      double* const y = rows.data() + k * tallest_;
+      double* const y = rows + k * tallest_;
       std::fill_n(y, front->height, 0.0);
       for (std::size_t r = 0; r < front->eliminated; ++r) y[r] = x[k][at[r]];
       for (std::size_t r = 0; r < front->around; ++r) y[front->own + r] = x[k][at[front->eliminated + r]];
     }
     for (std::size_t J = front->own / panel; J-- > 0;)
-      each_panel(*front, J,
-                 [&](const double* l, std::size_t height, const double* inverse, const double* pivots, double* y) {
-                   substitute_backward<Vector>(l, front->height, height, inverse, pivots, y);
-                 });
+      for (std::size_t k = 0; k < x.size(); ++k)
+        substitute_backward<Vector>(
+            a_.data() + front->place + J * panel * (front->height + 1), front->height, front->height - J * panel,
+            inverse_.data() + (front->first_panel + J) * panel * panel,
+            inverse_pivot_.data() + (front->first_panel + J) * panel, rows + k * tallest_ + J * panel);
     for (std::size_t k = 0; k < x.size(); ++k)
       for (std::size_t r = 0; r < front->eliminated; ++r) x[k][at[r]] = rows[k * tallest_ + r];
   }
 }
 
 void Dissection::solve(std::span<const std::span<double>> x) const {
-  in_blocks([&](auto block) __attribute__((always_inline)) { substitute<typename decltype(block)::Vector>(x); });
+  thread_local std::vector<double, Aligned<double>> rows;
+  rows.resize(tallest_ * x.size());
+  in_blocks([&](auto block)
+                __attribute__((always_inline)) { substitute<typename decltype(block)::Vector>(x, rows.data()); });
 }
 
 }  // namespace tunica::fe

@@ -93,10 +93,12 @@ class Dissection {
   bool locate(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late);
   void load(const Front& front, const Stencil& matrix, double diagonal);
   static void extend(const Front& from, const Front& to, const double* left, double* a, double* to_left);
+  // Both have to be inlined into the kernel of a level, else they have the instructions of none.
   template <class Vector, std::size_t Vectors, std::size_t Columns>
-  std::optional<std::size_t> eliminate(const Front& front, double* left, Questions& questions);
+  [[gnu::always_inline]] inline std::optional<std::size_t> eliminate(const Front& front, double* left,
+                                                                     Questions& questions);
   template <class Vector>
-  void substitute(std::span<const std::span<double>> x) const;
+  [[gnu::always_inline]] inline void substitute(std::span<const std::span<double>> x, double* rows) const;
 
   std::size_t size_ = 0, tallest_ = 0;
   std::vector<Front> fronts_;             ///< in the order of elimination
