@@ -15,6 +15,7 @@ constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
 constexpr double slow = 0.3;               ///< a step of a frozen factor this times the last one is too long
 constexpr double near = 2e-5;              ///< a factor of a state this near to the solution is nearly its own
+constexpr double contraction = 0.15;       ///< of a step by the last load's factor, as it mostly is
 constexpr double good_for_weights = 1e-9;  ///< what may be left of the state, over the outer radius
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
@@ -168,7 +169,8 @@ Status Solver::iterate(const Load& load, State& state, Aim aim) {
     away = full ? step : away + step;
     if (left < (aim == Aim::weights ? good_for_weights : tolerance) && (!wants_factor || away < near)) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
-    const bool nearly = aim == Aim::weights && iteration > 0 ? left < 0.5 * near : step < near;
+    const double next = aim == Aim::state ? 0 : aim == Aim::factor ? step : iteration > 0 ? left : contraction * step;
+    const bool nearly = next < (aim == Aim::weights ? 0.5 * near : near);
     last = step;
     full = step > frozen_below || anew || (wants_factor && nearly && away >= near);
     if (full) system_.gamma = incompressibility * system_.stiffness;
