@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "banded.hpp"
 
-#include <type_traits>
-
 namespace tunica::fe {
 void Banded::resize(std::size_t size, std::size_t width) {
   size_ = size;
@@ -107,7 +105,7 @@ std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) 
   std::optional<std::size_t> negative;
   in_blocks([&](auto block) __attribute__((always_inline)) {
     using Kind = decltype(block);
-    if constexpr (std::is_same_v<typename Kind::Vector, Pair>)
+    if constexpr (Kind::lanes == 2)
       negative = by_panels(late);
     else
       negative = by_blocks<typename Kind::Vector, Kind::vectors, Kind::columns>(late);

@@ -49,17 +49,17 @@ struct Block;
 template <>
 struct Block<2> {
   using Vector = Pair;
-  static constexpr std::size_t vectors = 2, columns = 4;
+  static constexpr std::size_t lanes = 2, vectors = 2, columns = 4;
 };
 template <>
 struct Block<4> {
   using Vector = Four;
-  static constexpr std::size_t vectors = 2, columns = 4;
+  static constexpr std::size_t lanes = 4, vectors = 2, columns = 4;
 };
 template <>
 struct Block<8> {
   using Vector = Eight;
-  static constexpr std::size_t vectors = 1, columns = 8;
+  static constexpr std::size_t lanes = 8, vectors = 1, columns = 8;
 };
 
 /// Runs a kernel with the Block of this library's level. It is a lambda that has to be inlined.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "row_lanes.hpp"
+#include "row_change.hpp"
 #include "tunica/detail/vector_level.hpp"
 
 namespace tunica::fe {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 #include "row_lanes.hpp"
 #include "tunica/detail/vector_level.hpp"
 
+/// How the equations of a row change, along fields and with parameters; a part of row.cpp.
 namespace tunica::fe {
 
 /// φ = B y is the f of y at a point: K y = ∫ Bᵀ A φ dV, G h = ∫ Bᵀ ∂J/∂f h dV, Gᵀ y = ∫ ψ ∂J/∂f · φ dV.
@@ -240,8 +243,5 @@ void Row<Order>::dilate(std::span<double> by) {
         by[m * n_ + e] -=
             area(g) * (measure_[g * n_ + e] * (2 - mesh_.outer / radius_[g * n_ + e])) * element_.mode[g][m];
 }
-
-template class Row<1>;
-template class Row<2>;
 
 }  // namespace tunica::fe
