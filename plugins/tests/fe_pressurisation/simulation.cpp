@@ -13,8 +13,9 @@ namespace {
 constexpr std::size_t first_points = 15, most_points = 29;
 constexpr double hopeless = 200;  ///< times the tolerated error: twice as many points would hardly be enough
 
-/// Where fibres switch along the line coefficients a_m fall like m^−p alone. As the number of points was doubled the
-/// last ones tell p, and what is left out is Σ_{m>n} a_m ≈ a_n n/(p − 1), of which the estimate has 3 a_n.
+/// Where fibres switch along the line coefficients a_m fall like m^−p alone. The last ones
+/// before and after the number of points was doubled tell p. Left out is Σ_{m>n} a_m ≈ a_n n/(p − 1), of which the
+/// estimate has 3 a_n.
 double slowness(double before, double now, std::size_t points) {
   const double power = std::log2(before / now);
   return power > 1 ? std::max(1., static_cast<double>(points) / (3 * (power - 1))) : static_cast<double>(points);
