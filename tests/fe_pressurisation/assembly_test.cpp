@@ -90,7 +90,7 @@ TEST_P(FiniteElementAssembly, TheMatrixIsTheDerivativeOfTheForce) {
 }
 
 /// −right · ∂force/∂p + dilation · ∂c/∂p of arbitrary weights, at a state far from equilibrium.
-TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferences) {
+TEST_P(FiniteElementAssembly, ChangesByParametersAndThicknessMatchDifferences) {
   const fe::State state = disturbed(solver, 0.1, 20, 4);
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -102,8 +102,9 @@ TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferenc
     for (double& value : weight.dilation) value = any(generator);
   }
   const std::size_t count = is.parameters.size();
-  std::vector<double> by((count + 1) * weights.size());
-  ASSERT_TRUE(assembly->contract(material, state, weights, by).ok());
+  fe::State residual;
+  fe::Changes changes;
+  ASSERT_TRUE(assembly->multiply(material, state, pressure, {}, {}, residual, &changes).ok());
   const auto contracted = [&](const fe::Material& at, fe::Assembly& on, const fe::Weights& weight) {
     fe::System system;
     EXPECT_TRUE(on.assemble(at, state, pressure, true, system).ok());
@@ -126,7 +127,11 @@ TEST_P(FiniteElementAssembly, ContractionsByParametersAndThicknessMatchDifferenc
       };
       const double expected = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
       ASSERT_NE(expected, 0);
-      EXPECT_NEAR(by[j * weights.size() + k], expected, 1e-8 * std::abs(expected)) << j << ", " << k;
+      const auto right = weights[k].right, dilation = weights[k].dilation;
+      const double* const force = &changes.force[j * right.size()];
+      double found = -std::inner_product(right.begin(), right.end(), force, 0.0);
+      if (j == count) found += std::inner_product(dilation.begin(), dilation.end(), changes.dilation.begin(), 0.0);
+      EXPECT_NEAR(found, expected, 1e-8 * std::abs(expected)) << j << ", " << k;
     }
   }
 }
@@ -139,7 +144,7 @@ TEST_P(FiniteElementAssembly, MultipliesByTheDerivativesOfTheEquations) {
   for (fe::State& field : fields)
     for (std::size_t i = 0; i < field.x.size(); ++i) field.x[i] -= solver.rest().x[i];
   fe::State residual;
-  ASSERT_TRUE(assembly->multiply(material, state, pressure, fields, products, residual).ok());
+  ASSERT_TRUE(assembly->multiply(material, state, pressure, fields, products, residual, nullptr).ok());
   const fe::System here = assembled(state, pressure, *assembly);
   for (std::size_t i = 0; i < state.x.size(); ++i) EXPECT_NEAR(residual.x[i], here.force[i], 1e-10) << i;
   for (std::size_t i = 0; i < state.q.size(); ++i) EXPECT_NEAR(residual.q[i], here.dilation[i], 1e-12) << i;

@@ -106,7 +106,7 @@ TEST_P(FiniteElementTube, NewtonsMethodConvergesQuadratically) {
     kernel.at({1.2, 10});
     fe::State state = kernel.path.state();
     ASSERT_TRUE(kernel.solver.begin(kernel.material).ok());  // forgets the factor, so that every step is a full one
-    ASSERT_TRUE(kernel.solver.solve({1.25, 16}, state, true).ok());
+    ASSERT_TRUE(kernel.solver.solve({1.25, 16}, state, fe::Aim::factor).ok());
     const std::vector<double>& steps = kernel.solver.effort().steps;
     std::string history;
     for (const double step : steps) history += fmt::format(" {:.1e}", step);

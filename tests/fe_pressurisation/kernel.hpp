@@ -35,7 +35,7 @@ struct Kernel {
   }
   /// Observed at a load, to the last digit.
   fe::Observed at(const fe::Load& load) {
-    expect(path.go(load, true));
+    expect(path.go(load, fe::Aim::factor));
     return path.observed();
   }
 };

@@ -254,7 +254,7 @@ TEST(FiniteElementWalls, TheWorkOfPressureAndEndForceIsTheChangeOfEnergy) {
     Kernel::expect(path.begin());
     double lumen = 0, stored = 0;
     const auto at = [&](double stretch, double pressure) {
-      Kernel::expect(path.go({stretch, pressure}, true));
+      Kernel::expect(path.go({stretch, pressure}, fe::Aim::factor));
       Kernel::expect(solver.assembly().energies(material, path.state(), lumen, stored));
       return path.observed();
     };

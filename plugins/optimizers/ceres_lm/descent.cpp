@@ -11,42 +11,53 @@
 namespace tunica::ceres_lm {
 namespace {
 
-/// Residuals and Jacobian at the last point asked for. Ceres asks for the costs of a trial point first and for
-/// derivatives once it is accepted, block by block; all of these are one evaluation of the problem. The Jacobian is
-/// always taken along: most trial points are accepted, and exact Jacobians cost half an evaluation or less.
+/// Residuals and Jacobian at the last two points asked for. Ceres asks for the costs of a trial point first and for
+/// derivatives once it is accepted, block by block; all of these are one evaluation of the problem. At bounds it looks
+/// at a shorter step, too, and may come back. The Jacobian is always taken along: most trial points are accepted, and
+/// exact Jacobians cost half an evaluation or less.
 class LastPoint {
  public:
-  LastPoint(Problem& problem, Descent& descent)
-      : problem_(problem),
-        descent_(descent),
-        residuals_(problem.residual_count()),
-        jacobian_(problem.residual_count() * problem.dimension()) {}
+  LastPoint(Problem& problem, Descent& descent) : problem_(problem), descent_(descent) {
+    for (Point* point : {&last_, &before_}) {
+      point->residuals.resize(problem.residual_count());
+      point->jacobian.resize(problem.residual_count() * problem.dimension());
+    }
+  }
 
   /// False when the point cannot be evaluated, or the problem has stopped.
   bool move_to(std::span<const double> x) {
-    if (std::ranges::equal(x, x_)) return usable_;
+    if (std::ranges::equal(x, last_.x)) return last_.usable;
+    if (std::ranges::equal(x, before_.x)) {
+      std::swap(last_, before_);
+      return last_.usable;
+    }
     if (problem_.should_stop()) return false;
-    x_.assign(x.begin(), x.end());
+    std::swap(last_, before_);
+    last_.x.assign(x.begin(), x.end());
     double objective = 0;
-    const Status status = problem_.linearise(x, objective, residuals_, jacobian_);
-    usable_ = status.kind() != Status::Kind::failed;
-    if (!usable_) {
+    const Status status = problem_.linearise(x, objective, last_.residuals, last_.jacobian);
+    last_.usable = status.kind() != Status::Kind::failed;
+    if (!last_.usable) {
       descent_.failure = status.reason();
     } else if (!descent_.evaluated || objective < descent_.objective) {
-      descent_.x = x_;
+      descent_.x = last_.x;
       descent_.objective = objective;
       descent_.evaluated = true;
     }
-    return usable_;
+    return last_.usable;
   }
-  [[nodiscard]] std::span<const double> residuals() const { return residuals_; }
-  [[nodiscard]] std::span<const double> jacobian() const { return jacobian_; }
+  [[nodiscard]] std::span<const double> residuals() const { return last_.residuals; }
+  [[nodiscard]] std::span<const double> jacobian() const { return last_.jacobian; }
 
  private:
+  struct Point {
+    std::vector<double> x, residuals, jacobian;
+    bool usable = false;
+  };
+
   Problem& problem_;
   Descent& descent_;
-  std::vector<double> x_, residuals_, jacobian_;
-  bool usable_ = false;
+  Point last_, before_;
 };
 
 class BlockCost : public ceres::CostFunction {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "solver.hpp"
 
@@ -20,41 +19,41 @@ constexpr double too_slow = 0.1;         ///< a pass that leaves more than this 
 ///   K y − G h = a,   Gᵀ y = 0.
 ///
 /// The axial force has no a, but y = 2π for z over the plane of symmetry, which is prescribed, as y = 0 is elsewhere.
-/// What remains at prescribed rows is how the observable changes as they move. Solved is by the condensed factor of a
-/// state nearby, whose compressibility and rounding, magnified by γ, come off by iterative refinement: with the
-/// residuals r = a − K y + G h and g = Gᵀ y,
+/// What remains at prescribed rows is how the observable changes as they move. The condensed factor of a state nearby
+/// solves it; its compressibility and its rounding, magnified by γ, come off by iterative refinement. With the
+/// residuals r = a − K y + G h and g = Gᵀ y that is
 ///
 ///   (K + γ G M⁻¹ Gᵀ) dy = r − γ G M⁻¹ g,   dh = −γ M⁻¹ (g + Gᵀ dy).
 ///
 /// Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM (2002), chapter 12.
 Status Solver::weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
-                     std::vector<Weights>& weights) {
+                     std::vector<Weights>& weights, Changes& changes) {
   const std::size_t count = positions.size() + (axial_force ? 1 : 0);
   assembly_->by_volume(state, system_.volume);  // by_pressure() of the solution itself, too
   begin_adjoint(positions, axial_force);
   double last = 1;
   bool own_factor = false;
   for (std::size_t pass = 0;; ++pass) {
-    double change = 0;
-    if (Status status = refine_adjoint(load, state, positions, change); !status.ok()) return status;
-    if (change * std::min(1., change / last) < exact) break;
-    if (pass == most_passes || !std::isfinite(change)) return Status::failed("the sensitivities did not converge");
-    if (change > too_slow * last && !own_factor) {
+    double step = 0;
+    if (Status status = refine_adjoint(load, state, positions, pass == 0 ? &changes : nullptr, step); !status.ok())
+      return status;
+    if (step * std::min(1., step / last) < exact) break;
+    if (pass == most_passes || !std::isfinite(step)) return Status::failed("the sensitivities did not converge");
+    if (step > too_slow * last && !own_factor) {
       own_factor = true;
       if (Status status = assembly_->assemble(*material_, state, load.pressure, true, system_); !status.ok())
         return status;
       if (!factorise()) return Status::failed("the time limit is reached");
       begin_adjoint(positions, axial_force);
-      change = 1;
+      step = 1;
     }
-    last = change;
+    last = step;
   }
   weights.resize(count);
   defects_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const State& y = adjoint_[k];
-    defects_[k] = std::inner_product(y.q.begin(), y.q.end(), residual_.q.begin(), 0.0) -
-                  std::inner_product(y.x.begin(), y.x.end(), residual_.x.begin(), 0.0);
+    defects_[k] = dot(y.q, residual_.q) - dot(y.x, residual_.x);
     std::swap(weights[k].right, adjoint_[k].x);
     std::swap(weights[k].dilation, adjoint_[k].q);
     std::swap(weights[k].moved, moved_ends_[k]);
@@ -105,12 +104,12 @@ void Solver::begin_adjoint(std::span<const std::size_t> positions, bool axial_fo
   }
 }
 
-/// One pass; `change` is the largest of y over its largest entry.
+/// One pass; `step` is the largest of y over its largest entry.
 Status Solver::refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions,
-                              double& change) {
+                              Changes* changes, double& step) {
   const std::size_t end = 2 * mesh_.node(0, mesh_.planes() - 1);
   if (late()) return Status::failed("the time limit is reached");
-  if (Status status = assembly_->multiply(*material_, state, load.pressure, adjoint_, multiplied_, residual_);
+  if (Status status = assembly_->multiply(*material_, state, load.pressure, adjoint_, multiplied_, residual_, changes);
       !status.ok())
     return status;
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
@@ -124,8 +123,8 @@ Status Solver::refine_adjoint(const Load& load, const State& state, std::span<co
   solve_rights();
   for (std::size_t k = 0; k < adjoint_.size(); ++k) {
     State& y = adjoint_[k];
-    const double step = largest(rights_[k]), of = step == 0 ? 0 : step / largest(y.x);
-    if (std::isfinite(change) && !(of <= change)) change = of;  // what is no number stays
+    const double dy = largest(rights_[k]), of = dy == 0 ? 0 : dy / largest(y.x);
+    if (std::isfinite(step) && !(of <= step)) step = of;  // what is no number stays
     for (std::size_t i = end; i < dx_.size(); ++i) moved_ends_[k][i - end] -= system_.matrix.row_times(i, rights_[k]);
     assembly_->pressures(system_, rights_[k], multiplied_[k].q, dq_);
     for (std::size_t i = 0; i < dx_.size(); ++i) y.x[i] += rights_[k][i];

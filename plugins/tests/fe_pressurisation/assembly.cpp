@@ -70,52 +70,36 @@ class AssemblyOf final : public Assembly {
       }
   }
 
-  Status contract(const Material& material, const State& state, std::span<const Weights> weights,
-                  std::span<double> by) override {
-    const std::size_t count = material.parameter_count(), wanted = weights.size();
-    std::vector<std::span<const double>> directions;
-    for (const Weights& weight : weights) directions.emplace_back(weight.right);
-    std::vector<double> sums(by.size() * ng * n_), dilation(np * n_);
-    std::fill(by.begin(), by.end(), 0.0);
-    for (std::size_t row = 0; row < mesh_.axial; ++row) {
-      if (row % 64 == 63 && late && late()) return Status::failed("the time limit is reached");
-      row_.take(state, row);
-      if (Status status = row_.evaluate(material, true, true); !status.ok()) return status;
-      row_.contract(material, directions, sums);
-      row_.dilate(dilation);
-      for (std::size_t w = 0; w < wanted; ++w)
-        for (std::size_t e = 0; e < n_; ++e)
-          for (std::size_t m = 0; m < np; ++m)
-            by[count * wanted + w] += weights[w].dilation[(row * n_ + e) * np + m] * dilation[m * n_ + e];
-    }
-    for (std::size_t i = 0; i < by.size(); ++i)
-      by[i] -= std::accumulate(&sums[i * ng * n_], &sums[i * ng * n_] + ng * n_, 0.0);
-    return {};
-  }
-
   Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
-                  std::span<State> product, State& residual) override {
-    std::vector<double> forces(fields.size() * dofs * n_), dilations(fields.size() * np * n_);
+                  std::span<State> product, State& residual, Changes* changes) override {
+    const std::size_t size = 2 * mesh_.nodes();
+    forces_.resize(fields.size() * dofs * n_);
+    dilations_.resize(std::max<std::size_t>(fields.size(), 1) * np * n_);
     for (State& of : product) {
-      of.x.assign(2 * mesh_.nodes(), 0);
+      of.x.assign(size, 0);
       of.q.resize(pressure_count());
     }
-    residual.x.assign(2 * mesh_.nodes(), 0);
+    residual.x.assign(size, 0);
     residual.q.resize(pressure_count());
+    if (changes != nullptr) prepare(material, *changes);
     double unused = 0;
     for (std::size_t row = 0; row < mesh_.axial; ++row) {
       if (row % 64 == 63 && late && late()) return Status::failed("the time limit is reached");
       row_.take(state, row);
-      if (Status status = row_.evaluate(material, true, false); !status.ok()) return status;
+      if (Status status = row_.evaluate(material, true, changes != nullptr); !status.ok()) return status;
       row_.integrate(material.sees_shear(), false, unused);
-      gather(row, row_.force.data(), row_.c.data(), residual);
-      row_.multiply(material.sees_shear(), fields, forces, dilations);
-      for (std::size_t d = 0; d < product.size(); ++d)
-        gather(row, &forces[d * dofs * n_], &dilations[d * np * n_], product[d]);
+      gather(row, row_.force.data(), residual.x);
+      gather_modes(row, row_.c.data(), residual.q);
+      row_.multiply(material.sees_shear(), fields, forces_, dilations_);
+      for (std::size_t d = 0; d < product.size(); ++d) {
+        gather(row, &forces_[d * dofs * n_], product[d].x);
+        gather_modes(row, &dilations_[d * np * n_], product[d].q);
+      }
+      if (changes != nullptr) add_changes(material, row, *changes);
     }
-    std::vector<double> volume(residual.x.size());
-    by_volume(state, volume);
-    press(pressure, volume, residual.x);
+    volume_.resize(size);
+    by_volume(state, volume_);
+    press(pressure, volume_, residual.x);
     if (support.slope != 0) add_support(mesh_, element_, support, state, residual.x);
     stiffen_edges(state, pressure);
     for (std::size_t d = 0; d < product.size(); ++d)
@@ -246,26 +230,45 @@ class AssemblyOf final : public Assembly {
       }
   }
 
-  /// Adds what the lanes of a row have, dof by dof, and sets its modes.
-  void gather(std::size_t row, const double* force, const double* c, State& to) const {
+  /// Adds what the lanes of a row have, dof by dof.
+  void gather(std::size_t row, const double* force, std::span<double> to) const {
     for (std::size_t a = 0; a < nn; ++a)
       for (std::size_t e = 0; e < n_; ++e) {
         const std::size_t dof = 2 * row_.node(a, e, row);
-        to.x[dof] += force[2 * a * n_ + e];
-        to.x[dof + 1] += force[(2 * a + 1) * n_ + e];
+        to[dof] += force[2 * a * n_ + e];
+        to[dof + 1] += force[(2 * a + 1) * n_ + e];
       }
+  }
+
+  void gather_modes(std::size_t row, const double* c, std::span<double> to) const {
     for (std::size_t m = 0; m < np; ++m)
-      for (std::size_t e = 0; e < n_; ++e) to.q[(row * n_ + e) * np + m] = c[m * n_ + e];
+      for (std::size_t e = 0; e < n_; ++e) to[(row * n_ + e) * np + m] = c[m * n_ + e];
+  }
+
+  /// Parameters whose changes multiply() finds.
+  static std::size_t changing(const Material& material) {
+    const bool closed = material.closing() != nullptr && material.closing()->differentiated();
+    return material.parameter_count() + (closed ? std::size_t{geometry_count} : 1);
+  }
+
+  void prepare(const Material& material, Changes& changes) {
+    changes.force.assign(changing(material) * 2 * mesh_.nodes(), 0);
+    changes.dilation.resize(pressure_count());
+    forces_by_.resize(changing(material) * dofs * n_);
+  }
+
+  void add_changes(const Material& material, std::size_t row, Changes& changes) {
+    const std::size_t size = 2 * mesh_.nodes();
+    row_.change(material, forces_by_);
+    for (std::size_t j = 0; j < changing(material); ++j)
+      gather(row, &forces_by_[j * dofs * n_], std::span(changes.force).subspan(j * size, size));
+    row_.dilate(dilations_);
+    gather_modes(row, dilations_.data(), changes.dilation);
   }
 
   /// Condenses the pressures and adds the row to the system; returns the largest mean of |J − 1|.
   double scatter(std::size_t row, bool tangent, System& system) {
-    for (std::size_t a = 0; a < nn; ++a)
-      for (std::size_t e = 0; e < n_; ++e) {
-        const std::size_t dof = 2 * row_.node(a, e, row);
-        system.force[dof] += row_.force[2 * a * n_ + e];
-        system.force[dof + 1] += row_.force[(2 * a + 1) * n_ + e];
-      }
+    gather(row, row_.force.data(), system.force);
     double largest = 0;
     for (std::size_t m = 0; m < np; ++m)
       for (std::size_t e = 0; e < n_; ++e) {
@@ -350,8 +353,10 @@ class AssemblyOf final : public Assembly {
   const std::size_t n_;  ///< elements along R
   const E element_;
   Elements row_;
-  std::vector<double> column_;  ///< ∫ R dR over each column of elements
-  std::vector<Entry> edges_;    ///< of the matrix, by what acts on the edges of the wall
+  std::vector<double> column_;                          ///< ∫ R dR over each column of elements
+  std::vector<Entry> edges_;                            ///< of the matrix, by what acts on the edges of the wall
+  std::vector<double> forces_, dilations_, forces_by_;  ///< of a row, by multiply()
+  std::vector<double> volume_;
 };
 
 }  // namespace

@@ -32,6 +32,14 @@ struct Weights {
   std::vector<double> right, dilation, moved;
 };
 
+/// How the equations change with parameters at a fixed state. They are those of the material, then the relative
+/// thickness (x and Ro fixed), and with a differentiated closing the rest of Geometry. c depends on the thickness
+/// alone.
+struct Changes {
+  std::vector<double> force;     ///< of ∂Π/∂x, parameter · positions + position
+  std::vector<double> dilation;  ///< of c, by the thickness
+};
+
 /// A Gauss point of a solution.
 struct Point {
   double R = 0, Z = 0;             ///< mm
@@ -67,15 +75,11 @@ class Assembly {
                           System& system) = 0;
   /// ∂V/∂x at a state.
   virtual void by_volume(const State& state, std::span<double> volume) const = 0;
-  /// By every parameter of the material and by the relative thickness (x and Ro fixed), with a differentiated closing
-  /// by the rest of Geometry, too, for every weight w: `by`[j · weights + i] = −w_i.right · ∂force/∂p_j + w_i.dilation
-  /// · ∂c/∂p_j.
-  virtual Status contract(const Material& material, const State& state, std::span<const Weights> weights,
-                          std::span<double> by) = 0;
   /// What the derivatives of the equations at a state make of `fields` y, h: `product`.x = K y − G h and .q = Gᵀ y; and
-  /// the equations, `residual`.x = ∂Π/∂x and .q = c. No γ is in it, so that it is exact to rounding.
+  /// the equations, `residual`.x = ∂Π/∂x and .q = c. No γ is in it, so that it is exact to rounding. `changes` are of
+  /// the equations by parameters; none where it is null.
   virtual Status multiply(const Material& material, const State& state, double pressure, std::span<const State> fields,
-                          std::span<State> product, State& residual) = 0;
+                          std::span<State> product, State& residual, Changes* changes) = 0;
   /// −weight.right · ∂force/∂κ of the support, and by the free radius of each plane (0 where κ is).
   virtual double contract(const State& state, const Weights& weight, std::span<double> by_free) = 0;
   /// Takes what the points remember on to the state, in History::after.

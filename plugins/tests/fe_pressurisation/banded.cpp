@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "banded.hpp"
 
-#include "tunica/detail/vector_level.hpp"
-
 namespace tunica::fe {
 void Banded::resize(std::size_t size, std::size_t width) {
   size_ = size;
@@ -68,7 +66,7 @@ std::optional<std::size_t> Banded::by_blocks(const std::function<bool()>& late) 
   return negative;
 }
 
-/// What the columns of a panel take from those after it. With few registers it is faster than by_blocks().
+/// What the columns of a panel take from those after it.
 void Banded::subtract_panel(std::size_t at_panel) {
   const std::size_t height = height_, first = at_panel * panel;
   const double* const l = a_.data() + first * height;
@@ -88,29 +86,30 @@ void Banded::subtract_panel(std::size_t at_panel) {
   }
 }
 
+/// With few registers it is faster than by_blocks().
+std::optional<std::size_t> Banded::by_panels(const std::function<bool()>& late) {
+  const auto every = static_cast<std::size_t>(between_questions / (panel * static_cast<double>(width_ * width_))) + 1;
+  std::size_t negative = 0;
+  for (std::size_t J = 0; J < panels(); ++J) {
+    if (late && (J + 1) % every == 0 && late()) return {};
+    negative += factorise_panel_at<Pair>(J);
+    subtract_panel(J);
+  }
+  return negative;
+}
+
 std::optional<std::size_t> Banded::factorise(const std::function<bool()>& late) {
-  using detail::VectorLevel;
   scaled_.resize(height_ * panel);
   inverse_.resize(panels() * panel * panel);
   inverse_pivot_.resize(panels() * panel);
   std::optional<std::size_t> negative;
-  switch (detail::vector_level()) {
-    case VectorLevel::avx512:
-      detail::vectorised([&] { negative = by_blocks<Eight, 1, 8>(late); });
-      return negative;
-    case VectorLevel::avx2:
-      detail::vectorised([&] { negative = by_blocks<Four, 2, 4>(late); });
-      return negative;
-    case VectorLevel::baseline:
-      break;
-  }
-  const auto every = static_cast<std::size_t>(between_questions / (panel * static_cast<double>(width_ * width_))) + 1;
-  negative = 0;
-  for (std::size_t J = 0; J < panels(); ++J) {
-    if (late && (J + 1) % every == 0 && late()) return {};
-    *negative += factorise_panel_at<Pair>(J);
-    subtract_panel(J);
-  }
+  in_blocks([&](auto block) __attribute__((always_inline)) {
+    using Kind = decltype(block);
+    if constexpr (Kind::lanes == 2)
+      negative = by_panels(late);
+    else
+      negative = by_blocks<typename Kind::Vector, Kind::vectors, Kind::columns>(late);
+  });
   return negative;
 }
 
@@ -139,17 +138,7 @@ void Banded::solve(std::span<const std::span<double>> x) const {
     std::fill(std::copy(x[k].begin(), x[k].end(), places[k]), places[k] + each, 0.0);
   }
   const std::span<double* const> all(places);
-  using detail::VectorLevel;
-  switch (detail::vector_level()) {
-    case VectorLevel::avx512:
-      detail::vectorised([&] { substitute<Eight>(all); });
-      break;
-    case VectorLevel::avx2:
-      detail::vectorised([&] { substitute<Four>(all); });
-      break;
-    case VectorLevel::baseline:
-      substitute<Pair>(all);
-  }
+  in_blocks([&](auto block) __attribute__((always_inline)) { substitute<typename decltype(block)::Vector>(all); });
   for (std::size_t k = 0; k < x.size(); ++k) std::copy_n(places[k], x[k].size(), x[k].begin());
 }
 

@@ -62,13 +62,15 @@ class Banded {
     return j / panel * panel * height_ + j % panel * (height_ + 1);
   }
   [[nodiscard]] std::size_t panels() const { return (size_ + panel - 1) / panel; }
+  // What works on wide vectors has to be inlined into the kernel of its level, else it has the instructions of none.
   template <class Vector, std::size_t Vectors, std::size_t Columns>
-  std::optional<std::size_t> by_blocks(const std::function<bool()>& late);
+  [[gnu::always_inline]] inline std::optional<std::size_t> by_blocks(const std::function<bool()>& late);
+  std::optional<std::size_t> by_panels(const std::function<bool()>& late);
   template <class Vector>
-  std::size_t factorise_panel_at(std::size_t J);
+  [[gnu::always_inline]] inline std::size_t factorise_panel_at(std::size_t J);
   void subtract_panel(std::size_t at);
   template <class Vector>
-  void substitute(std::span<double* const> x) const;
+  [[gnu::always_inline]] inline void substitute(std::span<double* const> x) const;
 
   std::size_t size_ = 0, width_ = 0, height_ = 0;
   std::vector<double, Aligned<double>> a_, scaled_;  ///< scaled_: D Lᵀ of the rows of a panel

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "tunica/detail/vector_level.hpp"
-
 namespace tunica::fe {
 namespace {
 
@@ -215,12 +213,14 @@ void Dissection::extend(const Front& from, const Front& to, const double* left, 
   for (const Run& columns : from.runs)
     for (std::size_t c = 0; c < columns.length; ++c) {
       const std::size_t column = columns.to + c;
-      double* const into = column < to.own ? a + column * to.height : to_left + (column - to.own) * to.left() - to.own;
+      const bool is_left = column >= to.own;  // then its rows are, too
+      double* const into = is_left ? to_left + (column - to.own) * to.left() : a + column * to.height;
+      const std::size_t first_row = is_left ? to.own : 0;
       const double* const out = left + (columns.from + c) * from.left();
       for (const Run* rows = &columns; rows < from.runs.data() + from.runs.size(); ++rows) {
         const std::size_t begin = rows == &columns ? c : 0;
         const double* __restrict__ const source = out + rows->from;
-        double* __restrict__ const sum = into + rows->to;
+        double* __restrict__ const sum = into + (rows->to - first_row);
         for (std::size_t r = begin; r < rows->length; ++r) sum[r] += source[r];
       }
     }
@@ -228,24 +228,25 @@ void Dissection::extend(const Front& from, const Front& to, const double* left, 
 
 /// As the band does it, panel by panel: each takes from those before at once. What is left is taken into `left`.
 template <class Vector, std::size_t Vectors, std::size_t Columns>
-std::size_t Dissection::eliminate(const Front& front, double* left) {
+std::optional<std::size_t> Dissection::eliminate(const Front& front, double* left, Questions& questions) {
   constexpr std::size_t rows = Vectors * lanes<Vector>;
   const std::size_t height = front.height, own = front.own / panel, all = height / panel;
   double* const a = a_.data() + front.place;
   double* const scaled = scaled_.data();
   std::size_t negative = 0;
   for (std::size_t J = 0; J < all; ++J) {
-    const std::size_t before = std::min(J, own);
+    const std::size_t before = std::min(J, own), first_row = J < own ? 0 : front.own;
+    if (questions.late_after(static_cast<double>(panel * (height - J * panel) * (before + 1) * panel))) return {};
     for (std::size_t k = 0; k < before * panel; ++k)
       for (std::size_t q = 0; q < panel; ++q)
         scaled[k * panel + q] = a[k * (height + 1)] * a[k * height + J * panel + q];
-    double* const to = J < own ? a + J * panel * height : left + (J - own) * panel * front.left() - front.own;
-    const std::size_t to_height = J < own ? height : front.left();
+    double* const to = J < own ? a + J * panel * height : left + (J - own) * panel * front.left();
+    const std::size_t to_height = height - first_row;
     for (std::size_t I = J; I < (before == 0 ? 0 : all); ++I)
       for (std::size_t r = I * panel; r < (I + 1) * panel; r += rows)
         for (std::size_t q = 0; q < panel; q += Columns)
-          subtract_products<Vector, Vectors, Columns>(to + q * to_height + r, to_height, a + r, height, panel * height,
-                                                      scaled + q, before);
+          subtract_products<Vector, Vectors, Columns>(to + q * to_height + (r - first_row), to_height, a + r, height,
+                                                      panel * height, scaled + q, before);
     if (J < own)
       negative += factorise_panel<Vector>(to + J * panel, height, height - J * panel,
                                           std::min(panel, front.eliminated - J * panel),
@@ -260,58 +261,43 @@ std::optional<std::size_t> Dissection::factorise(const Stencil& matrix, std::spa
   fixed_.assign(size_, 0);
   for (const std::size_t position : fixed) fixed_[position] = 1;
   std::size_t negative = 0;
-  double since = 0;
+  Questions questions{late};
   for (const Front& front : fronts_) {
-    since += operations_of(front.own, front.height) + per_entry * static_cast<double>(front.own * front.height);
-    if (late && since > between_questions) {
-      since = 0;
-      if (late()) return {};
-    }
+    if (questions.late_after(per_entry * static_cast<double>(front.own * front.height))) return {};
     const std::size_t size = front.left() * front.left();
     double* const left = stack_.data() + front.made;
     std::fill_n(left, size, 0.0);
     load(front, matrix, diagonal);
     for (const std::size_t child : front.children)
       extend(fronts_[child], front, stack_.data() + fronts_[child].waits, a_.data() + front.place, left);
-    using detail::VectorLevel;
-    switch (detail::vector_level()) {
-      case VectorLevel::avx512:
-        detail::vectorised([&] { negative += eliminate<Eight, 1, 8>(front, left); });
-        break;
-      case VectorLevel::avx2:
-        detail::vectorised([&] { negative += eliminate<Four, 2, 4>(front, left); });
-        break;
-      case VectorLevel::baseline:
-        negative += eliminate<Pair, 2, 4>(front, left);
-    }
+    std::optional<std::size_t> found;
+    in_blocks([&](auto block) __attribute__((always_inline)) {
+      using Kind = decltype(block);
+      found = eliminate<typename Kind::Vector, Kind::vectors, Kind::columns>(front, left, questions);
+    });
+    if (!found) return {};
+    negative += *found;
     if (front.made > front.waits) std::copy(left, left + size, stack_.data() + front.waits);
   }
   return negative;
 }
 
 template <class Vector>
-void Dissection::substitute(std::span<const std::span<double>> x) const {
-  thread_local std::vector<double, Aligned<double>> rows;
-  rows.resize(tallest_ * x.size());
-  const auto each_panel = [&](const Front& front, std::size_t J, auto&& work) {
-    for (std::size_t k = 0; k < x.size(); ++k)
-      work(a_.data() + front.place + J * panel * (front.height + 1), front.height - J * panel,
-           inverse_.data() + (front.first_panel + J) * panel * panel,
-           inverse_pivot_.data() + (front.first_panel + J) * panel, rows.data() + k * tallest_ + J * panel);
-  };
+void Dissection::substitute(std::span<const std::span<double>> x, double* rows) const {
   for (const Front& front : fronts_) {
     const std::uint32_t* const at = &positions_[front.positions];
     for (std::size_t k = 0; k < x.size(); ++k) {
-      double* const y = rows.data() + k * tallest_;
+      double* const y = rows + k * tallest_;
       std::fill_n(y, front.height, 0.0);
       for (std::size_t r = 0; r < front.eliminated; ++r) y[r] = x[k][at[r]];
     }
     for (std::size_t J = 0; J < front.own / panel; ++J)
-      each_panel(front, J, [&](const double* l, std::size_t height, const double* inverse, const double*, double* y) {
-        substitute_forward<Vector>(l, front.height, height, inverse, y);
-      });
+      for (std::size_t k = 0; k < x.size(); ++k)
+        substitute_forward<Vector>(a_.data() + front.place + J * panel * (front.height + 1), front.height,
+                                   front.height - J * panel, inverse_.data() + (front.first_panel + J) * panel * panel,
+                                   rows + k * tallest_ + J * panel);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const double* const y = rows.data() + k * tallest_;
+      const double* const y = rows + k * tallest_;
       for (std::size_t r = 0; r < front.eliminated; ++r) x[k][at[r]] = y[r];
       for (std::size_t r = 0; r < front.around; ++r) x[k][at[front.eliminated + r]] += y[front.own + r];
     }
@@ -319,33 +305,27 @@ void Dissection::substitute(std::span<const std::span<double>> x) const {
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
     const std::uint32_t* const at = &positions_[front->positions];
     for (std::size_t k = 0; k < x.size(); ++k) {
-      double* const y = rows.data() + k * tallest_;
+      double* const y = rows + k * tallest_;
       std::fill_n(y, front->height, 0.0);
       for (std::size_t r = 0; r < front->eliminated; ++r) y[r] = x[k][at[r]];
       for (std::size_t r = 0; r < front->around; ++r) y[front->own + r] = x[k][at[front->eliminated + r]];
     }
     for (std::size_t J = front->own / panel; J-- > 0;)
-      each_panel(*front, J,
-                 [&](const double* l, std::size_t height, const double* inverse, const double* pivots, double* y) {
-                   substitute_backward<Vector>(l, front->height, height, inverse, pivots, y);
-                 });
+      for (std::size_t k = 0; k < x.size(); ++k)
+        substitute_backward<Vector>(
+            a_.data() + front->place + J * panel * (front->height + 1), front->height, front->height - J * panel,
+            inverse_.data() + (front->first_panel + J) * panel * panel,
+            inverse_pivot_.data() + (front->first_panel + J) * panel, rows + k * tallest_ + J * panel);
     for (std::size_t k = 0; k < x.size(); ++k)
       for (std::size_t r = 0; r < front->eliminated; ++r) x[k][at[r]] = rows[k * tallest_ + r];
   }
 }
 
 void Dissection::solve(std::span<const std::span<double>> x) const {
-  using detail::VectorLevel;
-  switch (detail::vector_level()) {
-    case VectorLevel::avx512:
-      detail::vectorised([&] { substitute<Eight>(x); });
-      break;
-    case VectorLevel::avx2:
-      detail::vectorised([&] { substitute<Four>(x); });
-      break;
-    case VectorLevel::baseline:
-      substitute<Pair>(x);
-  }
+  thread_local std::vector<double, Aligned<double>> rows;
+  rows.resize(tallest_ * x.size());
+  in_blocks([&](auto block)
+                __attribute__((always_inline)) { substitute<typename decltype(block)::Vector>(x, rows.data()); });
 }
 
 }  // namespace tunica::fe

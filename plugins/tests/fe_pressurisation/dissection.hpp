@@ -24,9 +24,9 @@ struct FactorCost {
 ///
 /// A line of nodes cuts the wall in two, each part is cut again, and so on down to small blocks. The nodes of a cut
 /// come after those on both sides of it, which do not see each other. A front is the dense matrix of the nodes that are
-/// eliminated together and of those on the cuts around them; what the elimination leaves to the latter is added to the
-/// front that comes next up. For N nodes that takes N^1.5 operations and N log N entries, where the band takes N² and
-/// N^1.5 (of a square).
+/// eliminated together and of those on the cuts around them. What the elimination leaves to the latter is added to the
+/// front that comes next up. For N nodes of a square that takes N^1.5 operations and N log N entries, where the band
+/// takes N² and N^1.5.
 /// Sources: A. George, SIAM J. Numer. Anal. 10 (1973) 345–363; I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983)
 /// 302–325.
 class Dissection {
@@ -72,6 +72,18 @@ class Dissection {
   struct Nodes {
     std::vector<std::size_t> own, around;
   };
+  /// Asks whether it is late, whenever enough operations have been announced.
+  struct Questions {
+    const std::function<bool()>& late;
+    double since = 0;
+
+    bool late_after(double operations) {
+      since += operations;
+      if (!late || since < between_questions) return false;
+      since = 0;
+      return late();
+    }
+  };
 
   static bool small(const Mesh& mesh, const Part& part);
   static std::array<Part, 2> halves(const Part& part);
@@ -81,10 +93,12 @@ class Dissection {
   bool locate(const Mesh& mesh, const Stencil& matrix, const std::function<bool()>& late);
   void load(const Front& front, const Stencil& matrix, double diagonal);
   static void extend(const Front& from, const Front& to, const double* left, double* a, double* to_left);
+  // Both have to be inlined into the kernel of a level, else they have the instructions of none.
   template <class Vector, std::size_t Vectors, std::size_t Columns>
-  std::size_t eliminate(const Front& front, double* left);
+  [[gnu::always_inline]] inline std::optional<std::size_t> eliminate(const Front& front, double* left,
+                                                                     Questions& questions);
   template <class Vector>
-  void substitute(std::span<const std::span<double>> x) const;
+  [[gnu::always_inline]] inline void substitute(std::span<const std::span<double>> x, double* rows) const;
 
   std::size_t size_ = 0, tallest_ = 0;
   std::vector<Front> fronts_;             ///< in the order of elimination

@@ -17,7 +17,7 @@ Status free_states(Simulation& simulation, std::span<const Load> loads, std::map
   if (Status status = path.begin(); !status.ok()) return status;
   for (const Load& load : loads) {
     if (free.contains(load.stretch)) continue;
-    if (Status status = path.go({load.stretch, 0}, false); !status.ok()) return status;
+    if (Status status = path.go({load.stretch, 0}, Aim::state); !status.ok()) return status;
     free.emplace(load.stretch, path.state());
   }
   return {};
@@ -26,14 +26,14 @@ Status free_states(Simulation& simulation, std::span<const Load> loads, std::map
 /// The state jumps where a long time passes at once: then first as if hardly any had, and more of it little by little.
 Status reach(Path& path, const Load& load, History& history) {
   const Path::Mark before = path.mark();
-  Status status = path.go(load, false);
+  Status status = path.go(load, Aim::state);
   if (status.ok() || !history.timed || history.time_step == 0) return status;
   const double whole = history.time_step;
   for (double part = first_part; part <= 1; part *= growth) {
     history.time_step = part * whole;
     if (part == first_part)
       if (Status back = path.return_to(before); !back.ok()) return back;
-    if (Status next = path.go(load, false); !next.ok()) return next;
+    if (Status next = path.go(load, Aim::state); !next.ok()) return next;
   }
   return {};
 }
@@ -68,7 +68,7 @@ Status follow_history(Simulation& simulation, Material& material, std::span<cons
       if (Status status = path.begin(); !status.ok()) return status;
     if (!free.empty() && (i == 0 || loads[i].stretch != loads[i - 1].stretch)) {
       if (i == 0)
-        if (Status status = path.go({loads[i].stretch, 0}, false); !status.ok()) return status;
+        if (Status status = path.go({loads[i].stretch, 0}, Aim::state); !status.ok()) return status;
       const State& at = free.at(loads[i].stretch);
       if (hold_later) {
         solver.hold_at(at);

@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "tunica/detail/vector_level.hpp"
+
 namespace tunica::fe {
 
 /// Memory that begins at a cache line, so that no vector of it lies across two. Of numbers that nobody gave it stays
@@ -41,6 +43,31 @@ using Eight = double __attribute__((vector_size(64), may_alias));
 template <class Vector>
 constexpr std::size_t lanes = sizeof(Vector) / sizeof(double);
 
+/// The vector of so many lanes, and how many of them by how many columns the registers of its level sum up.
+template <std::size_t Lanes>
+struct Block;
+template <>
+struct Block<2> {
+  using Vector = Pair;
+  static constexpr std::size_t lanes = 2, vectors = 2, columns = 4;
+};
+template <>
+struct Block<4> {
+  using Vector = Four;
+  static constexpr std::size_t lanes = 4, vectors = 2, columns = 4;
+};
+template <>
+struct Block<8> {
+  using Vector = Eight;
+  static constexpr std::size_t lanes = 8, vectors = 1, columns = 8;
+};
+
+/// Runs a kernel with the Block of this library's level. It is a lambda that has to be inlined.
+template <class Kernel>
+void in_blocks(const Kernel& kernel) {
+  detail::vectorised([&](auto count) __attribute__((always_inline)) { kernel(Block<count>()); });
+}
+
 template <class Vector>
 [[gnu::always_inline]] inline Vector& at(double* place) {
   return *reinterpret_cast<Vector*>(place);
@@ -50,8 +77,8 @@ template <class Vector>
   return *reinterpret_cast<const Vector*>(place);
 }
 
-/// to −= Σ over `count` panels of L W, L being Vectors · lanes rows by 8 columns of a panel, W 8 rows by Columns; the
-/// sums stay in registers.
+/// to −= Σ over `count` panels of L W. L is Vectors · lanes rows by 8 columns of a panel, W 8 rows by Columns; the sums
+/// stay in registers.
 template <class Vector, std::size_t Vectors, std::size_t Columns>
 [[gnu::always_inline]] inline void subtract_products(double* to, std::size_t to_height, const double* L,
                                                      std::size_t height, std::size_t next_L, const double* W,
@@ -104,8 +131,8 @@ template <class Vector>
   }
 }
 
-/// A panel of `rows` rows becomes that of L and D, its share of the panels before being subtracted already: the block
-/// on the diagonal column by column, then X L₁₁ᵀ D = A below. Columns from `exist` on become those of the unit matrix.
+/// A panel of `rows` rows becomes that of L and D, after what the panels before take from it: the block on the diagonal
+/// column by column, then X L₁₁ᵀ D = A below. Columns from `exist` on become those of the unit matrix.
 /// `pivots` are the inverse ones, `inverse` is that of L₁₁, by rows. Returns the number of negative pivots.
 template <class Vector>
 [[gnu::always_inline]] inline std::size_t factorise_panel(double* a, std::size_t height, std::size_t rows,

@@ -31,13 +31,13 @@ void scale(double a, State& y) {
 
 Path::Path(Solver& solver, const Limits& limits) : solver_(solver), limits_(limits), state_(solver.rest()) {}
 
-Status Path::begin() { return solver_.solve(load_, state_, false); }
+Status Path::begin() { return solver_.solve(load_, state_, Aim::state); }
 
 Status Path::return_to(const Mark& mark) {
   load_ = mark.load;
   state_ = mark.state;
   has_previous_ = false;
-  return solver_.solve(load_, state_, false);
+  return solver_.solve(load_, state_, Aim::state);
 }
 
 /// At the last equilibrium, whose factor the solver still has.
@@ -71,28 +71,28 @@ Status Path::stuck(const std::string& why, const Load& load, const State& state)
 }
 
 /// From the guess to the equilibrium at `to`.
-Status Path::accept(const Load& to, bool exact) {
-  if (Status status = solver_.solve(to, guess_, exact); !status.ok()) return status;
+Status Path::accept(const Load& to, Aim aim) {
+  if (Status status = solver_.solve(to, guess_, aim); !status.ok()) return status;
   const auto& moved = solver_.effort().steps;
   if (std::accumulate(moved.begin(), moved.end(), 0.) > far) return Status::failed("the state jumps");
   // A factor of a state before the last may be indefinite while the solution's is not.
-  if (solver_.negative_pivots() > 0 && !exact)
-    if (Status status = solver_.solve(to, guess_, true); !status.ok()) return status;
+  if (solver_.negative_pivots() > 0 && aim == Aim::state)
+    if (Status status = solver_.solve(to, guess_, Aim::factor); !status.ok()) return status;
   if (solver_.negative_pivots() > 0) return Status::failed("the equilibrium is unstable");
   return {};
 }
 
-Status Path::step(const Load& to, bool exact) {
+Status Path::step(const Load& to, Aim aim) {
   predict(to, guess_);
-  return accept(to, exact);
+  return accept(to, aim);
 }
 
 /// Steps of the volume's logarithm, each predicted along the last, until one of them passes the pressure of `to`.
-Status Path::fill(const Load& to, bool exact) {
+Status Path::fill(const Load& to, Aim aim) {
   const double sign = to.pressure > load_.pressure ? 1 : -1;
   Load load = load_;
   State state = state_, before, next;
-  if (Status status = solver_.solve(load, state, true); !status.ok()) return status;
+  if (Status status = solver_.solve(load, state, Aim::factor); !status.ok()) return status;
   double volume = solver_.volume(state);
   const auto fail = [&](const std::string& why) {
     load_ = load;
@@ -125,7 +125,7 @@ Status Path::fill(const Load& to, bool exact) {
       guess_ = next;
       scale(reached, guess_);
       add(1 - reached, state, guess_);
-      status = accept(to, exact);
+      status = accept(to, aim);
       if (status.ok()) {
         state_ = guess_;
         load_ = to;
@@ -144,7 +144,7 @@ Status Path::fill(const Load& to, bool exact) {
   }
 }
 
-Status Path::go(const Load& to, bool exact) {
+Status Path::go(const Load& to, Aim aim) {
   double part = 1;
   while (true) {
     if (++steps_ > limits_.steps)
@@ -152,7 +152,7 @@ Status Path::go(const Load& to, bool exact) {
     Load next{load_.stretch + part * (to.stretch - load_.stretch),
               load_.pressure + part * (to.pressure - load_.pressure)};
     if (part == 1) next = to;
-    const Status status = step(next, exact && part == 1);
+    const Status status = step(next, part == 1 ? aim : Aim::state);
     if (status.ok()) {
       const bool pressure_alone = next.stretch == load_.stretch && next.pressure != load_.pressure;
       previous_ = state_;
@@ -170,8 +170,8 @@ Status Path::go(const Load& to, bool exact) {
     has_previous_ = false;
     if (solver_.late()) return stuck("the time limit is reached", load_, state_);
     if (part < shortest) return stuck(status.reason(), load_, state_);
-    if (part < shortest_of_pressure && to.stretch == load_.stretch) return fill(to, exact);
-    if (Status back = solver_.solve(load_, state_, false); !back.ok()) return back;
+    if (part < shortest_of_pressure && to.stretch == load_.stretch) return fill(to, aim);
+    if (Status back = solver_.solve(load_, state_, Aim::state); !back.ok()) return back;
   }
 }
 

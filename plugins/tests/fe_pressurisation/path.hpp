@@ -28,9 +28,8 @@ class Path {
 
   /// The equilibrium at rest.
   Status begin();
-  /// From where it is to `to`; with `exact` the solver's factor is that of the solution. On failure it stays at the
-  /// last equilibrium.
-  Status go(const Load& to, bool exact);
+  /// From where it is to `to`. On failure it stays at the last equilibrium.
+  Status go(const Load& to, Aim aim);
 
   [[nodiscard]] const Load& load() const { return load_; }
   [[nodiscard]] const State& state() const { return state_; }
@@ -50,9 +49,9 @@ class Path {
  private:
   void predict(const Load& to, State& guess);
   [[nodiscard]] Status stuck(const std::string& why, const Load& load, const State& state) const;
-  Status step(const Load& to, bool exact);
-  Status accept(const Load& to, bool exact);
-  Status fill(const Load& to, bool exact);
+  Status step(const Load& to, Aim aim);
+  Status accept(const Load& to, Aim aim);
+  Status fill(const Load& to, Aim aim);
   Solver& solver_;
   Limits limits_;
   Load load_, before_;

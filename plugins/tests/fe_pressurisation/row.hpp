@@ -52,14 +52,13 @@ class Row {
   /// force and c; with `tangent` also k and coupling, and the largest modulus into `stiffness`.
   void integrate(bool sees_shear, bool tangent, double& stiffness);
 
-  /// Adds d(z_k · force)/dp_j to `by`, spread over [(j · directions + k) · points · lanes, …), for every parameter of
-  /// the material, then by the relative thickness at fixed Ro and x and, where the material has a differentiated
-  /// closing, by the rest of Geometry; the z_k are fields of nodes, as State::x. Needs second derivatives and those by
-  /// parameters.
-  void contract(const Material& material, std::span<const std::span<const double>> directions, std::span<double> by);
   /// What the derivatives of force and c by x and q make of fields y, h of nodes and modes: `forces`[(k · dofs + i) ·
   /// lanes + e] = K y_k − G h_k, `dilations`[(k · modes + m) · lanes + e] = Gᵀ y_k. Needs second derivatives.
   void multiply(bool sees_shear, std::span<const State> fields, std::span<double> forces, std::span<double> dilations);
+  /// After multiply() and with derivatives by parameters: d(force)/dp_j at fixed x, `by`[(j · dofs + i) · lanes + e].
+  /// The p are the parameters of the material, then the relative thickness at fixed Ro. Where the material has a
+  /// differentiated closing the rest of Geometry follows.
+  void change(const Material& material, std::span<double> by);
   /// dc/d(relative thickness) at fixed x: `c`[m · lanes + e].
   void dilate(std::span<double> c);
 
@@ -77,10 +76,12 @@ class Row {
   void moduli(std::size_t g, bool sees_shear, double& stiffness);
   void add_shear(std::size_t g);
   void narrow(std::vector<double>& of, bool twice) const;
-  void thicken(std::size_t g, bool sees_shear, double& unused);
+  void change_lanes(const Material& material, bool closed, double* by);
+  void pull_back(const double* w, bool sees_shear, bool adds);
+  void sum_forces(double* to);
+  void thicken(std::size_t g, bool sees_shear);
   void turn(std::size_t g, bool sees_shear);
-  void along(std::span<double> thickness);
-  void by_closing_of(const Closing& closing, std::size_t components, std::span<double> by, std::size_t wanted);
+  void close(const Closing& closing, std::size_t v, bool sees_shear);
   void add_force(std::size_t g, double* force);
   void multiply_lanes(bool sees_shear, std::span<const State> fields, double* forces, double* dilations);
   void take_field(std::span<const double> field);
@@ -92,13 +93,13 @@ class Row {
   const double h_;       ///< their mean length
   const E element_;
   std::size_t row_ = 0;
-  std::vector<double> radius_, over_radius_;  ///< R and N/R: point · (node ·) lane
-  std::vector<double> measure_, narrow_;      ///< R times the length of the lane over the mean; the inverse ratio
-  std::vector<double> x_, q_, p_, a_;         ///< component · lane
-  std::vector<double> z_, phi_;               ///< a direction at the nodes, its f: component · point · lane
-  std::vector<double> thickened_, turned_, strain_;  ///< component · point · lane
-  std::vector<double> unit_volume_;                  ///< of a point over the height of the row
-  std::vector<double> moduli_;                       ///< point · as a_
+  std::vector<double> radius_, over_radius_;      ///< R and N/R: point · (node ·) lane
+  std::vector<double> measure_, narrow_;          ///< R times the length of the lane over the mean; the inverse ratio
+  std::vector<double> x_, q_, p_, a_;             ///< component · lane
+  std::vector<double> z_, phi_;                   ///< a direction at the nodes, its f: component · point · lane
+  std::vector<double> change_, turned_, closed_;  ///< component · point · lane
+  std::vector<double> unit_volume_;               ///< of a point over the height of the row
+  std::vector<double> moduli_;                    ///< point · as a_
 };
 
 extern template class Row<1>;

@@ -27,26 +27,33 @@ void Sensitivity::move_ends(std::size_t direction, std::vector<double>& moved) c
   }
 }
 
+/// −right · ∂(∂Π/∂x)/∂p + dilation · ∂c/∂p of observable k, the parameters being those of Changes.
+double Sensitivity::contracted(std::size_t parameter, std::size_t k) const {
+  const Weights& weight = weights_[k];
+  const std::size_t size = weight.right.size();
+  const double by_force = -dot(weight.right, std::span(changes_.force).subspan(parameter * size, size));
+  const bool thickness = parameter == material_->parameter_count() + by_thickness;
+  return thickness ? by_force + dot(weight.dilation, changes_.dilation) : by_force;
+}
+
 Status Sensitivity::derive(const Path& path, std::span<const std::size_t> positions, bool axial_force,
                            std::vector<double>& by) {
   const std::size_t count = material_->parameter_count(), wanted = positions.size() + (axial_force ? 1 : 0);
   const Mesh& mesh = solver_.mesh();
-  if (Status status = solver_.weigh(path.load(), path.state(), positions, axial_force, weights_); !status.ok())
+  if (Status status = solver_.weigh(path.load(), path.state(), positions, axial_force, weights_, changes_);
+      !status.ok())
     return status;
   const bool closed = material_->closing() != nullptr && material_->closing()->differentiated();
-  contracted_.resize((count + (closed ? std::size_t{geometry_count} : 1)) * wanted);
-  if (Status status = solver_.assembly().contract(*material_, path.state(), weights_, contracted_); !status.ok())
-    return status;
   by.assign((count + direction_count) * wanted, 0);
   for (std::size_t j = 0; j < count + direction_count; ++j) {
     move_ends(j, moved_);
     for (std::size_t k = 0; k < wanted; ++k) {
       double& derivative = by[j * wanted + k];
-      if (j < count) derivative = contracted_[j * wanted + k];
-      if (j == count + along_thickness) derivative = contracted_[count * wanted + k];
-      if (closed && j == count + along_closing) derivative = contracted_[(count + by_closing) * wanted + k];
-      if (closed && j == count + along_sector) derivative = contracted_[(count + by_sector) * wanted + k];
-      if (closed && j == count + along_ratio) derivative = contracted_[(count + by_ratio) * wanted + k];
+      if (j < count) derivative = contracted(j, k);
+      if (j == count + along_thickness) derivative = contracted(count + by_thickness, k);
+      if (closed && j == count + along_closing) derivative = contracted(count + by_closing, k);
+      if (closed && j == count + along_sector) derivative = contracted(count + by_sector, k);
+      if (closed && j == count + along_ratio) derivative = contracted(count + by_ratio, k);
       if (j == count + along_pressure) {
         const std::span<const double> right = solver_.by_pressure();
         for (std::size_t plane = 0; plane < mesh.planes(); ++plane)
@@ -79,10 +86,10 @@ void Sensitivity::add_support(const Path& path, std::size_t wanted, bool axial_f
   }
 }
 
-/// Positions together, some at a time: each of them takes as much memory as the mesh.
+/// Positions together, some at a time.
 Status Sensitivity::follow(const Path& path, std::span<const std::size_t> positions,
                            std::vector<std::vector<double>>& moved) {
-  const std::size_t together = std::clamp<std::size_t>(4'000'000 / solver_.rest().x.size(), 4, 32);
+  const std::size_t together = Solver::together(solver_.mesh());
   const std::size_t directions = material_->parameter_count() + direction_count;
   std::vector<std::vector<double>> found(directions, std::vector<double>(positions.size()));
   for (std::size_t from = 0; from < positions.size(); from += together) {

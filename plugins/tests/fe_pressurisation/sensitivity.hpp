@@ -32,8 +32,8 @@ struct Sample {
 using Wanted = std::array<bool, 3>;
 
 /// At an equilibrium R(x; p) = 0 is dx/dp = −K⁻¹ ∂R/∂p, exactly. Of the three observables a · x it is Kᵀ z = a that is
-/// solved with the factor at hand, whatever the number of parameters: then d(a · x)/dp = −z · ∂R/∂p, which is summed up
-/// element by element and never stands as a vector.
+/// solved with the factor at hand, whatever the number of parameters: then d(a · x)/dp = −z · ∂R/∂p, where ∂R/∂p comes
+/// from the pass over the elements that refines z.
 class Sensitivity {
  public:
   explicit Sensitivity(Solver& solver) : solver_(solver) {}
@@ -53,6 +53,7 @@ class Sensitivity {
   Status derive(const Path& path, std::span<const std::size_t> positions, bool axial_force, std::vector<double>& by);
   /// ∂x/∂p at `positions` by direction, not by the pressure.
   Status follow(const Path& path, std::span<const std::size_t> positions, std::vector<std::vector<double>>& moved);
+  [[nodiscard]] double contracted(std::size_t parameter, std::size_t k) const;
   void add_support(const Path& path, std::size_t wanted, bool axial_force, std::vector<double>& by);
   void move_ends(std::size_t direction, std::vector<double>& moved) const;
 
@@ -62,7 +63,8 @@ class Sensitivity {
   std::vector<std::vector<double>> end_;  ///< ∂r/∂p of the held end, by direction; empty = not held after stretching
   std::vector<std::vector<double>> free_;  ///< ∂ρ/∂p of the support by direction, plane by plane; empty = not known
   std::vector<Weights> weights_;
-  std::vector<double> by_, contracted_, moved_, by_free_;
+  Changes changes_;
+  std::vector<double> by_, moved_, by_free_;
 };
 
 }  // namespace tunica::fe

@@ -28,8 +28,8 @@ Mesh mesh_of(const Tube& tube);
 Support support_of(const Solver& solver, const State& free, double slope);
 
 /// Observed at each load, with derivatives on demand. Loads of the same axial stretch lie on a line of pressures, which
-/// is solved at Chebyshev points where that takes fewer solutions than rows, their number doubled until the curve is as
-/// accurate as the tolerance says; else at the rows.
+/// is solved at Chebyshev points where that takes fewer solutions than rows. Their number is doubled until the curve is
+/// as accurate as the tolerance says; else the rows are solved.
 class Simulation {
  public:
   explicit Simulation(const Tube& tube);
@@ -49,8 +49,8 @@ class Simulation {
   Status line(Path& path, const Path::Mark& trunk, std::span<const Load> loads, std::span<const std::size_t> rows,
               std::vector<Sample>& samples, std::size_t& failed_at);
   Status interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
-                      std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& samples,
-                      std::size_t& failed_at, bool& accurate);
+                      std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& nodes,
+                      std::vector<Sample>& samples, std::size_t& failed_at, double& error);
   Status take(Path& path, const Load& load, Sample& sample);
 
   Tube tube_;

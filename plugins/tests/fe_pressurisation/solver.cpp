@@ -15,6 +15,8 @@ constexpr std::size_t most_iterations = 14;
 constexpr double frozen_below = 1e-3;      ///< of the outer radius: the last factor serves for steps shorter than this
 constexpr double slow = 0.3;               ///< a step of a frozen factor this times the last one is too long
 constexpr double near = 2e-5;              ///< a factor of a state this near to the solution is nearly its own
+constexpr double contraction = 0.15;       ///< of a step by the last load's factor, as it mostly is
+constexpr double good_for_weights = 1e-9;  ///< what may be left of the state, over the outer radius
 constexpr double incompressibility = 5e5;  ///< γ over the largest modulus: see System; 1e5 to 1e7 behave alike
 
 }  // namespace
@@ -36,7 +38,18 @@ Solver::Solver(const Mesh& mesh) : mesh_(mesh), assembly_(Assembly::make(mesh)),
   product_.resize(rest_.x.size());
 }
 
-double Solver::bytes(const Mesh& mesh) { return Factor::bytes(mesh) + Stencil::bytes(mesh); }
+/// Of each weight of an observable State::x stands in four vectors and State::q in three.
+double Solver::bytes(const Mesh& mesh) {
+  const auto positions = static_cast<double>(2 * mesh.nodes());
+  const auto pressures = static_cast<double>((mesh.order == 1 ? 1 : 3) * mesh.radial * mesh.axial);
+  const auto weights = static_cast<double>(together(mesh));
+  return Factor::bytes(mesh) + Stencil::bytes(mesh) + 8 * weights * (4 * positions + 3 * pressures);
+}
+
+/// As many as take 30 MB in each of those vectors.
+std::size_t Solver::together(const Mesh& mesh) {
+  return std::clamp<std::size_t>(4'000'000 / (2 * mesh.nodes()), 4, 32);
+}
 
 Status Solver::begin(const Material& material) {
   material_ = &material;
@@ -103,9 +116,9 @@ bool Solver::factorise() {
   return has_factor_;
 }
 
-Status Solver::solve(const Load& load, State& state, bool full_steps) {
+Status Solver::solve(const Load& load, State& state, Aim aim) {
   const double gamma = system_.gamma;
-  Status status = iterate(load, state, full_steps);
+  Status status = iterate(load, state, aim);
   if (status.ok()) note_support(state);
   if (!status.ok()) {  // what a wild state left behind
     system_.gamma = gamma;
@@ -114,15 +127,16 @@ Status Solver::solve(const Load& load, State& state, bool full_steps) {
   return status;
 }
 
-Status Solver::iterate(const Load& load, State& state, bool full_steps) {
+Status Solver::iterate(const Load& load, State& state, Aim aim) {
+  const bool wants_factor = aim != Aim::state;
   impose(load, state);
   effort_.steps.clear();
   mixes_ = false;
   double last = std::numeric_limits<double>::infinity();
   double away = last;  // how far the state of the factor is
   // Near the last solution its factor comes close before a new one is made beside this one.
-  bool full = !(full_steps && has_factor_);
-  const bool anew = full && full_steps;
+  bool full = !(wants_factor && has_factor_);
+  const bool anew = full && wants_factor;
   for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
     if (late()) return Status::failed("the time limit is reached");
     if (Status status = assembly_->assemble(*material_, state, load.pressure, full, system_); !status.ok())
@@ -137,7 +151,7 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     effort_.steps.push_back(step);
     if (!std::isfinite(step)) return Status::failed("the stiffness is singular");
     if (step > 10) return Status::failed("Newton's method runs away");
-    const double allowed = full_steps ? 0.4 : slow;
+    const double allowed = wants_factor ? 0.4 : slow;
     if (!full && step > allowed * last) {  // the factor is too old
       full = true;
       effort_.steps.pop_back();  // not taken
@@ -153,10 +167,12 @@ Status Solver::iterate(const Load& load, State& state, bool full_steps) {
     if (full && material_->remembers())
       left = std::max(left, iteration == 0 ? step : step * std::min(1., 2 * step / last));
     away = full ? step : away + step;
-    if (left < tolerance && (!full_steps || away < near)) return {};
+    if (left < (aim == Aim::weights ? good_for_weights : tolerance) && (!wants_factor || away < near)) return {};
     if (iteration > 4 && step > 4 * last) return Status::failed("Newton's method diverges");
+    const double next = aim == Aim::state ? 0 : aim == Aim::factor ? step : iteration > 0 ? left : contraction * step;
+    const bool nearly = next < (aim == Aim::weights ? 0.5 * near : near);
     last = step;
-    full = step > frozen_below || anew || (full_steps && step < near && away >= near);
+    full = step > frozen_below || anew || (wants_factor && nearly && away >= near);
     if (full) system_.gamma = incompressibility * system_.stiffness;
   }
   return Status::failed(fmt::format("Newton's method did not converge in {} iterations", most_iterations));

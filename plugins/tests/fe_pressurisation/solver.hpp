@@ -24,9 +24,28 @@ inline double largest(std::span<const double> x) {
   return std::isfinite(sum) ? value : sum;
 }
 
+/// Σ a_i b_i, in sums that do not wait for each other.
+inline double dot(std::span<const double> a, std::span<const double> b) {
+  constexpr std::size_t sums = 8;
+  double partial[sums] = {}, rest = 0;
+  std::size_t i = 0;
+  for (; i + sums <= a.size(); i += sums)
+    for (std::size_t k = 0; k < sums; ++k) partial[k] += a[i + k] * b[i + k];
+  for (; i < a.size(); ++i) rest += a[i] * b[i];
+  for (const double sum : partial) rest += sum;
+  return rest;
+}
+
 /// What holds the tube: its ends at `stretch` times their distance, and a pressure in the lumen, kPa.
 struct Load {
   double stretch = 1, pressure = 0;
+};
+
+/// What a solution is for.
+enum class Aim {
+  state,   ///< nothing beside
+  factor,  ///< the factor of a state nearby, too
+  weights  ///< that for weigh(), which makes up for a state that is good to 1e-9 alone
 };
 
 /// What solutions took since begin(), and the last of them.
@@ -38,8 +57,8 @@ struct Effort {
 /// Newton's method on one mesh. Prescribed are z at both ends and, where the ends are held, r at the far one.
 ///
 /// A step assembles and factorises until the state moves by less than 1e-3 of the radius; from there on the last factor
-/// serves, while each of its steps is three tenths of the one before at most: a residual costs a fifth of a factor. For
-/// sensitivities the last factor is one of a state within 2e-5 of the solution.
+/// serves, while each of its steps is three tenths of the one before at most: a residual costs a fifth of a factor.
+/// Where a factor is wanted the last one is of a state within 2e-5 of the solution.
 class Solver {
  public:
   static constexpr double tolerance = 1e-11;  ///< of the positions, over the outer radius
@@ -49,6 +68,8 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
   /// Of memory that it takes, as far as it grows with the mesh.
   static double bytes(const Mesh& mesh);
+  /// Observables that weigh() is asked for at most: each takes as much memory as the mesh.
+  static std::size_t together(const Mesh& mesh);
 
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const State& rest() const { return rest_; }
@@ -67,7 +88,7 @@ class Solver {
   }
 
   /// Improves `state`, on which the prescribed positions are imposed first, until it is in equilibrium.
-  Status solve(const Load& load, State& state, bool full_steps);
+  Status solve(const Load& load, State& state, Aim aim);
   /// The same with the volume of the lumen given (of half the tube, over 2π, mm³) and the pressure found, which begins
   /// with that of `load`: there is a solution also where the pressure hardly rises any more, or falls.
   Status solve_volume(double volume, Load& load, State& state);
@@ -79,8 +100,8 @@ class Solver {
   [[nodiscard]] const Effort& effort() const { return effort_; }
   [[nodiscard]] const System& system() const { return system_; }
 
-  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state (empty = nothing) and moves the
-  /// prescribed positions by `moved` (all nodes, zero elsewhere; empty = not at all).
+  /// The derivative of the solution by what adds −`right` to ∂Π/∂x at a fixed state and moves the prescribed positions
+  /// by `moved` (all nodes, zero elsewhere). What is empty adds nothing, or moves nothing.
   void derive(std::span<const double> right, std::span<const double> moved, State& derivative);
   /// `right` by the pressure, ∂V/∂x; `moved` by the axial stretch.
   [[nodiscard]] std::span<const double> by_pressure() const { return system_.volume; }
@@ -88,9 +109,10 @@ class Solver {
 
   /// The weights of some entries of State::x and, on demand, last of all of the axial force at a solution, by the
   /// adjoint of the equations: whatever the number of parameters. `moved` counts at the end alone. With a factor of a
-  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing.
+  /// state nearby they are refined until they are exact to 1e-9; fails where that comes to nothing. `changes` are of
+  /// the equations there.
   Status weigh(const Load& load, const State& state, std::span<const std::size_t> positions, bool axial_force,
-               std::vector<Weights>& weights);
+               std::vector<Weights>& weights, Changes& changes);
   /// After weigh(), what the observables of the solution that the state nearly is have more than those of the state, to
   /// second order of what is left to it. The axial force has it in place of all but the support.
   [[nodiscard]] std::span<const double> defects() const { return defects_; }
@@ -106,13 +128,14 @@ class Solver {
 
  private:
   void impose(const Load& load, State& state) const;
-  Status iterate(const Load& load, State& state, bool full_steps);
+  Status iterate(const Load& load, State& state, Aim aim);
   Status iterate_volume(double volume, Load& load, State& state);
   /// False where the deadline came first.
   bool factorise();
   void move(State& state, bool mixed);
   void begin_adjoint(std::span<const std::size_t> positions, bool axial_force);
-  Status refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions, double& change);
+  Status refine_adjoint(const Load& load, const State& state, std::span<const std::size_t> positions, Changes* changes,
+                        double& step);
   void add_observable(std::span<const std::size_t> positions, std::size_t k, std::span<double> to) const;
   void add_own(std::span<const std::size_t> positions, std::size_t k, std::span<double> x) const;
   void solve_rights();

@@ -35,12 +35,6 @@ bool sample(double axial_stretch, Sections& sections, Samples& at) {
 
 bool sound(const Sample& at) { return std::isfinite(at.p) && std::isfinite(at.p_y) && at.p_y > 0; }
 
-/// The slope of p over a step beside those at its ends, as Path looks at it.
-bool rises(const Sample& a, const Sample& b) {
-  const double mean = (b.p - a.p) / (b.y - a.y), u = a.p_y / mean, v = b.p_y / mean;
-  return mean > 0 && u * u + v * v <= 16;
-}
-
 /// y between two samples, cubic in p.
 double between(const Sample& a, const Sample& b, double p) {
   const double h = b.p - a.p, t = (p - a.p) / h, left = 1 - t;
@@ -115,7 +109,8 @@ bool find_on_curve(const Equilibrium& free, std::span<const double> pressure, Se
               0.5 * (end - free.y) * std::cos((2 * static_cast<double>(k) + 1) / (2 * count) * std::numbers::pi);
   if (!sample(free.axial_stretch, sections, at)) return false;
   for (std::size_t k = 0; k < count; ++k)
-    if (!sound(at[k]) || (k > 0 && !rises(at[k - 1], at[k]))) return false;
+    if (!sound(at[k]) || (k > 0 && !rises(at[k].p - at[k - 1].p, at[k].y - at[k - 1].y, at[k - 1].p_y, at[k].p_y)))
+      return false;
   if (!((at.front().p - *lowest) / at.front().p_y < beyond_samples) ||
       !((*highest - at.back().p) / at.back().p_y < beyond_samples))
     return false;

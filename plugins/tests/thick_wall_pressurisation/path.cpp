@@ -112,11 +112,9 @@ Status Path::follow(Equilibrium& at, double axial_stretch, double p, double supp
     }
     next.y += step;
     last = correct(next, support_free, step);
-    // The slope of p over the step beside those at its ends: where a cubic through all could fall, look closer.
-    if (last == Trouble::none && same_axial && std::abs(dp) > 0 && std::abs(step) > 1e-3) {
-      const double mean = dp / (next.y - at.y), u = at.p_y / mean, v = next.p_y / mean;
-      if (!(mean > 0) || u * u + v * v > 16) last = Trouble::not_contracting;
-    }
+    if (last == Trouble::none && same_axial && std::abs(dp) > 0 && std::abs(step) > 1e-3 &&
+        !rises(dp, next.y - at.y, at.p_y, next.p_y))
+      last = Trouble::not_contracting;  // look closer
     if (last != Trouble::none) {
       if (!at.settled) {
         settle(at, support_free);

@@ -44,6 +44,13 @@ class Path {
   const Wall& wall_;
 };
 
+/// Whether the pressure rises all over a step of y by dp, with these slopes at its ends. Where a cubic through all
+/// could fall it says no.
+inline bool rises(double dp, double dy, double p_y_before, double p_y_after) {
+  const double mean = dp / dy, u = p_y_before / mean, v = p_y_after / mean;
+  return mean > 0 && u * u + v * v <= 16;
+}
+
 /// Outer radius at y.
 inline double outer_radius(const Wall& wall, double y, double axial_stretch) {
   return std::sqrt(std::exp(2 * y) + wall.V / axial_stretch);
