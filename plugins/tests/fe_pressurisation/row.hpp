@@ -53,9 +53,9 @@ class Row {
   void integrate(bool sees_shear, bool tangent, double& stiffness);
 
   /// Adds d(z_k · force)/dp_j to `by`, spread over [(j · directions + k) · points · lanes, …); the z_k are fields of
-  /// nodes, as State::x. First come the parameters of the material, then the relative thickness at fixed Ro and x. Where
-  /// the material has a differentiated closing, the rest of Geometry follows. Needs second derivatives and those by
-  /// parameters.
+  /// nodes, as State::x. First come the parameters of the material, then the relative thickness at fixed Ro and x.
+  /// Where the material has a differentiated closing, the rest of Geometry follows. Needs second derivatives and those
+  /// by parameters.
   void contract(const Material& material, std::span<const std::span<const double>> directions, std::span<double> by);
   /// What the derivatives of force and c by x and q make of fields y, h of nodes and modes: `forces`[(k · dofs + i) ·
   /// lanes + e] = K y_k − G h_k, `dilations`[(k · modes + m) · lanes + e] = Gᵀ y_k. Needs second derivatives.
