@@ -14,9 +14,11 @@
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/models/jet_functions.hpp"
 
-/// Derivatives of W = Ψ(x_1, …, x_m; p) over lanes of points, for JointEnergy. The invariants are entered as Taylor
-/// numbers in the variables that are asked for, so that one evaluation of Ψ carries all of the chain rule: one variable
-/// twice, the others and the parameters once, and mixed.
+/// Derivatives of W = Ψ(x_1, …, x_m; p) over lanes of points, for JointEnergy.
+///
+/// The invariants are entered as Taylor numbers in the variables that are asked for, so that one evaluation of Ψ
+/// carries all of the chain rule. It gives derivatives by one variable, twice, and by others and the parameters, mixed
+/// with it.
 namespace tunica::joint {
 
 /// What is the same at all points: the invariants, and their derivatives by parameters.
@@ -114,7 +116,7 @@ class Points {
 
   explicit Points(const Frame<Energy>& frame) : frame_(frame) {}
 
-  /// Ψ with derivatives by component `a`, twice, and by all others and the parameters mixed with it: other b at
+  /// Ψ with derivatives by component `a`, twice, and by all others and the parameters mixed with it. Component b is at
   /// p[(b − a − 1) mod components], parameter j at p[others + j].
   template <class Number>
   TUNICA_FOR_KERNELS Taylor<directions, Number> along(std::size_t a, const std::array<Number, components>& C) const {
@@ -140,8 +142,8 @@ class Points {
     }
     std::array<T, parameters> p;
     for (std::size_t j = 0; j < parameters; ++j) {
-      p[j] = T(Number(frame_.p[j]));
-      if constexpr (by_parameters) p[j].p[others + j] = 1;
+      const Number value(frame_.p[j]);
+      p[j] = by_parameters ? T::parameter(value, (others + j) % directions) : T(value);
     }
     return Energy::template energy<T>(std::span<const T>(x), std::span<const T>(p));
   }

@@ -7,6 +7,10 @@
 
 #include "tunica/detail/vector_math.hpp"
 
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
+
 /// A vector of the machine as a number, so that a formula is evaluated at several points at once. A plain loop over
 /// lanes is shorter where the compiler vectorises it; the formula of an author may branch, and then no compiler does.
 ///
@@ -62,15 +66,18 @@ struct VectorOf<8> {
 #define TUNICA_TWO_(function, width, level, instructions)                                                            \
   TUNICA_VECTOR_FUNCTION_(function, width, level "vv", instructions, (VectorOf<width>::Type, VectorOf<width>::Type), \
                           (x, y), const VectorOf<width>::Type& x, const VectorOf<width>::Type& y)
+// As the kernels of that level, which would not take them in otherwise.
+#define TUNICA_AVX512_ "avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512"
 TUNICA_ONE_(exp, 2, "bN2", "sse2")
-TUNICA_ONE_(exp, 4, "dN4", "avx2")
-TUNICA_ONE_(exp, 8, "eN8", "avx512f")
+TUNICA_ONE_(exp, 4, "dN4", "avx2,fma")
+TUNICA_ONE_(exp, 8, "eN8", TUNICA_AVX512_)
 TUNICA_ONE_(log, 2, "bN2", "sse2")
-TUNICA_ONE_(log, 4, "dN4", "avx2")
-TUNICA_ONE_(log, 8, "eN8", "avx512f")
+TUNICA_ONE_(log, 4, "dN4", "avx2,fma")
+TUNICA_ONE_(log, 8, "eN8", TUNICA_AVX512_)
 TUNICA_TWO_(pow, 2, "bN2", "sse2")
-TUNICA_TWO_(pow, 4, "dN4", "avx2")
-TUNICA_TWO_(pow, 8, "eN8", "avx512f")
+TUNICA_TWO_(pow, 4, "dN4", "avx2,fma")
+TUNICA_TWO_(pow, 8, "eN8", TUNICA_AVX512_)
+#undef TUNICA_AVX512_
 #undef TUNICA_TWO_
 #undef TUNICA_ONE_
 #undef TUNICA_VECTOR_FUNCTION_
@@ -89,6 +96,12 @@ struct Lanes {
   /// The same number in every lane.
   [[gnu::always_inline]] Lanes(double x) : v(x - Vector{}) {}
   [[gnu::always_inline]] explicit Lanes(const Vector& x) : v(x) {}
+  // Written out, so that what holds lanes is copied vector by vector, and not as a block of memory.
+  [[gnu::always_inline]] Lanes(const Lanes& x) : v(x.v) {}
+  [[gnu::always_inline]] Lanes& operator=(const Lanes& x) {
+    v = x.v;
+    return *this;
+  }
   [[gnu::always_inline]] static Lanes load(const double* from) {
     Lanes x;
     std::memcpy(&x.v, from, sizeof x.v);
@@ -178,12 +191,27 @@ struct Lanes {
   [[gnu::always_inline]] friend Lanes lane_pow(const Lanes& x, const Lanes& y) { return pow(x, y); }
 
  private:
+  /// Bit l: it is true in lane l.
+  template <class Mask>
+  [[gnu::always_inline]] static unsigned bits(const Mask& lanes) {
+    unsigned found = 0;
+#if defined(__x86_64__)
+    for (std::size_t l = 0; l < width; l += 2) {
+      __m128d two;
+      std::memcpy(&two, reinterpret_cast<const char*>(&lanes) + l * sizeof(double), sizeof two);
+      found |= static_cast<unsigned>(_mm_movemask_pd(two)) << l;
+    }
+#else
+    for (std::size_t l = 0; l < width; ++l) found |= static_cast<unsigned>(lanes[l] != 0) << l;
+#endif
+    return found;
+  }
   template <class Mask>
   [[gnu::always_inline]] static bool decided(const Mask& lanes) {
-    unsigned agree = 0;
-    for (std::size_t l = 0; l < width; ++l) agree |= static_cast<unsigned>(lanes[l] == lanes[0]) << l;
-    lanes_in_step &= agree;
-    return lanes[0] != 0;
+    const unsigned found = bits(lanes);
+    const bool first = (found & 1) != 0;
+    lanes_in_step &= first ? found : ~found;
+    return first;
   }
 };
 

@@ -45,6 +45,7 @@ struct StripByParameters {
   StripByParameters() {}
   alignas(64) std::array<StripLanes::Row, max_model_parameters> y, l;
   std::bitset<max_model_parameters> written;
+  bool along_path = false;  ///< l holds ½ W_lp − ½ W_ly/W_yy W_yp instead, and y nothing
 
   /// Adds w ∂ψ'/∂p to a parameter of the response.
   [[gnu::always_inline]] void add_response(const StripLanes& s, const StripSlopes& slopes, const double* first_dp,

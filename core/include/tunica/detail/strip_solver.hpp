@@ -262,6 +262,11 @@ class StripSolver {
       }
       const double* const y = by_p.y[j].data();
       const double* const l = by_p.l[j].data();
+      if (by_p.along_path) {
+        TUNICA_LANES
+        for (std::size_t i = 0; i < m; ++i) stress[i] = 2 * l[i];
+        continue;
+      }
       TUNICA_LANES
       for (std::size_t i = 0; i < m; ++i) stress[i] = 2 * (l[i] - s.first[i] * y[i]);
       TUNICA_LANES

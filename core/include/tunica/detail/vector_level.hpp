@@ -20,11 +20,17 @@
 /// Only those copies contain such instructions. They have names of their own, so the linker never takes one of them for
 /// the ordinary code of an inline function. No compiler flag changes, and no type that crosses a plugin's boundary.
 ///
-/// Results: within a level every evaluation gives the same bits. Levels differ in rounding (fused multiplication and
-/// addition, vector functions of libmvec): energies by 1e-13 relative, free strips by 2e-12, curves of finite
-/// elements by 1e-13 and their derivatives by 1e-11. Loops over lanes have to be padded where a value must not depend
-/// on its place: the compiler finishes a loop of odd length with scalar functions. Threads: everything here is
-/// thread-safe. Before a loop over lanes: no lane reads what another one writes, whatever the pointers.
+/// Results: within a level every evaluation gives the same bits. Levels differ in rounding, by fused multiplication and
+/// addition and by the vector functions of libmvec: energies by 1e-13 relative, free strips by 2e-12, curves of finite
+/// elements by 1e-13 and their derivatives by 1e-11.
+///
+/// Loops over lanes have to be padded where a value must not depend on its place: the compiler finishes a loop of odd
+/// length with scalar functions.
+///
+/// Threads: everything here is thread-safe.
+///
+/// TUNICA_LANES stands before a loop over lanes, and says that no lane reads what another one writes, whatever the
+/// pointers.
 #if defined(__clang__)
 #define TUNICA_LANES _Pragma("clang loop vectorize(assume_safety)")
 #define TUNICA_FOR_KERNELS [[gnu::flatten]]
@@ -63,7 +69,7 @@ inline constexpr std::size_t widest = 8;
 #define TUNICA_VECTOR_LEVELS_ 1
 #endif
 
-/// Lanes of a double in a vector of the level; 1 where the compiler is left to itself.
+/// Lanes of a double in a vector of the level; 2 where the compiler is left to itself.
 inline constexpr std::size_t lanes_of(VectorLevel level) {
   return level == VectorLevel::avx512 ? 8 : level == VectorLevel::avx2 ? 4 : 2;
 }
@@ -115,6 +121,10 @@ template <VectorLevel level, class Kernel>
     kernel();
 }
 
+template <class Kernel>
+[[gnu::flatten, gnu::noinline]] void run_on_baseline(const Kernel& kernel) {
+  run<VectorLevel::baseline>(kernel);
+}
 #ifdef TUNICA_VECTOR_LEVELS_
 template <class Kernel>
 [[gnu::target("avx2,fma"), gnu::flatten, gnu::noinline]] void run_on_avx2(const Kernel& kernel) {
@@ -126,6 +136,20 @@ run_on_avx512(const Kernel& kernel) {
   run<VectorLevel::avx512>(kernel);
 }
 #endif
+
+/// Runs a part of a kernel as a function of its own, with the instructions of the level that has so many lanes. What is
+/// inlined into a large kernel is optimised worse than the same code alone.
+template <std::size_t width, class Kernel>
+[[gnu::always_inline]] inline void apart(const Kernel& kernel) {
+#ifdef TUNICA_VECTOR_LEVELS_
+  if constexpr (width == lanes_of(VectorLevel::avx512))
+    return run_on_avx512(kernel);
+  else if constexpr (width == lanes_of(VectorLevel::avx2))
+    return run_on_avx2(kernel);
+  else
+#endif
+    run_on_baseline(kernel);
+}
 
 /// Runs the kernel on the level of this library.
 template <class Kernel>

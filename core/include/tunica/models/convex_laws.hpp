@@ -187,11 +187,11 @@ struct Chains {
                                             -2.2805151204592183e-10, 2.3106432599002624e-11,  -2.3411706819824882e-12,
                                             2.3721017400233653e-13,  -2.4034415333307705e-14};
   static constexpr double near = 0.5;
-  /// Σ weight(n) c_n b^(n−1)
-  template <class Weight>
-  [[gnu::always_inline]] static double series(double b, const Weight& weight) {
+  /// Σ factor(n) c_n (β²)^(n−1)
+  template <class Factor>
+  [[gnu::always_inline]] static double series(double square, const Factor& factor) {
     double sum = 0;
-    for (std::size_t k = c.size(); k-- > 0;) sum = sum * b + weight(static_cast<double>(k + 1)) * c[k];
+    for (std::size_t k = c.size(); k-- > 0;) sum = sum * square + factor(static_cast<double>(k + 1)) * c[k];
     return sum;
   }
 

@@ -26,10 +26,10 @@ namespace tunica {
 ///     template <class T> static T energy(std::span<const T> x, std::span<const T> p);
 ///     static std::vector<Combination> admissible();                        // optional, as in ModelDescription
 ///
-/// Threads and failure: as Model. Mathematics: S = 2 ∂W/∂C and 2 ∂S/∂C = 4 ∂²W/∂C², by automatic differentiation: Ψ is
+/// Threads and failure: as Model. Mathematics: S = 2 ∂W/∂C and 2 ∂S/∂C = 4 ∂²W/∂C², by automatic differentiation. Ψ is
 /// evaluated on Taylor numbers (tunica/detail/taylor.hpp), several points at once in the lanes of a vector
-/// (tunica/detail/lanes.hpp). So `energy` is called with numbers that jet_functions.hpp lists the functions of; it may
-/// compare them, but not convert them.
+/// (tunica/detail/lanes.hpp). jet_functions.hpp lists the functions of these numbers. `energy` may compare them, but
+/// not convert them.
 template <class Energy>
 class JointEnergy final : public Model {
  public:
