@@ -5,6 +5,7 @@ which is then compared with COMMITTED.
 
 Most messages say what is wrong and what to do. Cures of the others stand in error_cures.txt, by the beginning of the
 message. Ends with 1 where a message has no cure, or a cure no message."""
+import argparse
 import difflib
 import json
 import pathlib
@@ -204,15 +205,18 @@ def page(rows):
     return "\n".join(lines + codes()) + "\n"
 
 
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("page", nargs="?", type=pathlib.Path, default=HERE / "errors.md")
+parser.add_argument("committed", nargs="?", type=pathlib.Path)
+chosen = parser.parse_args()
 rows, missing = collect()
-written = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "errors.md"
-written.write_text(page(rows), encoding="utf-8")
+chosen.page.write_text(page(rows), encoding="utf-8")
 if missing:
     sys.exit("\n".join(missing) + "\nSay in the message what to do; where it cannot, add `beginning => cure` to "
              "docs/error_cures.txt. Then run: python3 docs/errors.py")
-if len(sys.argv) > 2:
-    pages = [pathlib.Path(one).read_text(encoding="utf-8").splitlines() for one in sys.argv[1:3]]
+if chosen.committed:
+    pages = [one.read_text(encoding="utf-8").splitlines() for one in (chosen.page, chosen.committed)]
     differing = [line for line in difflib.unified_diff(pages[1], pages[0], lineterm="", n=0) if line[:1] in "+-"][2:]
     if differing:
-        sys.exit("\n".join(differing[:40]) + f"\n{sys.argv[2]} is not what the sources say (+ new, - no longer "
+        sys.exit("\n".join(differing[:40]) + f"\n{chosen.committed} is not what the sources say (+ new, - no longer "
                  "said). Run: python3 docs/errors.py")

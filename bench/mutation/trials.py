@@ -33,8 +33,10 @@ def run(program, cases, mutant, reach=None, limit=600):
         # The programs that the tests have started end too.
         alarm = threading.Timer(STANDING * limit, os.killpg, (process.pid, 9))
         alarm.start()
-        _, status, used = os.wait4(process.pid, 0)
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # its number stays taken until the alarm is off
         alarm.cancel()
+        alarm.join()
+        _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
     return process.returncode != 0, used.ru_utime + used.ru_stime
 

@@ -63,13 +63,13 @@ class Browser:
         """Returns [charts drawn, charts failed, milliseconds, figures] once the page says that it is done."""
         self.log("browser"), self.log("performance")
         self.call("POST", self.session + "/url", {"url": file.as_uri()})
-        for _ in range(300):
+        for _ in range(1200):
             state = self.run("const d = document.documentElement.dataset; return [d.drawn, d.failed, d.milliseconds]")
             if state[0] is not None:
                 figures = self.run("return document.querySelectorAll('figure[data-chart]').length")
                 return [int(value) for value in state] + [figures]
             time.sleep(0.05)
-        raise AssertionError(f"{file}: not drawn after 15 s; the console says {self.log('browser')}")
+        raise AssertionError(f"{file}: not drawn after a minute; the console says {self.log('browser')}")
 
     def log(self, kind):
         return self.call("POST", self.session + "/se/log", {"type": kind})

@@ -5,7 +5,7 @@
 Lets the n-th call of open, write, fsync and rename below the results fail, and of fork, once or from there on, for every n
 of a short piece of work, or for N drawn faults; of the calls for memory, 200 are drawn. It ends with one message and a
 documented exit code, or had no need of the call; afterwards it goes on to the identical result. Where memory is denied to
-a search, that search may end and say so in the results."""
+a search of a run, that search may end and say so in the results."""
 import argparse
 import collections
 import errno
@@ -78,7 +78,7 @@ def examine(kind, executable, library, wanted, draw, room):
         shutil.rmtree(original / "out", ignore_errors=True)
         code, said = call(program(executable, *work.start), original,
                           {"LD_PRELOAD": library, "FAULT_UNDER": f"{original}/out", "FAULT": fault})
-        search_ended = fault.startswith("memory") and code in (0, 1) and told_in_results(original / "out")
+        search_ended = work.keeps_ends and fault.startswith("memory") and code in (0, 1) and told_in_results(original / "out")
         different = differing(work.results(original), expected)
         problem = "" if search_ended else wrong(fault, code, said, different, work.messages)
         if not problem and not search_ended:

@@ -46,6 +46,7 @@ class Work:
 
     compared: tuple[str, ...] = ()
     messages = 1  # at most, where the disk fails
+    keeps_ends = False  # whether results may say that lack of memory ended a search
 
     def __init__(self, length=1):
         self.length = length
@@ -62,6 +63,7 @@ class Calibration(Work):
     start = ["run", "experiment.json", "-o", "out", "--quiet", "-j", "2", "--no-certificate"]
     go_on = [*start, "--resume"]
     compared = ("*.csv", "result.json", "input.json")
+    keeps_ends = True
 
     def prepare(self, folder):
         make_cohort(folder, 1)

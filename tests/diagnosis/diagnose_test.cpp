@@ -6,6 +6,7 @@
 
 #include "cli/process.hpp"
 #include "diagnosis/measured.hpp"
+#include "diagnosis/output/outputs.hpp"
 
 namespace tunica::trial {
 namespace {
@@ -95,6 +96,17 @@ TEST(Diagnose, WritesAnExtensionWhoseRunHasThePromisedMisfit) {
   const double after = found["gain"]["after"];
   EXPECT_LT(after, found["gain"]["before"]);
   EXPECT_NEAR(result(measured, "extended")["runs"][0]["best"]["objective"].get<double>(), after, 1e-4 * after);
+}
+
+TEST(Diagnose, RunsAnExtensionWithLevenbergMarquardtWhateverElseIsCalledThat) {
+  Measured measured;
+  measured.measure(
+      21, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
+  measured.experiment["optimizers"] = {{"lm", {{"type", "es"}}}, {"lm_extended", {{"type", "es"}}}};
+  const json extended = json::parse(diagnosis::extended_experiment(measured.diagnose(), testing::catalogue()));
+  const std::string name = extended["runs"][0]["optimizer"];
+  EXPECT_EQ(name, "lm_extended_extended");
+  EXPECT_EQ(extended["optimizers"][name]["type"], "ceres_lm");
 }
 
 TEST(Diagnose, WritesResultsThatTheSchemaKnows) {

@@ -16,6 +16,7 @@
 #include "comparison/study_tables.hpp"
 #include "comparison/uncertainty.hpp"
 #include "comparison/wall_tables.hpp"
+#include "execution/checkpoint.hpp"
 #include "execution/files.hpp"
 #include "execution/interrupt.hpp"
 #include "execution/memory_need.hpp"
@@ -138,6 +139,8 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
   outcome.summary = comparison::summarise(plan, found, options.refusals);
   outcome.provenance = comparison::provenance_of(plan);
+  if (options.merge)  // the searches were others'
+    outcome.provenance.vector_level = execution::vector_level_of(outcome.directory);
   write_tables(plan, found, outcome.directory, outcome.summary);
   certify(outcome.directory, options, outcome.summary);
   analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);

@@ -85,7 +85,11 @@ std::vector<execution::RunResult> search(const execution::Plan& plan, const std:
   surroundings.interrupted = [&interrupted] { return interrupted && interrupted(); };
   std::vector<execution::RunResult> results(plan.runs.size());
   for (const execution::Task& task : plan.tasks) {
-    auto result = execution::run_realisation(plan.runs[task.run], task.realisation, *plan.experiment, surroundings);
+    const auto searched = [&] {
+      return execution::run_realisation(plan.runs[task.run], task.realisation, *plan.experiment, surroundings);
+    };
+    auto result = searched();
+    if (result.memory_lacked) result = searched();  // a record is kept, and would say of the specimen what is not of it
     if (!result.finished) throw Interrupted{};
     results[task.run].realisations.push_back(std::move(result));
   }

@@ -117,6 +117,9 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
       throw;
     } catch (const InputError& problem_of_plugin) {
       fault = problem_of_plugin.what();
+    } catch (const plugins::MemoryLack& lack) {
+      fault = lack.what();
+      result.memory_lacked = true;
     } catch (const plugins::PluginFailure& problem_of_plugin) {
       fault = problem_of_plugin.what();
     }

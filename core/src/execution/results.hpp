@@ -27,6 +27,7 @@ struct RealisationResult {
   search::StopReason stopped_by =
       search::StopReason::none;  ///< of optimizer_failure `reason` says what the optimiser threw
   std::string stop_sentence;     ///< the same in words; empty for none
+  bool memory_lacked = false;    ///< which ended the search, and says nothing of what it looked for
   double seconds = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -23,6 +24,12 @@ namespace tunica::plugins {
 class PluginFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Memory was denied while a plugin had the word. Asked again, it may have enough.
+class MemoryLack : public PluginFailure {
+ public:
+  using PluginFailure::PluginFailure;
 };
 
 /// The host's own complaint, thrown through a plugin that called back into it: passed on as it is. Exit code 2.
@@ -52,6 +59,8 @@ std::invoke_result_t<Body> guarded(const std::string& plugin, const char* what, 
     throw;
   } catch (const InputError& problem) {
     throw InputError("plugin '" + plugin + "': " + problem.what());
+  } catch (const std::bad_alloc& problem) {
+    throw MemoryLack("plugin '" + plugin + "' failed: " + problem.what());
   } catch (const std::exception& problem) {
     throw PluginFailure("plugin '" + plugin + "' failed: " + problem.what());
   } catch (...) {

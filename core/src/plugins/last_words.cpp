@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <csetjmp>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,9 +46,14 @@ bool enter_culprit(const char* end) {
   return true;
 }
 
+/// Where the watch goes on when what it reads is no longer mapped; null while it reads nothing of other threads.
+sigjmp_buf* volatile way_back = nullptr;
+volatile pid_t reader = 0;
+
 /// Back in the default action, the fault repeats itself and ends the process as it would have ended without us. A
 /// signal that was sent does not.
 void on_fatal(int number, siginfo_t* info, void*) {
+  if (way_back != nullptr && ::gettid() == reader) siglongjmp(*way_back, 1);
   for (const Fatal& signal : fatal)
     if (signal.number == number) enter_culprit(signal.end);
   std::signal(number, SIG_DFL);
@@ -105,6 +112,33 @@ int kind_of(const Call& call) {
   return call.what == std::string_view("predict") ? 1 : 0;
 }
 
+/// The innermost call of a thread that goes on meanwhile. A call that comes back leaves its stack to the next one: what
+/// was read counts only if the thread has entered and left nothing since it had `entered` so many.
+std::optional<Call> call_under_way(const CallsOfThread& thread, std::uint64_t entered) {
+  const Call* call = innermost_plugin_call(thread);
+  if (call == nullptr) return std::nullopt;
+  const Call copy = *call;
+  std::atomic_thread_fence(std::memory_order_acquire);
+  if (thread.entered.load(std::memory_order_relaxed) != entered) return std::nullopt;
+  return copy;
+}
+
+/// The key of such a call. Its input may be given back while it is read.
+std::optional<std::uint64_t> key_under_way(const Call& call, const CallsOfThread& thread, std::uint64_t entered) {
+  sigjmp_buf here;
+  if (sigsetjmp(here, 1) != 0) {
+    way_back = nullptr;
+    return std::nullopt;
+  }
+  reader = ::gettid();
+  way_back = &here;
+  const std::uint64_t key = call.key(call);
+  way_back = nullptr;
+  std::atomic_thread_fence(std::memory_order_acquire);
+  if (thread.entered.load(std::memory_order_relaxed) != entered) return std::nullopt;
+  return key;
+}
+
 /// A thread as the watch sees it.
 struct Watched {
   CallsOfThread* thread;
@@ -113,8 +147,7 @@ struct Watched {
   double memory = 0;  ///< bytes that the process had at the last look before the call
 };
 
-/// Looks at calls of other threads. A call that has stayed for a second stays while it is read; should it come back in
-/// that moment, its caller's stack is still mapped, and `entered` tells.
+/// Looks at calls of other threads while they go on.
 class Inspection {
  public:
   explicit Inspection(CallWatch::Limits limits) : limits_(limits) {}
@@ -145,16 +178,16 @@ class Inspection {
       return;
     }
     if (stayed < limits_.grace) return;
-    const Call* call = innermost_plugin_call(*one.thread);
-    if (call == nullptr) return;
+    const auto call = call_under_way(*one.thread, entered);
+    if (!call) return;
     const bool too_long = is_of_model(*call) && stayed > limits_.longest_model_call;
     const bool late = now > deadline(*one.thread) + std::chrono::duration_cast<Clock::duration>(limits_.grace);
     if (!too_long && !(late && stayed > patience(*call))) return;
-    const std::uint64_t key = call->key(*call);
-    if (one.thread->entered.load(std::memory_order_acquire) != entered) return;
+    const auto key = key_under_way(*call, *one.thread, entered);
+    if (!key) return;
     const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
                                      : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
-    casualties->add(key, call->plugin, call->what, end.c_str(), stayed.count());
+    casualties->add(*key, call->plugin, call->what, end.c_str(), stayed.count());
     ::_exit(fell);
   }
 
@@ -162,26 +195,31 @@ class Inspection {
   /// did. A search lasts as long as what it waits for, so a test comes before it, and a model before both. Work that
   /// needs so much without a plugin is not ended: it is told by std::bad_alloc.
   void end_for_want_of_memory(double memory) {
-    std::vector<const Call*> suspects;
+    struct Suspect {
+      Call call;
+      std::uint64_t key;
+    };
+    std::vector<Suspect> suspects;
     bool inside = false;
     for (const Watched& one : watched_) {
-      const Call* call = innermost_plugin_call(*one.thread);
-      if (call == nullptr) continue;
+      if (innermost_plugin_call(*one.thread) == nullptr) continue;
       inside = true;
-      const bool stayed = one.entered == one.thread->entered.load(std::memory_order_acquire);
-      if (!stayed || memory - one.memory < 0.5 * limits_.memory) continue;
-      if (!suspects.empty() && kind_of(*call) < kind_of(*suspects.front())) continue;
-      if (!suspects.empty() && kind_of(*call) > kind_of(*suspects.front())) suspects.clear();
-      suspects.push_back(call);
+      if (memory - one.memory < 0.5 * limits_.memory) continue;
+      const auto call = call_under_way(*one.thread, one.entered);
+      if (!call || (!suspects.empty() && kind_of(*call) < kind_of(suspects.front().call))) continue;
+      const auto key = key_under_way(*call, *one.thread, one.entered);
+      if (!key) continue;
+      if (!suspects.empty() && kind_of(*call) > kind_of(suspects.front().call)) suspects.clear();
+      suspects.push_back({*call, *key});
     }
     if (!inside) return;
-    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Call* call) {
-      return std::string_view(call->plugin) == suspects.front()->plugin;
+    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Suspect& one) {
+      return std::string_view(one.call.plugin) == suspects.front().call.plugin;
     });
     const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
                                         memory / gibibyte, limits_.memory / gibibyte);
-    for (const Call* call : suspects)
-      if (of_one) casualties->add(call->key(*call), call->plugin, call->what, end.c_str(), 0);
+    for (const Suspect& one : suspects)
+      if (of_one) casualties->add(one.key, one.call.plugin, one.call.what, end.c_str(), 0);
     if (!of_one) casualties->add_leak();
     ::_exit(fell);
   }

@@ -174,7 +174,7 @@ Detection Detector::test(const Eigen::VectorXd& given, const Eigen::VectorXd& pr
     const Direction& direction = directions_[k];
     const double T = score_of(direction);
     const std::size_t c = direction.candidate;
-    if (T > best[c]) {
+    if (T > best[c] * (1 + 1e-9)) {  // of places that are equal but for rounding the first
       best[c] = T;
       detection.direction[c] = k;
     }

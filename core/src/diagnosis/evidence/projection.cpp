@@ -21,6 +21,7 @@ Eigen::MatrixXd basis(Eigen::MatrixXd columns, double least) {
 Projection::Projection(const Eigen::MatrixXd& J) : Q_(basis(J, 1e-8)) {}
 
 Eigen::MatrixXd Projection::off(const Eigen::MatrixXd& v) const {
+  if (Q_.cols() == 0) return v;
   // Twice, for orthogonality to the last digits.
   Eigen::MatrixXd left = v - Q_ * (Q_.transpose() * v);
   left -= Q_ * (Q_.transpose() * left);

@@ -75,7 +75,7 @@ std::string optimizer_of(Experiment& experiment, const std::string& asked, const
   for (const Option& option : catalogue.optimizers().at("ceres_lm").factory.options)
     if (option.fallback) entry.options.set(option.name, *option.fallback);
   experiment.optimizers.push_back(std::move(entry));
-  return "lm";
+  return experiment.optimizers.back().name;
 }
 
 }  // namespace

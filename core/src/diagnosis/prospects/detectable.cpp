@@ -33,7 +33,7 @@ std::string amplitude_unit(const assembly::Assembly& base, const MechanismFactor
 const Direction* typical(const Hypotheses& hypotheses, std::size_t candidate) {
   struct Best {
     const Direction* direction;
-    double effect;
+    float effect;  ///< to seven digits: of places that are equal but for rounding the first
   };
   std::vector<Best> best;  // one a setting
   for (const Direction& direction : hypotheses.directions) {
@@ -41,7 +41,7 @@ const Direction* typical(const Hypotheses& hypotheses, std::size_t candidate) {
     const Hypothesis& own = hypotheses.hypothesis(direction);
     if (own.addition.place.row || own.at_large) continue;
     const double reach = reach_of(*own.mechanism, own.addition);
-    const double effect = direction.length * (std::isfinite(reach) ? reach : 1);
+    const auto effect = static_cast<float>(direction.length * (std::isfinite(reach) ? reach : 1));
     const auto same = std::find_if(best.begin(), best.end(), [&](const Best& other) {
       return hypotheses.hypothesis(*other.direction).addition.setting == own.addition.setting;
     });

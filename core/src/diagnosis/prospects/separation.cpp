@@ -89,8 +89,11 @@ std::optional<Separation> separating_design(const Inquiry& inquiry, const Eviden
                                             const std::vector<FittedRival>& rivals) {
   const std::vector<Design> library = designs(inquiry, evidence, rivals.front().assembly, rivals.front().fit.free);
   const std::vector<double> smallest = smallest_distances(inquiry, library, rivals);
-  const auto best = std::max_element(smallest.begin(), smallest.end());
-  if (best == smallest.end() || *best * most_repeats < separated) return std::nullopt;
+  const double largest = smallest.empty() ? 0 : *std::max_element(smallest.begin(), smallest.end());
+  if (largest * most_repeats < separated) return std::nullopt;
+  // Mirror images of one design differ by rounding: the first of them.
+  const auto best =
+      std::find_if(smallest.begin(), smallest.end(), [&](double one) { return one >= (1 - 1e-9) * largest; });
   return Separation{library[static_cast<std::size_t>(best - smallest.begin())].description, std::sqrt(*best),
                     static_cast<std::size_t>(std::ceil(separated / *best))};
 }
