@@ -132,6 +132,10 @@ int contained(int argc, char** argv) {
   } catch (const execution::WriteFailure& problem) {
     say_error(problem.what());
     return invalid_input;
+  } catch (const plugins::MemoryLack& problem) {
+    say_error(fmt::format("{}: there is not enough memory for this; take fewer realisations, draws, rows or threads",
+                          problem.what()));
+    return invalid_input;
   } catch (const plugins::PluginFailure& problem) {
     say_error(
         fmt::format("nothing goes on with this plugin: {}. Take it out, or report this to its author", problem.what()));

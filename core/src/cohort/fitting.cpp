@@ -18,6 +18,7 @@
 #include "execution/files.hpp"
 #include "execution/realisation.hpp"
 #include "experiment/parse.hpp"
+#include "plugins/guarded.hpp"
 #include "report/report.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
@@ -180,6 +181,8 @@ std::optional<Record> fit(const Specification& cohort, const Template& pattern, 
   } catch (const execution::WriteFailure&) {
     throw;
   } catch (const std::bad_alloc&) {  // says nothing of the specimen
+    throw;
+  } catch (const plugins::MemoryLack&) {
     throw;
   } catch (const InputError& problem) {
     record.outcome = Outcome::unreadable;

@@ -176,7 +176,10 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
   const std::string name = file.filename().string();
   const std::uint64_t input = std::hash<std::string>()(fs::absolute(file).string());
   const Call call{name.c_str(), "load", plain_key, &input};
-  if (const std::string reason = refusal(name, plain_key(call)); !reason.empty()) throw LoadError(reason);
+  // What ended one process is loaded once more: memory may have lacked, and without the plugin the work would go on to
+  // another result.
+  if (casualties != nullptr && casualties->weight(name) > 1)
+    if (const std::string reason = refusal(name, plain_key(call)); !reason.empty()) throw LoadError(reason);
   const CallScope scope(call);
   const boost::dll::shared_library& library = map_for_good(file);
   if (!library.has(entry_symbol)) {

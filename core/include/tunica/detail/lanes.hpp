@@ -66,7 +66,7 @@ struct VectorOf<8> {
 #define TUNICA_TWO_(function, width, level, instructions)                                                            \
   TUNICA_VECTOR_FUNCTION_(function, width, level "vv", instructions, (VectorOf<width>::Type, VectorOf<width>::Type), \
                           (x, y), const VectorOf<width>::Type& x, const VectorOf<width>::Type& y)
-// As the kernels of that level, which would not take them in otherwise.
+// With the instructions of the kernels of that level. They call it.
 #define TUNICA_AVX512_ "avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512"
 TUNICA_ONE_(exp, 2, "bN2", "sse2")
 TUNICA_ONE_(exp, 4, "dN4", "avx2,fma")

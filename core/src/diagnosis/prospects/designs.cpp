@@ -176,6 +176,8 @@ std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, co
     Design design{plan.description, {}, {}, {}};
     try {
       design.test = plugins::create(type->second, setup);
+    } catch (const plugins::MemoryLack&) {
+      throw;
     } catch (const std::exception&) {
       continue;  // a type that wants more than this library knows of
     }
