@@ -100,8 +100,8 @@ TEST(Diagnose, WritesAnExtensionWhoseRunHasThePromisedMisfit) {
 
 TEST(Diagnose, RunsAnExtensionWithLevenbergMarquardtWhateverElseIsCalledThat) {
   Measured measured;
-  measured.measure(
-      21, [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
+  measured.measure(21,
+                   [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 1.5)}; });
   measured.experiment["optimizers"] = {{"lm", {{"type", "es"}}}, {"lm_extended", {{"type", "es"}}}};
   const json extended = json::parse(diagnosis::extended_experiment(measured.diagnose(), testing::catalogue()));
   const std::string name = extended["runs"][0]["optimizer"];
