@@ -28,7 +28,7 @@ FOLDERS = ["core/src/calibration", "core/src/diagnosis", "core/src/discovery", "
 PROGRAMS = ["test_mechanisms", "test_models", "test_diagnosis", "test_discover", "test_calibration", "test_cohort_diagnosis",
             "test_cli"]  # only the program itself, which test_cli starts, runs core/src/calibration
 # What of the rest of the suite looks at these folders without starting a search.
-COMMANDS = r"^(References\.|Schema\.CommittedIsWhat|Conformance\.BuiltIn_|Docs\.PagePrintsWhatItShows)"
+COMMANDS = r"^(References\.baseline\.|Schema\.CommittedIsWhat|Conformance\.BuiltIn_|Docs\.PagePrintsWhatItShows)"
 
 
 def options():

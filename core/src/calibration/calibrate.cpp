@@ -140,7 +140,8 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
   outcome.summary = comparison::summarise(plan, found, options.refusals);
   outcome.provenance = comparison::provenance_of(plan);
   if (options.merge)  // the searches were others'
-    outcome.provenance.vector_level = execution::vector_level_of(outcome.directory);
+    if (auto level = execution::vector_level_of(outcome.directory); !level.empty())
+      outcome.provenance.vector_level = std::move(level);
   write_tables(plan, found, outcome.directory, outcome.summary);
   certify(outcome.directory, options, outcome.summary);
   analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);

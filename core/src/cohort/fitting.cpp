@@ -91,6 +91,7 @@ std::vector<execution::RunResult> search(const execution::Plan& plan, const std:
     };
     auto result = searched();
     if (result.memory_lacked) result = searched();  // a record is kept, and would say of the specimen what is not of it
+    if (result.memory_lacked) throw plugins::MemoryLack(result.reason);
     if (!result.finished) throw Interrupted{};
     results[task.run].realisations.push_back(std::move(result));
   }

@@ -53,6 +53,8 @@ void add_parameters(const ModelInCatalogue& entry, const Options& options, std::
       if (std::none_of(parameters.begin(), parameters.end(),
                        [&](const Parameter& p) { return p.name == parameter.name; }))
         parameters.push_back(parameter);
+  } catch (const plugins::MemoryLack&) {
+    throw;
   } catch (const std::exception&) {  // these options do not go together: no parameters to learn from them
   }
 }

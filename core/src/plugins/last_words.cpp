@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <csetjmp>
 #include <csignal>
 #include <cstdlib>
@@ -47,13 +48,13 @@ bool enter_culprit(const char* end) {
 }
 
 /// Where the watch goes on when what it reads is no longer mapped; null while it reads nothing of other threads.
-sigjmp_buf* volatile way_back = nullptr;
-volatile pid_t reader = 0;
+std::atomic<sigjmp_buf*> way_back = nullptr;
+std::atomic<pid_t> reader = 0;
 
 /// Back in the default action, the fault repeats itself and ends the process as it would have ended without us. A
 /// signal that was sent does not.
 void on_fatal(int number, siginfo_t* info, void*) {
-  if (way_back != nullptr && ::gettid() == reader) siglongjmp(*way_back, 1);
+  if (sigjmp_buf* const to = way_back.load(); to != nullptr && ::gettid() == reader.load()) siglongjmp(*to, 1);
   for (const Fatal& signal : fatal)
     if (signal.number == number) enter_culprit(signal.end);
   std::signal(number, SIG_DFL);
@@ -106,37 +107,60 @@ bool is_of_model(const Call& call) {
          call.what == std::string_view("solve_strip");
 }
 
+constexpr int of_model = 2;
+
 /// 2: of a model, 1: of a test, 0: of something that calls both.
 int kind_of(const Call& call) {
-  if (is_of_model(call)) return 2;
+  if (is_of_model(call)) return of_model;
   return call.what == std::string_view("predict") ? 1 : 0;
 }
 
-/// The innermost call of a thread that goes on meanwhile. A call that comes back leaves its stack to the next one: what
-/// was read counts only if the thread has entered and left nothing since it had `entered` so many.
-std::optional<Call> call_under_way(const CallsOfThread& thread, std::uint64_t entered) {
-  const Call* call = innermost_plugin_call(thread);
-  if (call == nullptr) return std::nullopt;
-  const Call copy = *call;
-  std::atomic_thread_fence(std::memory_order_acquire);
-  if (thread.entered.load(std::memory_order_relaxed) != entered) return std::nullopt;
-  return copy;
-}
-
-/// The key of such a call. Its input may be given back while it is read.
-std::optional<std::uint64_t> key_under_way(const Call& call, const CallsOfThread& thread, std::uint64_t entered) {
+/// Reads what lies on the stacks of other threads, which go on meanwhile; false where it is no longer mapped.
+template <class Read>
+bool read_of_others(const Read& read) {
   sigjmp_buf here;
   if (sigsetjmp(here, 1) != 0) {
     way_back = nullptr;
-    return std::nullopt;
+    return false;
   }
   reader = ::gettid();
   way_back = &here;
-  const std::uint64_t key = call.key(call);
+  read();
   way_back = nullptr;
+  return true;
+}
+
+bool is_in_plugin(const CallsOfThread& thread) {
+  bool inside = false;
+  return read_of_others([&] { inside = innermost_plugin_call(thread) != nullptr; }) && inside;
+}
+
+/// What is told of the innermost call of a thread.
+struct Sight {
+  std::array<char, 96> plugin = {};
+  const char* what = nullptr;
+  int kind = 0;
+  std::uint64_t key = 0;
+};
+
+/// A call that comes back leaves its stack to the next one, and may give back what it was asked with: all is copied,
+/// and counts only if the thread has entered and left nothing since it had `entered` so many.
+std::optional<Sight> sight_of(const CallsOfThread& thread, std::uint64_t entered) {
+  Sight sight;
+  const bool read = read_of_others([&] {
+    const Call* call = innermost_plugin_call(thread);
+    if (call == nullptr) return;
+    const Call copy = *call;
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (thread.entered.load(std::memory_order_relaxed) != entered) return;
+    for (std::size_t i = 0; i + 1 < sight.plugin.size() && copy.plugin[i] != 0; ++i) sight.plugin[i] = copy.plugin[i];
+    sight.kind = kind_of(copy);
+    sight.key = copy.key(copy);
+    sight.what = copy.what;
+  });
   std::atomic_thread_fence(std::memory_order_acquire);
-  if (thread.entered.load(std::memory_order_relaxed) != entered) return std::nullopt;
-  return key;
+  if (!read || sight.what == nullptr || thread.entered.load(std::memory_order_relaxed) != entered) return std::nullopt;
+  return sight;
 }
 
 /// A thread as the watch sees it.
@@ -178,16 +202,14 @@ class Inspection {
       return;
     }
     if (stayed < limits_.grace) return;
-    const auto call = call_under_way(*one.thread, entered);
+    const auto call = sight_of(*one.thread, entered);
     if (!call) return;
-    const bool too_long = is_of_model(*call) && stayed > limits_.longest_model_call;
+    const bool too_long = call->kind == of_model && stayed > limits_.longest_model_call;
     const bool late = now > deadline(*one.thread) + std::chrono::duration_cast<Clock::duration>(limits_.grace);
     if (!too_long && !(late && stayed > patience(*call))) return;
-    const auto key = key_under_way(*call, *one.thread, entered);
-    if (!key) return;
     const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
                                      : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
-    casualties->add(*key, call->plugin, call->what, end.c_str(), stayed.count());
+    casualties->add(call->key, call->plugin.data(), call->what, end.c_str(), stayed.count());
     ::_exit(fell);
   }
 
@@ -195,37 +217,31 @@ class Inspection {
   /// did. A search lasts as long as what it waits for, so a test comes before it, and a model before both. Work that
   /// needs so much without a plugin is not ended: it is told by std::bad_alloc.
   void end_for_want_of_memory(double memory) {
-    struct Suspect {
-      Call call;
-      std::uint64_t key;
-    };
-    std::vector<Suspect> suspects;
+    std::vector<Sight> suspects;
     bool inside = false;
     for (const Watched& one : watched_) {
-      if (innermost_plugin_call(*one.thread) == nullptr) continue;
+      if (!is_in_plugin(*one.thread)) continue;
       inside = true;
       if (memory - one.memory < 0.5 * limits_.memory) continue;
-      const auto call = call_under_way(*one.thread, one.entered);
-      if (!call || (!suspects.empty() && kind_of(*call) < kind_of(suspects.front().call))) continue;
-      const auto key = key_under_way(*call, *one.thread, one.entered);
-      if (!key) continue;
-      if (!suspects.empty() && kind_of(*call) > kind_of(suspects.front().call)) suspects.clear();
-      suspects.push_back({*call, *key});
+      const auto call = sight_of(*one.thread, one.entered);
+      if (!call || (!suspects.empty() && call->kind < suspects.front().kind)) continue;
+      if (!suspects.empty() && call->kind > suspects.front().kind) suspects.clear();
+      suspects.push_back(*call);
     }
     if (!inside) return;
-    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Suspect& one) {
-      return std::string_view(one.call.plugin) == suspects.front().call.plugin;
+    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Sight& one) {
+      return one.plugin == suspects.front().plugin;
     });
     const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
                                         memory / gibibyte, limits_.memory / gibibyte);
-    for (const Suspect& one : suspects)
-      if (of_one) casualties->add(one.key, one.call.plugin, one.call.what, end.c_str(), 0);
+    for (const Sight& one : suspects)
+      if (of_one) casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0);
     if (!of_one) casualties->add_leak();
     ::_exit(fell);
   }
 
-  [[nodiscard]] Seconds patience(const Call& call) const {
-    if (is_of_model(call)) return limits_.grace;
+  [[nodiscard]] Seconds patience(const Sight& call) const {
+    if (call.kind == of_model) return limits_.grace;
     if (!evaluated.load(std::memory_order_relaxed)) return limits_.first_prediction;
     return std::max<Seconds>(limits_.grace, 10 * longest_);
   }
@@ -233,10 +249,12 @@ class Inspection {
   static Clock::time_point deadline(const CallsOfThread& thread) {
     const int depth = std::min(thread.depth.load(std::memory_order_acquire), CallsOfThread::depth_recorded);
     auto first = Clock::time_point::max() - std::chrono::hours(1);
-    for (int i = 0; i < depth; ++i) {
-      const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
-      if (call != nullptr) first = std::min(first, call->deadline);
-    }
+    read_of_others([&] {
+      for (int i = 0; i < depth; ++i) {
+        const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+        if (call != nullptr) first = std::min(first, call->deadline);
+      }
+    });
     return first;
   }
 

@@ -130,6 +130,8 @@ Refit refit(const assembly::Assembly& assembly, const RefitObjective& target, co
                              optimizer.plugin->plugin, "minimise", [&] { return solver->minimise(problem); }, seed)
                              .converged;
     }
+  } catch (const plugins::MemoryLack&) {
+    throw;
   } catch (const std::exception& broken) {
     result.status = Status::failed(broken.what());
     return result;

@@ -77,7 +77,8 @@ class Row {
   void add_shear(std::size_t g);
   void narrow(std::vector<double>& of, bool twice) const;
   void change_lanes(const Material& material, bool closed, double* by);
-  void pull_back(const double* w, bool sees_shear, bool adds);
+  template <bool Adds>
+  void pull_back(const double* w, bool sees_shear);
   void sum_forces(double* to);
   void thicken(std::size_t g, bool sees_shear);
   void turn(std::size_t g, bool sees_shear);

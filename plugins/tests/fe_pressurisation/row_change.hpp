@@ -102,7 +102,7 @@ void Row<Order>::change_lanes(const Material& material, bool closed, double* by)
   const std::size_t count = material.parameter_count(), all = ng * n_;
   const bool sees_shear = material.sees_shear();
   for (std::size_t j = 0; j < count; ++j) {
-    pull_back(first_dp.data() + 4 * j * all, sees_shear, false);
+    pull_back<false>(first_dp.data() + 4 * j * all, sees_shear);
     sum_forces(by + j * dofs * n_);
   }
   for (std::size_t g = 0; g < ng; ++g) thicken(g, sees_shear);
@@ -111,7 +111,10 @@ void Row<Order>::change_lanes(const Material& material, bool closed, double* by)
   for (std::size_t v = 0; v < (closed ? std::size_t{geometry_count} : 1); ++v) {
     if (closed) {
       close(*material.closing(), v, sees_shear);
-      pull_back(closed_.data(), sees_shear, v == by_thickness);
+      if (v == by_thickness)
+        pull_back<true>(closed_.data(), sees_shear);
+      else
+        pull_back<false>(closed_.data(), sees_shear);
     }
     sum_forces(by + (count + v) * dofs * n_);
   }
@@ -119,9 +122,10 @@ void Row<Order>::change_lanes(const Material& material, bool closed, double* by)
 
 /// To change_: (∂C/∂f)ᵀ w dV at every point, w derivatives by C in t, z, r and s; or adds that.
 template <std::size_t Order>
-void Row<Order>::pull_back(const double* w, bool sees_shear, bool adds) {
+template <bool Adds>
+void Row<Order>::pull_back(const double* w, bool sees_shear) {
   const std::size_t all = ng * n_;
-  const double height = this->height(row_), kept = adds ? 1 : 0, shear = sees_shear ? 1 : 0;
+  const double height = this->height(row_), shear = sees_shear ? 1 : 0;
   const double* __restrict__ const at = f.data();
   const double* __restrict__ const V = unit_volume_.data();
   const double* __restrict__ const w_s = w + (sees_shear ? 3 * all : 0);
@@ -131,11 +135,11 @@ void Row<Order>::pull_back(const double* w, bool sees_shear, bool adds) {
     const double f0 = at[i], f1 = at[all + i], f2 = at[2 * all + i], f3 = at[3 * all + i], f4 = at[4 * all + i];
     const double dV = height * V[i], wt = 2 * dV * w[i], wz = 2 * dV * w[all + i], wr = 2 * dV * w[2 * all + i],
                  ws = shear * dV * w_s[i];
-    p[i] = kept * p[i] + (wr * f0 + ws * f1);
-    p[all + i] = kept * p[all + i] + (wz * f1 + ws * f0);
-    p[2 * all + i] = kept * p[2 * all + i] + (wr * f2 + ws * f3);
-    p[3 * all + i] = kept * p[3 * all + i] + (wz * f3 + ws * f2);
-    p[4 * all + i] = kept * p[4 * all + i] + wt * f4;
+    p[i] = (Adds ? p[i] : 0) + (wr * f0 + ws * f1);
+    p[all + i] = (Adds ? p[all + i] : 0) + (wz * f1 + ws * f0);
+    p[2 * all + i] = (Adds ? p[2 * all + i] : 0) + (wr * f2 + ws * f3);
+    p[3 * all + i] = (Adds ? p[3 * all + i] : 0) + (wz * f3 + ws * f2);
+    p[4 * all + i] = (Adds ? p[4 * all + i] : 0) + wt * f4;
   }
 }
 

@@ -21,6 +21,14 @@ double slowness(double before, double now, std::size_t points) {
   return power > 1 ? std::max(1., static_cast<double>(points) / (3 * (power - 1))) : static_cast<double>(points);
 }
 
+/// What is no number stays.
+double largest_of(const std::array<double, 3>& errors) {
+  double largest = 0;
+  for (const double error : errors)
+    if (std::isfinite(largest) && !(error <= largest)) largest = error;
+  return largest;
+}
+
 }  // namespace
 
 Mesh mesh_of(const Tube& tube) {
@@ -109,10 +117,11 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
   for (const std::size_t i : rows) pressures.insert(loads[i].pressure);
   // Worth it where it saves three rows in ten. Every second one of twice as many points is solved already.
   std::vector<Sample> nodes;
-  double error = 0;
+  std::array<double, 3> errors = {};
   for (std::size_t points = first_points; points <= most_points; points = 2 * points - 1) {
     if (10 * (nodes.empty() ? points : points - nodes.size()) >= 7 * pressures.size()) break;
-    const Status status = interpolated(path, trunk, loads, rows, points, nodes, samples, failed_at, error);
+    const Status status = interpolated(path, trunk, loads, rows, points, nodes, samples, failed_at, errors);
+    const double error = largest_of(errors);
     if (!status.ok() || error <= 1) return status;
     if (Status back = path.return_to(trunk); !back.ok()) return back;
     if (!(error <= hopeless)) break;
@@ -137,16 +146,15 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
   return {};
 }
 
-/// `nodes` of half as many points become those of all; `error` of those becomes that of
-/// all, an estimate over what is tolerated.
+/// `nodes` of half as many points become those of all; `errors` of the observables at those become those at all,
+/// estimates over what is tolerated.
 Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
                                 std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& nodes,
-                                std::vector<Sample>& samples, std::size_t& failed_at, double& error) {
+                                std::vector<Sample>& samples, std::size_t& failed_at, std::array<double, 3>& errors) {
   const auto [low, high] = std::ranges::minmax_element(
       rows, [&](std::size_t i, std::size_t j) { return loads[i].pressure < loads[j].pressure; });
   const Chebyshev curve(loads[*low].pressure, loads[*high].pressure, points);
   const std::span<const double> at = curve.points();
-  const double before = error;
   const std::vector<Sample> known = std::move(nodes);
   nodes.assign(points, {});
   for (std::size_t k = 0; k < known.size(); ++k) nodes[2 * k] = known[k];
@@ -177,7 +185,6 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
     if (Status status = solve(k); !status.ok()) return status;
 
   std::vector<double> values(points);
-  error = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     double largest = 0;
     for (std::size_t k = 0; k < points; ++k) {
@@ -186,11 +193,10 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
     }
     // Where fibres switch along the line the coefficients fall slowly: what is left out is some times the last ones.
     const double left = 3 * curve.tail(values), allowed = tube_.tolerance * (c < 2 ? tube_.outer : 10 * largest);
-    const double of = left == 0 ? 0 : left / allowed;
-    if (std::isfinite(error) && !(of <= error)) error = of;  // what is no number stays
+    const double now = left == 0 ? 0 : left / allowed;
+    errors[c] = known.empty() || now == 0 ? now : now * slowness(errors[c], now, points);
   }
-  if (!known.empty()) error *= slowness(before, error, points);
-  if (!(error <= 1)) return {};
+  if (!(largest_of(errors) <= 1)) return {};
   for (const std::size_t i : rows) {
     curve.weights(loads[i].pressure, values);
     Sample& sample = samples[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,7 +51,7 @@ class Simulation {
               std::vector<Sample>& samples, std::size_t& failed_at);
   Status interpolated(Path& path, const Path::Mark& trunk, std::span<const Load> loads,
                       std::span<const std::size_t> rows, std::size_t points, std::vector<Sample>& nodes,
-                      std::vector<Sample>& samples, std::size_t& failed_at, double& error);
+                      std::vector<Sample>& samples, std::size_t& failed_at, std::array<double, 3>& errors);
   Status take(Path& path, const Load& load, Sample& sample);
 
   Tube tube_;
