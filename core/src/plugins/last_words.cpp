@@ -183,7 +183,8 @@ class Inspection {
     for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
     for (Watched& one : watched_) look_at(one, now);
     memory_before_ = memory;
-    if (memory > limits_.memory) end_for_want_of_memory(memory);
+    if (memory > limits_.memory && was_over_) end_for_want_of_memory(memory, now);
+    was_over_ = memory > limits_.memory;  // the next look tells calls that stay from those that come and go
   }
   /// What grows to its limit in less than a second is looked at more often.
   [[nodiscard]] std::chrono::milliseconds heartbeat() const {
@@ -216,13 +217,13 @@ class Inspection {
   /// A call is to blame where half of the limit came while it lasted, and while no call of its kind into another plugin
   /// did. A search lasts as long as what it waits for, so a test comes before it, and a model before both. Work that
   /// needs so much without a plugin is not ended: it is told by std::bad_alloc.
-  void end_for_want_of_memory(double memory) {
+  void end_for_want_of_memory(double memory, Clock::time_point now) {
     std::vector<Sight> suspects;
     bool inside = false;
     for (const Watched& one : watched_) {
       if (!is_in_plugin(*one.thread)) continue;
       inside = true;
-      if (memory - one.memory < 0.5 * limits_.memory) continue;
+      if (one.since == now || memory - one.memory < 0.5 * limits_.memory) continue;
       const auto call = sight_of(*one.thread, one.entered);
       if (!call || (!suspects.empty() && call->kind < suspects.front().kind)) continue;
       if (!suspects.empty() && call->kind > suspects.front().kind) suspects.clear();
@@ -260,6 +261,7 @@ class Inspection {
 
   CallWatch::Limits limits_;
   double memory_before_ = resident_memory();  ///< bytes, at the last look
+  bool was_over_ = false;                     ///< the limit of memory, at the last look
   Seconds longest_{0};                        ///< that a call has stayed, as far as it was seen
   std::vector<Watched> watched_;
 };
