@@ -66,18 +66,15 @@ struct VectorOf<8> {
 #define TUNICA_TWO_(function, width, level, instructions)                                                            \
   TUNICA_VECTOR_FUNCTION_(function, width, level "vv", instructions, (VectorOf<width>::Type, VectorOf<width>::Type), \
                           (x, y), const VectorOf<width>::Type& x, const VectorOf<width>::Type& y)
-// With the instructions of the kernels of that level. They call it.
-#define TUNICA_AVX512_ "avx2,fma,avx512f,avx512dq,avx512vl,prefer-vector-width=512"
 TUNICA_ONE_(exp, 2, "bN2", "sse2")
-TUNICA_ONE_(exp, 4, "dN4", "avx2,fma")
-TUNICA_ONE_(exp, 8, "eN8", TUNICA_AVX512_)
+TUNICA_ONE_(exp, 4, "dN4", "avx2")
+TUNICA_ONE_(exp, 8, "eN8", "avx512f")
 TUNICA_ONE_(log, 2, "bN2", "sse2")
-TUNICA_ONE_(log, 4, "dN4", "avx2,fma")
-TUNICA_ONE_(log, 8, "eN8", TUNICA_AVX512_)
+TUNICA_ONE_(log, 4, "dN4", "avx2")
+TUNICA_ONE_(log, 8, "eN8", "avx512f")
 TUNICA_TWO_(pow, 2, "bN2", "sse2")
-TUNICA_TWO_(pow, 4, "dN4", "avx2,fma")
-TUNICA_TWO_(pow, 8, "eN8", TUNICA_AVX512_)
-#undef TUNICA_AVX512_
+TUNICA_TWO_(pow, 4, "dN4", "avx2")
+TUNICA_TWO_(pow, 8, "eN8", "avx512f")
 #undef TUNICA_TWO_
 #undef TUNICA_ONE_
 #undef TUNICA_VECTOR_FUNCTION_
