@@ -15,9 +15,9 @@ namespace {
 /// derivatives once it is accepted, block by block; all of these are one evaluation of the problem. At bounds it looks
 /// at a shorter step, too, and may come back. The Jacobian is always taken along: most trial points are accepted, and
 /// exact Jacobians cost half an evaluation or less.
-class LastPoint {
+class LastPoints {
  public:
-  LastPoint(Problem& problem, Descent& descent) : problem_(problem), descent_(descent) {
+  LastPoints(Problem& problem, Descent& descent) : problem_(problem), descent_(descent) {
     for (Point* point : {&last_, &before_}) {
       point->residuals.resize(problem.residual_count());
       point->jacobian.resize(problem.residual_count() * problem.dimension());
@@ -62,7 +62,7 @@ class LastPoint {
 
 class BlockCost : public ceres::CostFunction {
  public:
-  BlockCost(LastPoint& last, const ResidualBlock& block, std::size_t n) : last_(last), block_(block), n_(n) {
+  BlockCost(LastPoints& last, const ResidualBlock& block, std::size_t n) : last_(last), block_(block), n_(n) {
     set_num_residuals(static_cast<int>(block.size));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(n));
   }
@@ -76,7 +76,7 @@ class BlockCost : public ceres::CostFunction {
   }
 
  private:
-  LastPoint& last_;
+  LastPoints& last_;
   const ResidualBlock block_;
   const std::size_t n_;
 };
@@ -159,7 +159,7 @@ Descent::End end_of(const ceres::Solver::Summary& summary, const Problem& proble
 }
 
 /// The coordinates whose bound the objective pushes against at the descent's point, by the sign of its derivative.
-std::vector<int> held_by_bounds(const Problem& problem, LastPoint& last, const Descent& descent) {
+std::vector<int> held_by_bounds(const Problem& problem, LastPoints& last, const Descent& descent) {
   const bool inside = std::ranges::all_of(descent.x, [](double value) { return value > 0 && value < 1; });
   if (inside || !last.move_to(descent.x)) return {};
   const std::size_t n = problem.dimension();
@@ -190,7 +190,7 @@ Descent descend_in_box(Problem& problem, std::span<const double> x, int& iterati
   const std::size_t n = problem.dimension();
   Descent descent{.x = {x.begin(), x.end()}};
   if (problem.should_stop()) return descent;
-  LastPoint last(problem, descent);
+  LastPoints last(problem, descent);
   std::vector<int> held;
   for (int round = 0; round < 20 && iterations > 0; ++round) {
     const double before = descent.objective;
