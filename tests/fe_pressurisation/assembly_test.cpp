@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "assembly.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "kernel.hpp"
+#include "support/tensors_only.hpp"
 
 namespace tunica::testing::assembly_test {
 namespace {
@@ -134,6 +136,37 @@ TEST_P(FiniteElementAssembly, ChangesByParametersAndThicknessMatchDifferences) {
       EXPECT_NEAR(found, expected, 1e-8 * std::abs(expected)) << j << ", " << k;
     }
   }
+}
+
+/// A model whose derivatives by its first parameter are no numbers.
+class Spoiled final : public TensorsOnly {
+ public:
+  using TensorsOnly::TensorsOnly;
+  Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    Status status = TensorsOnly::evaluate(points, response);
+    if (!response.stress_dp.empty()) std::fill_n(response.stress_dp.begin(), 6 * points.count, std::nan(""));
+    return status;
+  }
+  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return {}; }
+};
+
+/// It may be held: then nobody asks for them.
+TEST_P(FiniteElementAssembly, WhatIsNoNumberStaysWithItsParameter) {
+  const fe::State state = disturbed(solver, 0.1, 20, 4);
+  const TensorsOnly sound(make_model(is.model));
+  const Spoiled spoiled(make_model(is.model));
+  const auto changes_of = [&](const Model& of) {
+    fe::State residual;
+    fe::Changes changes;
+    EXPECT_TRUE(assembly->multiply(fe::Material(of, is.parameters), state, pressure, {}, {}, residual, &changes).ok());
+    return changes.force;
+  };
+  const std::vector<double> expected = changes_of(sound), found = changes_of(spoiled);
+  ASSERT_EQ(found.size(), expected.size());
+  const std::size_t each = state.x.size();
+  EXPECT_TRUE(std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(each),
+                          [](double value) { return std::isnan(value); }));
+  for (std::size_t i = each; i < found.size(); ++i) EXPECT_EQ(found[i], expected[i]) << i;
 }
 
 /// K y − G h and Gᵀ y are differences of ∂Π/∂x and c, and what comes with them is ∂Π/∂x and c.

@@ -72,6 +72,7 @@ class Row {
   void deform();
   void integrate_lanes(bool sees_shear, bool tangent, double& stiffness);
   void interpolate(std::size_t g, std::span<const double> nodes, std::span<double> f) const;
+  auto lanes_at(std::size_t g) const;
   void stress(std::size_t g, bool sees_shear);
   void moduli(std::size_t g, bool sees_shear, double& stiffness);
   void add_shear(std::size_t g);

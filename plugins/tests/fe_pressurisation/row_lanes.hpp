@@ -51,6 +51,25 @@ void Row<Order>::interpolate(std::size_t g, std::span<const double> nodes, std::
   }
 }
 
+/// f, twice the derivatives of W by C without shear, the pressure and dV, of the lanes of Gauss point g.
+template <std::size_t Order>
+auto Row<Order>::lanes_at(std::size_t g) const {
+  struct Lane {
+    double f0, f1, f2, f3, f4, wt, wz, wr, q, dV;
+  };
+  return [
+    at = f.data() + g * n_, w = first.data() + g * n_, R = measure_.data() + g * n_, modes = q_.data(), all = ng * n_,
+    n = n_, weight = area(g), xi = element_.xi[g], eta = element_.eta[g]
+  ](std::size_t e) __attribute__((always_inline)) {
+    double q = modes[e];
+    if constexpr (np == 3) q += xi * modes[n + e] + eta * modes[2 * n + e];
+    return Lane{at[e],           at[all + e],        at[2 * all + e],
+                at[3 * all + e], at[4 * all + e],    2 * w[e],
+                2 * w[all + e],  2 * w[2 * all + e], q,
+                weight * R[e]};
+  };
+}
+
 /// p at Gauss point g, times its weight.
 template <std::size_t Order>
 void Row<Order>::stress(std::size_t g, bool sees_shear) {
@@ -60,13 +79,11 @@ void Row<Order>::stress(std::size_t g, bool sees_shear) {
   double* __restrict__ const p = p_.data();
   const double weight = area(g);
   const double* __restrict__ const R = measure_.data() + g * n_;
+  const auto lane = lanes_at(g);
 #pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
-    const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
-    const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e];
-    double q = q_[e];
-    if constexpr (np == 3) q += element_.xi[g] * q_[n_ + e] + element_.eta[g] * q_[2 * n_ + e];
-    const double dV = weight * R[e], qf = q * f4;
+    const auto [f0, f1, f2, f3, f4, wt, wz, wr, q, dV] = lane(e);
+    const double qf = q * f4;
     // ∂C by f, and J = f4 (f0 f3 − f1 f2)
     p[e] = dV * (wr * f0 - qf * f3);
     p[n_ + e] = dV * (wz * f1 + qf * f2);
@@ -89,20 +106,13 @@ void Row<Order>::stress(std::size_t g, bool sees_shear) {
 template <std::size_t Order>
 void Row<Order>::moduli(std::size_t g, bool sees_shear, double& stiffness) {
   const std::size_t all = ng * n_;
-  const double* __restrict__ const at = f.data() + g * n_;
-  const double* __restrict__ const w = first.data() + g * n_;
   const double* __restrict__ const h = second.data() + g * n_;
   double* __restrict__ const a = a_.data();
-  const double weight = area(g);
-  const double* __restrict__ const R = measure_.data() + g * n_;
   double* __restrict__ const modulus = scratch.data();
+  const auto lane = lanes_at(g);
 #pragma GCC ivdep
   for (std::size_t e = 0; e < n_; ++e) {
-    const double f0 = at[e], f1 = at[all + e], f2 = at[2 * all + e], f3 = at[3 * all + e], f4 = at[4 * all + e];
-    const double wt = 2 * w[e], wz = 2 * w[all + e], wr = 2 * w[2 * all + e];
-    double q = q_[e];
-    if constexpr (np == 3) q += element_.xi[g] * q_[n_ + e] + element_.eta[g] * q_[2 * n_ + e];
-    const double dV = weight * R[e];
+    const auto [f0, f1, f2, f3, f4, wt, wz, wr, q, dV] = lane(e);
     // ∂C_t/∂f = (0, 0, 0, 0, 2 f4), ∂C_z/∂f = (0, 2 f1, 0, 2 f3, 0), ∂C_r/∂f = (2 f0, 0, 2 f2, 0, 0)
     const double tt = 4 * h[e], zz = 4 * h[all + e], rr = 4 * h[2 * all + e], tz = 4 * h[3 * all + e],
                  zr = 4 * h[4 * all + e], tr = 4 * h[5 * all + e], qf = q * f4;
