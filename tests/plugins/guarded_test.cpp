@@ -36,6 +36,13 @@ TEST(Guarded, KeepsWrongInputApartFromBrokenPromises) {
             "plugin 'x 1' threw something that is not a std::exception");
 }
 
+TEST(Guarded, LackOfMemoryIsNoBrokenPromiseButASizeThatCannotBeIsOne) {
+  EXPECT_EQ(message_of<std::bad_alloc>([] { guarded("x 1", "create", [] { throw std::bad_alloc(); }); }),
+            "plugin 'x 1' failed: std::bad_alloc");
+  EXPECT_EQ(message_of<PluginFailure>([] { guarded("x 1", "create", [] { throw std::bad_array_new_length(); }); }),
+            "plugin 'x 1' failed: std::bad_array_new_length");
+}
+
 TEST(Guarded, ANullObjectIsABrokenPromise) {
   const Catalogue::Entry<ModelFactory> entry{
       {"gho", "", "", {}, [](const Options&) -> std::unique_ptr<Model> { return nullptr; }}, "gho 0.1.0"};

@@ -22,8 +22,6 @@ void translate(std::exception_ptr thrown) {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const InputError& problem) {
     raise("InputError", problem.what());
-  } catch (const plugins::MemoryLack& problem) {
-    PyErr_SetString(PyExc_MemoryError, problem.what());
   } catch (const plugins::PluginFailure& problem) {
     raise("PluginFailure", problem.what());
   } catch (const diagnosis::BaseFitFailure& problem) {

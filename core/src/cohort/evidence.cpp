@@ -13,7 +13,6 @@
 #include "diagnosis/evidence/base_fit.hpp"
 #include "execution/checksum.hpp"
 #include "execution/files.hpp"
-#include "plugins/guarded.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -84,8 +83,6 @@ void gather_evidence(const Specification& cohort, const Template& pattern, const
   } catch (const execution::WriteFailure&) {
     throw;
   } catch (const std::bad_alloc&) {  // says nothing of the specimen
-    throw;
-  } catch (const plugins::MemoryLack&) {
     throw;
   } catch (const std::exception& reason) {  // InputError, BaseFitFailure, and what plugins throw
     found = {{"problem", reason.what()}};

@@ -183,8 +183,6 @@ std::optional<Record> fit(const Specification& cohort, const Template& pattern, 
     throw;
   } catch (const std::bad_alloc&) {  // says nothing of the specimen
     throw;
-  } catch (const plugins::MemoryLack&) {
-    throw;
   } catch (const InputError& problem) {
     record.outcome = Outcome::unreadable;
     record.reason = problem.what();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <exception>
+#include <new>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,7 +54,7 @@ void add_parameters(const ModelInCatalogue& entry, const Options& options, std::
       if (std::none_of(parameters.begin(), parameters.end(),
                        [&](const Parameter& p) { return p.name == parameter.name; }))
         parameters.push_back(parameter);
-  } catch (const plugins::MemoryLack&) {
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {  // these options do not go together: no parameters to learn from them
   }

@@ -26,10 +26,15 @@ class PluginFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Memory was denied while a plugin had the word. Asked again, it may have enough.
-class MemoryLack : public PluginFailure {
+/// Memory was denied while a plugin had the word. Asked again, it may have enough: no bug of the plugin, and nothing
+/// that its object was asked about.
+class MemoryLack : public std::bad_alloc {
  public:
-  using PluginFailure::PluginFailure;
+  explicit MemoryLack(const std::string& words) : words_(words) {}
+  [[nodiscard]] const char* what() const noexcept override { return words_.what(); }
+
+ private:
+  std::runtime_error words_;  ///< copied without asking for memory
 };
 
 /// The host's own complaint, thrown through a plugin that called back into it: passed on as it is. Exit code 2.
@@ -59,6 +64,8 @@ std::invoke_result_t<Body> guarded(const std::string& plugin, const char* what, 
     throw;
   } catch (const InputError& problem) {
     throw InputError("plugin '" + plugin + "': " + problem.what());
+  } catch (const std::bad_array_new_length& problem) {  // a size that cannot be: this is a bug
+    throw PluginFailure("plugin '" + plugin + "' failed: " + problem.what());
   } catch (const std::bad_alloc& problem) {
     throw MemoryLack("plugin '" + plugin + "' failed: " + problem.what());
   } catch (const std::exception& problem) {

@@ -2,6 +2,7 @@
 #include "uncertainty/refit.hpp"
 
 #include <algorithm>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -130,7 +131,7 @@ Refit refit(const assembly::Assembly& assembly, const RefitObjective& target, co
                              optimizer.plugin->plugin, "minimise", [&] { return solver->minimise(problem); }, seed)
                              .converged;
     }
-  } catch (const plugins::MemoryLack&) {
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& broken) {
     result.status = Status::failed(broken.what());

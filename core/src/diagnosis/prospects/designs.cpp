@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -176,7 +177,7 @@ std::vector<Design> designs(const Inquiry& inquiry, const Evidence& evidence, co
     Design design{plan.description, {}, {}, {}};
     try {
       design.test = plugins::create(type->second, setup);
-    } catch (const plugins::MemoryLack&) {
+    } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {
       continue;  // a type that wants more than this library knows of
