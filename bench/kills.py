@@ -7,8 +7,8 @@
     bench/kills.py TUNICA --minutes 20 --seed 3
 
 Signals are -9, TERM and INT, a third each. Work is started, killed and gone on with until it comes to its end; then its
-numbers must be those of the work that was left alone, to the last bit. A start that is refused with words counts apart:
-it is followed by one in a new folder. Exit code 1: a result differs, or a process ended in a way that is not documented."""
+numbers must be those of the work that was left alone, to the last bit. Kills come at random, on average a quarter of the
+work's length apart. A start that is refused with words counts apart: it is followed by one in a new folder. Exit code 1: a result differs, or a process ended in a way that is not documented."""
 import argparse
 import collections
 import pathlib
@@ -25,6 +25,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests/c
 from work import call, differing, program, work_of  # noqa: E402
 
 SIGNALS = {"KILL": signal.SIGKILL, "TERM": signal.SIGTERM, "INT": signal.SIGINT}
+MOST_KILLS = 20  # of one piece of work, for kills in quick succession leave no time to get on
 KINDS = ["calibration", "cohort", "discovery", "diagnosis"]
 
 
@@ -47,8 +48,11 @@ class Campaign:
         """Starts the work and kills it after a while; None where it was quicker. Else its exit code and words."""
         process = subprocess.Popen(program(self.executable, *words), cwd=self.folder, text=True, errors="replace",
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(self.draw.uniform(0, self.seconds))
-        name = self.draw.choice(sorted(SIGNALS))
+        wait, name = self.draw.expovariate(4 / self.seconds), self.draw.choice(sorted(SIGNALS))
+        try:
+            process.wait(wait)
+        except subprocess.TimeoutExpired:
+            pass
         alive = process.poll() is None
         if alive:
             process.send_signal(SIGNALS[name])
@@ -66,7 +70,7 @@ class Campaign:
         """From a first start to the end, with kills on the way."""
         shutil.rmtree(self.folder / "out", ignore_errors=True)
         code = self.killed(self.work.start)
-        for _ in range(self.draw.randint(0, 3)):
+        for _ in range(MOST_KILLS):
             if code == 0:
                 break
             code = self.killed(self.words())

@@ -2,6 +2,7 @@
 #include "calibration/calibrate.hpp"
 
 #include <algorithm>
+#include <future>
 #include <system_error>
 #include <utility>
 
@@ -116,12 +117,23 @@ struct TemporaryFile {
 };
 
 /// The fresh process knows the experiment and the best points, nothing else.
-void certify(const std::filesystem::path& directory, const Options& options, comparison::Summary& summary) {
-  if (!options.certify) return comparison::add_certificates("", "--no-certificate was given", summary);
+Certified certified(const std::filesystem::path& directory, const Options& options,
+                    const comparison::Summary& summary) {
+  if (!options.certify) return {"", "--no-certificate was given"};
   const TemporaryFile points(directory / "best_points.json");
   execution::write_atomically(points.path, comparison::best_points_json(summary));
-  const Certified certified = options.certify(directory, points.path);
-  comparison::add_certificates(certified.answer, certified.missing, summary);
+  return options.certify(directory, points.path);
+}
+
+/// The fresh process works beside the tables, where there is a thread for it.
+void write_tables_and_certify(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
+                              const std::filesystem::path& directory, const Options& options,
+                              comparison::Summary& summary) {
+  auto certificate = std::async(options.threads > 1 ? std::launch::async : std::launch::deferred,
+                                [&] { return certified(directory, options, summary); });
+  write_tables(plan, results, directory, summary);
+  const Certified found = certificate.get();
+  comparison::add_certificates(found.answer, found.missing, summary);
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
@@ -142,8 +154,7 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
   if (options.merge)  // the searches were others'
     if (auto level = execution::vector_level_of(outcome.directory); !level.empty())
       outcome.provenance.vector_level = std::move(level);
-  write_tables(plan, found, outcome.directory, outcome.summary);
-  certify(outcome.directory, options, outcome.summary);
+  write_tables_and_certify(plan, found, outcome.directory, options, outcome.summary);
   analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);
   if (execution::InterruptWatch::interrupted()) {
     outcome.ending = Outcome::Ending::interrupted;

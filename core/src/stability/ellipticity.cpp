@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stability/ellipticity.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,34 +17,44 @@ constexpr std::size_t points_a_path = 25, direction_count = 300;
 constexpr std::array<std::array<std::size_t, 3>, 3> position{
     {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};  // of (I, K) in tt … tr
 
-/// A Fibonacci spiral over the upper half of the sphere, and the axes themselves.
-std::vector<Eigen::Vector3d> directions() {
-  std::vector<Eigen::Vector3d> found{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+/// Directions n with an orthonormal frame e1, e2 of the plane normal to each: a Fibonacci spiral over the upper half of
+/// the sphere, and the axes themselves. Rows of the tables hold the products of their components that belong to tt …
+/// tr.
+struct Directions {
+  using Table = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+  std::vector<std::array<Eigen::Vector3d, 3>> frames;  ///< n, e1, e2
+  Table normal, first, second;                         ///< n ⊗ n, e1 ⊗ n, e2 ⊗ n
+};
+
+/// a ⊗ b in such a row, so that it times the components of a symmetric tensor is their contraction.
+Eigen::Matrix<double, 1, 6> row_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      row[static_cast<int>(position[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)])] += a[i] * b[k];
+  return row;
+}
+
+Directions spread_directions() {
+  std::vector<Eigen::Vector3d> normals{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   for (std::size_t k = 0; k < direction_count; ++k) {
     const double z = (static_cast<double>(k) + 0.5) / direction_count;
     const double r = std::sqrt(1 - z * z), angle = golden * static_cast<double>(k);
-    found.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+    normals.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+  }
+  Directions found;
+  const auto count = static_cast<Eigen::Index>(normals.size());
+  for (Directions::Table* table : {&found.normal, &found.first, &found.second}) table->resize(count, 6);
+  for (const Eigen::Vector3d& n : normals) {
+    const auto row = static_cast<Eigen::Index>(found.frames.size());
+    const Eigen::Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+    found.frames.push_back({n, e1, e2});
+    found.normal.row(row) = row_of(n, n);
+    found.first.row(row) = row_of(e1, n);
+    found.second.row(row) = row_of(e2, n);
   }
   return found;
-}
-
-/// Q(n) at one point; `S` and `tangent` hold its six and thirty-six components.
-Eigen::Matrix3d acoustic_tensor(const std::array<double, 3>& F, const std::array<double, 6>& S,
-                                const std::array<double, 36>& tangent, const Eigen::Vector3d& n) {
-  // With diagonal F and N = Fᵀ n:  Q_ij = δ_ij N·S N + F_i F_j N_K N_L ℂ_iKjL
-  const Eigen::Vector3d N(F[0] * n[0], F[1] * n[1], F[2] * n[2]);
-  double along = 0;
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t b = 0; b < 3; ++b) along += N[static_cast<int>(a)] * S[position[a][b]] * N[static_cast<int>(b)];
-  Eigen::Matrix3d Q = along * Eigen::Matrix3d::Identity();
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = 0; l < 3; ++l)
-          Q(static_cast<int>(i), static_cast<int>(j)) += F[i] * F[j] * N[static_cast<int>(k)] * N[static_cast<int>(l)] *
-                                                         tangent[6 * position[i][k] + position[j][l]];
-  return Q;
 }
 
 struct Weakest {
@@ -53,23 +64,41 @@ struct Weakest {
 
 /// Over all directions; none where the response is not finite.
 std::optional<Weakest> weakest_at(const Model& model, std::span<const double> parameters, const Deformation& at) {
-  static const std::vector<Eigen::Vector3d> spread = directions();
+  static const Directions spread = spread_directions();
   std::array<double, 6> C{}, S;
   std::array<double, 36> tangent;
-  for (std::size_t a = 0; a < 3; ++a) C[a] = at.stretch[a] * at.stretch[a];
+  const auto& F = at.stretch;
+  for (std::size_t a = 0; a < 3; ++a) C[a] = F[a] * F[a];
   if (!model.evaluate({1, C, parameters, {}, {}}, {{}, S, tangent, {}, {}}).ok()) return std::nullopt;
-  Weakest found;
-  for (const Eigen::Vector3d& n : spread) {
-    const Eigen::Matrix3d Q = acoustic_tensor(at.stretch, S, tangent, n);
-    const Eigen::Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
-    Eigen::Matrix2d plane;
-    plane << e1.dot(Q * e1), e1.dot(Q * e2), e2.dot(Q * e1), e2.dot(Q * e2);
-    if (!plane.allFinite()) return std::nullopt;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
-    if (eigen.eigenvalues()[0] >= found.value) continue;
-    found = {eigen.eigenvalues()[0], n, eigen.eigenvectors()(0, 0) * e1 + eigen.eigenvectors()(1, 0) * e2};
+  // Pushed forward by the diagonal F:  σ_ik = F_i F_k S_IK,  c_ikjl = F_i F_k F_j F_l ℂ_IKJL
+  std::array<double, 6> forward;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = i; k < 3; ++k) forward[position[i][k]] = F[i] * F[k];
+  Eigen::Matrix<double, 6, 1> stress;
+  Eigen::Matrix<double, 6, 6> stiffness;
+  for (std::size_t p = 0; p < 6; ++p) {
+    stress[static_cast<int>(p)] = forward[p] * S[p];
+    for (std::size_t q = 0; q < 6; ++q)
+      stiffness(static_cast<int>(p), static_cast<int>(q)) = forward[p] * forward[q] * tangent[6 * p + q];
   }
-  return found;
+  // In the plane normal to n, e_a·Q(n) e_b = (n·σ n) δ_ab + (e_a ⊗ n) : c : (e_b ⊗ n).
+  const Directions::Table first = spread.first * stiffness, second = spread.second * stiffness;
+  const Eigen::ArrayXd along = spread.normal * stress;
+  const Eigen::ArrayXd aa = along + first.cwiseProduct(spread.first).rowwise().sum().array();
+  const Eigen::ArrayXd ab = first.cwiseProduct(spread.second).rowwise().sum();
+  const Eigen::ArrayXd bb = along + second.cwiseProduct(spread.second).rowwise().sum().array();
+  const Eigen::ArrayXd least = 0.5 * (aa + bb) - (0.25 * (aa - bb).square() + ab.square()).sqrt();
+  if (!least.allFinite()) return std::nullopt;
+  // Of directions that are alike the first one.
+  const double alike = 1e-12 * (aa.abs() + bb.abs()).maxCoeff();
+  const double lowest = least.minCoeff();
+  const auto weakest = static_cast<Eigen::Index>(
+      std::find_if(least.begin(), least.end(), [&](double value) { return value <= lowest + alike; }) - least.begin());
+  Eigen::Matrix2d plane;
+  plane << aa[weakest], ab[weakest], ab[weakest], bb[weakest];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(plane);
+  const auto& [n, e1, e2] = spread.frames[static_cast<std::size_t>(weakest)];
+  return Weakest{least[weakest], n, eigen.eigenvectors()(0, 0) * e1 + eigen.eigenvectors()(1, 0) * e2};
 }
 
 }  // namespace
