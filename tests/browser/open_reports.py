@@ -3,7 +3,7 @@
 making.py), of a diagnosis with a named cause, of a tie, of nothing detected, of profiles and bootstrap, of fields, of 100
 realisations of four optimisers, of several folders, and of hostile names. Every chart is drawn, nothing on the console, no
 request but for the file itself, values under pointer and keys, legend, zoom and saving at work, names inert. What was
-measured is printed; screenshots are kept in OUTPUT/screenshots."""
+measured is printed. With --pictures there is one of every report, wide and light, narrow and dark, in OUTPUT/screenshots."""
 import argparse
 import pathlib
 import sys
@@ -19,7 +19,8 @@ def look_at(browser, file, name, pictures):
         figures, milliseconds = check_drawn(browser, file)
         wide = browser.run("return document.documentElement.scrollWidth")
         assert wide <= width, f"{file}: {wide} px wide on a screen of {width}"
-        browser.screenshot(pictures / f"{name}_{width}_{scheme}.png")
+        if pictures:
+            browser.screenshot(pictures / f"{name}_{width}_{scheme}.png")
         if width == 1280:
             first = browser.run("return document.documentElement.dataset.first") or milliseconds
             said = f"{name}: {figures} charts of {check_each_kind(browser, file)} kinds in {milliseconds} ms, the first screen in {first}"
@@ -33,6 +34,7 @@ def main():
     parser.add_argument("--generator")
     parser.add_argument("--source", type=pathlib.Path, required=True)
     parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--pictures", action="store_true", help="keep a picture of every report, for people")
     options = parser.parse_args()
     if not available():
         print("skipped: no browser; apt-get install chromium chromium-driver")
@@ -42,7 +44,7 @@ def main():
     files = making.reports(options, options.output.resolve())
     with Browser(downloads.resolve()) as browser:
         for file in files:
-            look_at(browser, file, file.parent.name if file.name == "report.html" else file.stem, pictures)
+            look_at(browser, file, file.parent.name if file.name == "report.html" else file.stem, options.pictures and pictures)
         browser.look(1280, "light")
         lamb = options.output.resolve() / "lamb_aorta/report.html"
         check_use(browser, lamb, downloads)
