@@ -238,68 +238,58 @@ class Result(Folder):
                           *(f"  {run!r}" for run in self.runs.values())])
 
 
-class Diagnosis(Folder):
-    """What tunica.diagnose() found."""
+class Judgement(Folder):
+    """What tunica.diagnose() and tunica.discover() have in common."""
+
+    _found = ""  # its key in result.json
 
     @property
     def verdict(self):
-        """The code of the verdict, for example "clean", "named" or "unknown"; docs/diagnosis.md lists them."""
-        return self.json["diagnosis"]["verdict"]
+        """The code of the verdict, for example "clean", "named" or "discovered"; docs/diagnosis.md and docs/discovery.md
+        list them."""
+        return self.json[self._found]["verdict"]
 
     @property
     def reasons(self):
-        """Why, in sentences."""
-        return self.json["diagnosis"]["reasons"]
+        """Why: sentences of a diagnosis, dictionaries with code and text of a discovery."""
+        return self.json[self._found]["reasons"]
+
+    @property
+    def extended(self):
+        """The path of the experiment with what was found added, which run() takes, or None."""
+        file = self.directory / "extended.json"
+        return file if file.exists() else None
+
+    @property
+    @_once
+    def residuals(self):
+        return self.table("residuals")
+
+
+class Diagnosis(Judgement):
+    """What tunica.diagnose() found."""
+
+    _found = "diagnosis"
 
     @property
     def causes(self):
         """The causes that are named, each a dictionary with id, probability and amplitude."""
         return self.json["diagnosis"]["causes"]
 
-    @property
-    def extended(self):
-        """The path of the experiment with the causes added, which run() takes, or None."""
-        file = self.directory / "extended.json"
-        return file if file.exists() else None
-
-    @property
-    @_once
-    def residuals(self):
-        return self.table("residuals")
-
     def __repr__(self):
         causes = ", ".join(cause["id"] for cause in self.causes) or "none named"
         return f"<tunica.Diagnosis '{self.name}' in {self.directory}: {self.verdict}; causes: {causes}>"
 
 
-class Discovery(Folder):
+class Discovery(Judgement):
     """What tunica.discover() found."""
 
-    @property
-    def verdict(self):
-        """The code of the verdict, for example "discovered"; docs/discovery.md lists them."""
-        return self.json["discovery"]["verdict"]
-
-    @property
-    def reasons(self):
-        """Why, each a dictionary with code and text."""
-        return self.json["discovery"]["reasons"]
+    _found = "discovery"
 
     @property
     def terms(self):
         """The terms of the energy, each a dictionary with name, invariant, law, probability, parameters and curve."""
         return self.json["discovery"]["terms"]
-
-    @property
-    def extended(self):
-        """The path of the experiment with the terms added, which run() takes, or None."""
-        file = self.directory / "extended.json"
-        return file if file.exists() else None
-
-    @property
-    @_once
-    def residuals(self):
-        return self.table("residuals")
 
     def __repr__(self):
         terms = ", ".join(term["name"] for term in self.terms) or "none"
