@@ -106,6 +106,7 @@ TEST(RigData, GivesStretchAndNominalStressFromForceAndDisplacement) {
     EXPECT_NEAR(strip.abscissae[0].second[row], stretch[row], 1e-15);
     EXPECT_NEAR(strip.channels[0].values[row], stress[row], 1e-12);
   }
+  EXPECT_TRUE(strip.rows().abscissae[0].from_elongation);
   EXPECT_EQ(strip.source_columns[1].second, (std::pair<std::string, std::string>{"stress", ""}));
 }
 
@@ -131,6 +132,9 @@ TEST(RigData, KnowsLengthStrainAreaAndGramsOfABalance) {
   const Dataset strain =
       read_strip("Strain [%],Force [mN]\n0,0\n20,100\n", {{"strain", "Strain"}, {"force", "Force"}}, request);
   EXPECT_DOUBLE_EQ(strain.abscissae[0].second[1], 1.2);
+  EXPECT_TRUE(strain.rows().abscissae[0].from_elongation);
+  EXPECT_FALSE(length.rows().abscissae[0].from_elongation);
+  EXPECT_FALSE(read_strip("stretch,stress [kPa]\n1,0\n1.2,3\n").rows().abscissae[0].from_elongation);
 }
 
 TEST(RigData, ReadsARowOfUnitsHeaderLinesAndDecimalCommas) {

@@ -77,18 +77,33 @@ TEST(AbscissaErrors, ActOnWallsOfSeveralModels) {
     EXPECT_EQ(property.check(simulation).counter_example, "") << property.name;
 }
 
-class ReferenceLength : public ::testing::TestWithParam<std::pair<const char*, int>> {};
+/// A measure, data = P m^power; and whether the machine recorded the elongation, so that its distance from 1 is wrong.
+struct Recorded {
+  const char* measure;
+  int power;
+  bool elongation;
+};
+
+class ReferenceLength : public ::testing::TestWithParam<Recorded> {
+ protected:
+  static Values truth(const Values& measured, double error) {
+    return corrected(measured, 1 + error, GetParam().elongation ? -error : 0);
+  }
+  static std::unique_ptr<Test> strip(const Values& measured, testing::StripSetup setup) {
+    setup.measure = GetParam().measure;
+    setup.from_elongation = GetParam().elongation;
+    return make_strip(measured, setup);
+  }
+};
 
 /// The force is P(true) whatever the stretch it is divided or multiplied by: σ = P m, S = P/m with the measured m.
 TEST_P(ReferenceLength, KeepsTheForceThatWasMeasured) {
-  const auto& [measure, power] = GetParam();
+  const int power = GetParam().power;
   constexpr double error = 0.04;
   const Values measured{1.02, 1.1, 1.3, 1.5};
   const std::vector<std::string> channels{"stress", "transverse_stretch"};
-  const auto test =
-      wrapped_test("reference_length_error", make_strip(measured, {.channels = channels, .measure = measure}));
-  const auto nominal =
-      make_strip(corrected(measured, 1 + error, 0), {.channels = channels, .measure = "first_piola_kirchhoff"});
+  const auto test = wrapped_test("reference_length_error", strip(measured, {.channels = channels}));
+  const auto nominal = make_strip(truth(measured, error), {.channels = channels, .measure = "first_piola_kirchhoff"});
   Values expected = values_of(*nominal, {0});
   for (std::size_t i = 0; i < measured.size(); ++i) expected[i] *= std::pow(measured[i], power);
   expect_near(values_of(*test, {0, error}), expected, 1e-9);
@@ -96,13 +111,12 @@ TEST_P(ReferenceLength, KeepsTheForceThatWasMeasured) {
 
 /// Models with memory give no exact derivatives, and the host differences what they predict.
 TEST_P(ReferenceLength, ServesModelsWithMemory) {
-  const auto& [measure, power] = GetParam();
+  const int power = GetParam().power;
   constexpr double error = 0.04;
   const Values measured{1.02, 1.3, 1.5, 1.1}, time{1, 2, 3, 4}, parameters{18.7, 24.9, 0.9, 46, 0.5, 0.4, 0.7, 3};
   const auto material = wrapped("viscoelasticity", wrapped("stress_softening", model("hgo")));
-  const auto test = wrapped_test("reference_length_error", make_strip(measured, {.measure = measure, .time = time}));
-  const auto nominal =
-      make_strip(corrected(measured, 1 + error, 0), {.measure = "first_piola_kirchhoff", .time = time});
+  const auto test = wrapped_test("reference_length_error", strip(measured, {.time = time}));
+  const auto nominal = make_strip(truth(measured, error), {.measure = "first_piola_kirchhoff", .time = time});
   Values expected = values_of(*nominal, {0}, *material, parameters);
   for (std::size_t i = 0; i < measured.size(); ++i) expected[i] *= std::pow(measured[i], power);
   expect_near(values_of(*test, {0, error}, *material, parameters), expected, 1e-9);
@@ -125,18 +139,21 @@ TEST_P(ReferenceLength, ServesModelsWithMemory) {
 
 TEST_P(ReferenceLength, HasExactDerivativesBesideErrorsOfTheForce) {
   const auto material = make_model("gho");
-  auto strip =
-      make_strip({1.02, 1.1, 1.3, 1.5}, {.channels = {"transverse_stretch", "stress"}, .measure = GetParam().first});
-  const auto test = wrapped_test("reference_length_error", wrapped_test("force_offset", std::move(strip)));
+  auto bare = strip({1.02, 1.1, 1.3, 1.5}, {.channels = {"transverse_stretch", "stress"}});
+  const auto test = wrapped_test("reference_length_error", wrapped_test("force_offset", std::move(bare)));
   const Simulation simulation{*test, *material, set_s, {2, 1.5, -0.03}, {}};
   for (const TestProperty& property : test_properties())
     EXPECT_EQ(property.check(simulation).counter_example, "") << property.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Measures, ReferenceLength,
-                         ::testing::Values(std::pair{"cauchy", 1}, std::pair{"first_piola_kirchhoff", 0},
-                                           std::pair{"second_piola_kirchhoff", -1}),
-                         [](const auto& at) { return std::string(at.param.first); });
+                         ::testing::Values(Recorded{"cauchy", 1, false}, Recorded{"first_piola_kirchhoff", 0, false},
+                                           Recorded{"second_piola_kirchhoff", -1, false}, Recorded{"cauchy", 1, true},
+                                           Recorded{"first_piola_kirchhoff", 0, true},
+                                           Recorded{"second_piola_kirchhoff", -1, true}),
+                         [](const auto& at) {
+                           return std::string(at.param.measure) + (at.param.elongation ? "_elongation" : "");
+                         });
 
 TEST(ReferenceLengthError, NeedsNoStress) {
   const auto test = wrapped_test("reference_length_error", make_strip({1.1, 1.3}, {.channels = {"normal_stretch"}}));

@@ -15,6 +15,7 @@ struct StripSetup {
   std::string measure = "cauchy";
   std::vector<double> time = {};
   double angle = 0;
+  bool from_elongation = false;
 };
 
 inline std::unique_ptr<Test> make_strip(const std::vector<double>& stretch, const StripSetup& strip = {}) {
@@ -22,7 +23,7 @@ inline std::unique_ptr<Test> make_strip(const std::vector<double>& stretch, cons
   setup.options.set("direction", strip.direction);
   setup.options.set("angle", strip.angle);
   setup.rows.count = stretch.size();
-  setup.rows.abscissae = {{"stretch", stretch}};
+  setup.rows.abscissae = {{"stretch", stretch, strip.from_elongation}};
   setup.rows.channels = strip.channels;
   setup.rows.time = strip.time;
   setup.stress_measure = strip.measure;

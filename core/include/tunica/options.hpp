@@ -65,7 +65,7 @@ struct Option {
 
   /// A whole number with a default. Read it with Options::integer(), or with Options::count() if it is a size.
   ///
-  /// In all five functions `doc` is one sentence, with a capital letter and a full stop.
+  /// In all six functions `doc` is one sentence, with a capital letter and a full stop.
   static Option integer(std::string name, std::int64_t fallback, Range range, std::string doc) {
     return {std::move(name), Kind::integer, fallback, std::move(doc), {}, range.least, range.largest};
   }
@@ -90,6 +90,13 @@ struct Option {
     Option option{std::move(name), Kind::choice, {}, std::move(doc)};
     if (fallback) option.fallback = std::move(*fallback);
     option.choices = std::move(choices);
+    return option;
+  }
+  /// Any JSON, as text; without a default the user must give it. The plugin reads it from Options::text() and throws
+  /// InputError.
+  static Option json(std::string name, std::optional<std::string> fallback, std::string doc) {
+    Option option{std::move(name), Kind::json, {}, std::move(doc)};
+    if (fallback) option.fallback = std::move(*fallback);
     return option;
   }
   /// Any text, with a default. The plugin checks it and throws InputError.

@@ -52,6 +52,9 @@ struct TestRows {
   struct Column {
     std::string observable;          ///< Observable::name
     std::span<const double> values;  ///< one a row
+    /// A stretch that was computed as 1 + a measured change of length over a gauge length, or from a strain. Where the
+    /// gauge length is wrong, its distance from 1 is, by that factor; else the stretch itself.
+    bool from_elongation = false;
   };
   /// n, the number of rows.
   std::size_t count = 0;

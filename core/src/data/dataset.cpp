@@ -85,7 +85,8 @@ std::pair<std::size_t, std::size_t> RowRange::among(std::size_t count) const {
 TestRows Dataset::rows() const {
   TestRows rows;
   rows.count = count;
-  for (const auto& [observable, values] : abscissae) rows.abscissae.push_back({observable, values});
+  for (const auto& [observable, values] : abscissae)
+    rows.abscissae.push_back({observable, values, std::ranges::find(elongations, observable) != elongations.end()});
   for (const Channel& channel : channels) rows.channels.push_back(channel.observable);
   rows.time = time;
   return rows;
@@ -138,6 +139,7 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
     dataset.source_columns.push_back(
         {observable.name, {column.derived ? observable.name : column.name, column.derived ? "" : column.unit}});
     if (observable.role == Observable::Role::abscissa) dataset.abscissae.emplace_back(observable.name, column.values);
+    if (column.elongation) dataset.elongations.push_back(observable.name);
     if (observable.role == Observable::Role::time) dataset.time = column.values;
     if (observable.role != Observable::Role::channel) continue;
     Channel channel{observable.name, observable.unit, column.values, {}, {}};

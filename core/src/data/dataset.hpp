@@ -74,6 +74,7 @@ struct Channel {
 struct Dataset {
   std::size_t count = 0;
   std::vector<std::pair<std::string, std::vector<double>>> abscissae;  ///< observable → values
+  std::vector<std::string> elongations;                                ///< abscissae from a displacement or a strain
   std::vector<double> time;                                            ///< empty = none
   std::vector<Channel> channels;
   bool ordered = false;            ///< the order of the rows is that of measurement: said so, or by time

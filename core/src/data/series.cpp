@@ -286,8 +286,10 @@ class Reader {
 
   void derive_stretches() {
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
-      if (has_length(k) || quantities_[k].kind == From::strain)
+      if (has_length(k) || quantities_[k].kind == From::strain) {
+        series_.columns[k].elongation = quantities_[k].kind != From::length;
         for (double& value : series_.columns[k].values) value = stretch(k, value);
+      }
   }
 
   /// The nominal stress is P = F/(width·thickness); in an incompressible specimen σ = Pλ and S = P/λ.

@@ -18,6 +18,7 @@ struct Series {
     std::string name, unit;      ///< as the header has them; unit "" where it has none
     std::vector<double> values;  ///< one per row
     bool derived = false;        ///< from another quantity in the column, with the sizes of the specimen
+    bool elongation = false;     ///< a stretch from a displacement or a strain
     double gauge_length = 0;     ///< mm, of a stretch from a length or a displacement; 0 = none
   };
   std::filesystem::path file;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors of what is prescribed: a pressure transducer not zeroed or with a wrong gain, true = measured + c or
-// (1 + γ) measured, and the length that the stretch of a strip refers to, true = (1 + ε) measured.
+// (1 + γ) measured, and the length that the stretch of a strip refers to: true = (1 + ε) measured where the machine
+// recorded the length, true − 1 = (1 + ε) (measured − 1) where it recorded the elongation.
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 
 Correction shifted(double c) { return {1, c, 0, 1}; }
 Correction scaled(double gamma) { return {1 + gamma, 0, 1, 0}; }
+Correction elongated(double epsilon) { return {1 + epsilon, -epsilon, 1, -1}; }
 
 std::size_t abscissa_named(const std::string& id, const std::string& name, const TestRows& rows) {
   if (const std::optional<std::size_t> index = abscissa_index(rows, name)) return *index;
@@ -23,7 +25,7 @@ std::size_t abscissa_named(const std::string& id, const std::string& name, const
 }
 
 /// A strip's stress was computed from a force that is right, and from the measured stretch m: σ = P m, S = P/m. With
-/// the true stretch λ = (1 + ε) m the data are P(λ) m = σ(λ)/(1 + ε) and P(λ)/m = (1 + ε) S(λ); P(λ) as it is.
+/// the true stretch λ = s m the data are P(λ) m = σ(λ)/s and P(λ)/m = s S(λ); P(λ) as it is.
 Where of_strip(const std::string& id, const Test& strip) {
   const TestRows& rows = strip.rows();
   Where where{.abscissa = abscissa_named(id, "stretch", rows)};
@@ -81,7 +83,10 @@ std::vector<MechanismFactory> factories() {
   MechanismFactory length = described(
       "reference_length_error", "The unloaded length of the strip was taken wrong: too long, or slack, or under load.",
       {"uniaxial"},
-      {"strain", "1", 0, -0.2, 0.2, Scale::linear, "True over measured stretch, less one; the force is kept.", ""},
+      {"strain", "1", 0, -0.2, 0.2, Scale::linear,
+       "True over measured stretch, less one; of a stretch that follows from a displacement or a strain, true over "
+       "measured elongation, less one. The force is kept.",
+       ""},
       0.1);
   length.look_alikes = {"force_scale_error", "specimen_misalignment", "force_offset"};
   length.isolated_by = "markers on the unloaded strip, or a second clamping";
@@ -89,7 +94,8 @@ std::vector<MechanismFactory> factories() {
   length.wrap_test = [id = length.id, amplitude = length.parameters.front()](std::unique_ptr<Test> base,
                                                                              const Options&) -> std::unique_ptr<Test> {
     const Where where = of_strip(id, *base);
-    return corrected(std::move(base), amplitude, scaled, where);
+    const bool elongation = base->rows().abscissae[where.abscissa].from_elongation;
+    return corrected(std::move(base), amplitude, elongation ? elongated : scaled, where);
   };
   return {offset, gain, length};
 }

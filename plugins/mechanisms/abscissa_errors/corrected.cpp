@@ -37,7 +37,8 @@ class CorrectedTest final : public DecoratedTest {
       // numbers are promised, it is asked twice, unless that is dear.
       if (amplitude != 0 || describe().costly) inner.abscissa_derivative = own_slopes;
     }
-    if (where_.power != 0 && output.values.empty() && !output.jacobian.empty()) {
+    const bool sloped = !output.jacobian.empty() || !output.abscissa_derivative.empty();
+    if (where_.power != 0 && output.values.empty() && sloped) {
       own_values.resize(size);
       inner.values = own_values;
     }
@@ -47,7 +48,7 @@ class CorrectedTest final : public DecoratedTest {
       inner.abscissa_derivative = own_slopes;
     }
     if (!output.jacobian.empty()) set_by_amplitude(input, amplitude, inner, own_jacobian(output));
-    if (amplitude != 0) recompute(amplitude, output);
+    if (amplitude != 0) recompute(input, amplitude, inner.values, output);
     return {};
   }
   Status agreement(const TestInput& input, std::vector<Agreement>& found) const override {
@@ -85,11 +86,12 @@ class CorrectedTest final : public DecoratedTest {
     TestOutput inner = output;
     inner.jacobian = base_jacobian(output);
     if (Status status = base().predict(corrected_input(input, memory), inner); !status.ok()) return status;
-    if (amplitude != 0) recompute(amplitude, output);
+    if (amplitude != 0) recompute(input, amplitude, inner.values, output);
     return difference_by_amplitude(input, own_jacobian(output));
   }
 
-  /// d(s^q v)/da = s^q ∂v/∂true ∂true/∂a + q s^{q−1} s' v, with the derivative of the base still by the true abscissa.
+  /// With s = true/measured,  d(s^q v)/da = s^q ∂v/∂true ∂true/∂a + q s^{q−1} ∂s/∂a v,  with the derivative of the base
+  /// still by the true abscissa.
   void set_by_amplitude(const TestInput& input, double amplitude, const TestOutput& inner,
                         std::span<double> column) const {
     const std::size_t n = rows().count, size = column.size();
@@ -97,25 +99,35 @@ class CorrectedTest final : public DecoratedTest {
     const std::span<const double> slopes = inner.abscissa_derivative.subspan(where_.abscissa * size, size);
     const std::span<const double> at = measured(input);
     for (std::size_t i = 0; i < size; ++i) {
-      column[i] = slopes[i] * (c.scale_slope * at[i % n] + c.shift_slope);
+      const double m = at[i % n];
+      column[i] = slopes[i] * (c.scale_slope * m + c.shift_slope);
       if (where_.power == 0 || i / n != where_.channel) continue;
-      const double factor = std::pow(c.scale, where_.power);
-      column[i] = factor * column[i] + where_.power * factor / c.scale * c.scale_slope * inner.values[i];
+      const double s = c.ratio(m), factor = std::pow(s, where_.power);
+      column[i] = factor * column[i] + where_.power * factor / s * c.ratio_slope(m) * inner.values[i];
     }
   }
 
-  /// What the base predicts, and its derivatives by its parameters, to the data's numbers: times s^q in the channel.
-  /// Derivatives by the abscissa become those by the measured one, times s.
-  void recompute(double amplitude, const TestOutput& output) const {
+  /// What the base predicts, `values`, and its derivatives by its parameters, to the data's numbers: times s^q in the
+  /// channel. Derivatives by the abscissa become those by the measured one, times ∂true/∂measured; and with ∂s by it.
+  void recompute(const TestInput& input, double amplitude, std::span<const double> values,
+                 const TestOutput& output) const {
     const std::size_t n = rows().count, size = prediction_count();
-    const Correction correction = error_(amplitude);
-    if (!output.abscissa_derivative.empty())
-      for (double& slope : output.abscissa_derivative.subspan(where_.abscissa * size, size)) slope *= correction.scale;
+    const Correction c = error_(amplitude);
+    const auto slopes = output.abscissa_derivative.empty()
+                            ? std::span<double>()
+                            : output.abscissa_derivative.subspan(where_.abscissa * size, size);
+    for (double& slope : slopes) slope *= c.scale;
     if (where_.power == 0) return;
-    const double factor = std::pow(correction.scale, where_.power);
-    for (const std::span<double> columns : {output.values, base_jacobian(output), output.abscissa_derivative})
-      for (std::size_t begin = where_.channel * n; begin < columns.size(); begin += size)
-        for (double& value : columns.subspan(begin, n)) value *= factor;
+    const std::span<const double> at = measured(input);
+    const std::size_t first = where_.channel * n;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double s = c.ratio(at[i]), factor = std::pow(s, where_.power);
+      const double by_measured =
+          slopes.empty() ? 0 : where_.power * factor / s * c.ratio_by_measured(at[i]) * values[first + i];
+      for (const std::span<double> columns : {output.values, base_jacobian(output), output.abscissa_derivative})
+        for (std::size_t k = first + i; k < columns.size(); k += size) columns[k] *= factor;
+      if (!slopes.empty()) slopes[first + i] += by_measured;
+    }
   }
 
   Error error_;

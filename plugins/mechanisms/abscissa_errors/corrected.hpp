@@ -14,10 +14,16 @@ namespace tunica::abscissa_errors {
 struct Correction {
   double scale = 1, shift = 0;
   double scale_slope = 0, shift_slope = 0;
+
+  /// True over measured, and its derivatives by the amplitude and by the measured one.
+  [[nodiscard]] double ratio(double measured) const { return scale + shift / measured; }
+  [[nodiscard]] double ratio_slope(double measured) const { return scale_slope + shift_slope / measured; }
+  [[nodiscard]] double ratio_by_measured(double measured) const { return -shift / (measured * measured); }
 };
 using Error = Correction (*)(double amplitude);
 
-/// Which column of the abscissae is wrong; and a channel that was computed with it: data = scale^power · prediction.
+/// Which column of the abscissae is wrong; and a channel that was computed with it: data = (true/measured)^power ·
+/// prediction.
 struct Where {
   std::size_t abscissa = 0;
   std::size_t channel = 0;

@@ -56,8 +56,7 @@ std::unique_ptr<Model> wrapped(std::unique_ptr<Model> base, const Options& optio
 }
 
 Option knots() {
-  Option option{"knots", Option::Kind::json, std::string("[]"),
-                "Of a spline: rising values of the invariant, the first 0."};
+  Option option = Option::json("knots", "[]", "Of a spline: rising values of the invariant, the first 0.");
   option.schema = Json{{"type", "array"}, {"items", {{"type", "number"}, {"minimum", 0}}}, {"maxItems", 14}}.dump();
   return option;
 }

@@ -15,11 +15,11 @@ std::unique_ptr<Model> create(const Options& options) { return energy_of(read_te
 }  // namespace
 
 TUNICA_PLUGIN("composed", TUNICA_PLUGIN_VERSION) {
-  Option terms{"terms", Option::Kind::json,
-               std::string(R"([{"name": "matrix", "invariant": "I1", "law": "linear"},)"
-                           R"( {"name": "fibres", "invariant": "fibre", "family": "diagonal",)"
-                           R"( "law": "exponential_square"}])"),
-               "List of terms: what each is a function of, and how it grows."};
+  Option terms = Option::json("terms",
+                              R"([{"name": "matrix", "invariant": "I1", "law": "linear"},)"
+                              R"( {"name": "fibres", "invariant": "fibre", "family": "diagonal",)"
+                              R"( "law": "exponential_square"}])",
+                              "List of terms: what each is a function of, and how it grows.");
   terms.schema = terms_schema();
   registry.add(ModelFactory{"composed",
                             "An energy put together in the experiment file, term by term: an invariant and a law each.",

@@ -143,19 +143,15 @@ static Option time_limit() {
 }
 
 std::vector<Option> options() {
-  const auto json = [](std::string name, std::optional<std::string> fallback, std::string doc) {
-    Option option{std::move(name), Option::Kind::json, {}, std::move(doc)};
-    if (fallback) option.fallback = std::move(*fallback);
-    return option;
-  };
   return {
-      json("command", {}, "List of the program and its arguments; {{name}} is a parameter there too."),
-      json("templates", "{}",
-           "Object: name in the scratch folder to a template, in which {{mu}}, {{mu MPa}}, {{card}} "
-           "and {{rows}} are filled in."),
-      json("files", "[]", "List of other files that the solver reads; each is linked into the scratch folder."),
-      json("results", {}, "Object: observable to the file and the column, JSON pointer or pattern of its numbers."),
-      json("card", "{}", "Object: \"program\", \"units\" and \"material\" of {{card}}."),
+      Option::json("command", {}, "List of the program and its arguments; {{name}} is a parameter there too."),
+      Option::json("templates", "{}",
+                   "Object: name in the scratch folder to a template, in which {{mu}}, {{mu MPa}}, {{card}} "
+                   "and {{rows}} are filled in."),
+      Option::json("files", "[]", "List of other files that the solver reads; each is linked into the scratch folder."),
+      Option::json("results", {},
+                   "Object: observable to the file and the column, JSON pointer or pattern of its numbers."),
+      Option::json("card", "{}", "Object: \"program\", \"units\" and \"material\" of {{card}}."),
       time_limit(),
       Option::integer("memory_limit", 0, {0, 1e7}, "Largest memory of a run in MiB; 0 sets no limit."),
       Option::integer("threads", 1, {1, 1024}, "Threads of a run, given to it as OMP_NUM_THREADS."),

@@ -263,11 +263,9 @@ std::vector<Option> options() {
           "element", {"quadrilateral_4", "quadrilateral_9"}, "quadrilateral_9",
           "Four-node elements with a constant pressure each, or nine-node ones with a linear pressure, which "
           "take a third of the time at the same error."),
-      {.name = "elements",
-       .kind = Option::Kind::json,
-       .fallback = std::string("null"),
-       .doc = "Numbers of elements, [radial, axial over half the length]; null means [8, 20], or [25, 100] of four "
-              "nodes."},
+      Option::json("elements", "null",
+                   "Numbers of elements, [radial, axial over half the length]; null means [8, 20], or [25, 100] of "
+                   "four nodes."),
       Option::number(
           "grading", 1.5, {1.0, 4.0},
           "Refinement towards the end: 1 is uniform; element k of n ends at 1 − (1 − k/n)^grading of half the "

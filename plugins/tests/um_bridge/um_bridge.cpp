@@ -201,18 +201,13 @@ Option time_limit() {
 }
 
 std::vector<Option> options() {
-  const auto json = [](std::string name, std::optional<std::string> fallback, std::string doc) {
-    Option option{std::move(name), Option::Kind::json, {}, std::move(doc)};
-    if (fallback) option.fallback = std::move(*fallback);
-    return option;
-  };
   return {
       Option::text("url", "http://127.0.0.1:4242", "Address of the server."),
       Option::text("model", "forward", "Name of the model on the server."),
-      json("config", "{}", "Object that is sent along with every request."),
-      json("inputs", {},
-           "List of lists of parameters by name, with a unit if it is not the base unit: [[\"mu MPa\"]]."),
-      json("outputs", {}, "Object: channel to {\"output\": 0, \"first\": 0, \"unit\": \"N\", \"factor\": 1}."),
+      Option::json("config", "{}", "Object that is sent along with every request."),
+      Option::json("inputs", {},
+                   "List of lists of parameters by name, with a unit if it is not the base unit: [[\"mu MPa\"]]."),
+      Option::json("outputs", {}, "Object: channel to {\"output\": 0, \"first\": 0, \"unit\": \"N\", \"factor\": 1}."),
       time_limit(),
       Option::choice("derivatives", {"server", "broyden", "forward", "central"}, "server",
                      "Actions of the server's Jacobian, where it has them; else differences as 'broyden'."),

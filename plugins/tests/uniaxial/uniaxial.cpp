@@ -108,7 +108,10 @@ class Uniaxial final : public Test {
                      : setup.stress_measure == "second_piola_kirchhoff" ? Measure::second_piola_kirchhoff
                                                                         : Measure::cauchy;
     for (const auto& column : setup.rows.abscissae)
-      if (column.observable == "stretch") strip_.stretch.assign(column.values.begin(), column.values.end());
+      if (column.observable == "stretch") {
+        strip_.stretch.assign(column.values.begin(), column.values.end());
+        rows_.abscissae = {column};
+      }
     strip_.time.assign(setup.rows.time.begin(), setup.rows.time.end());
     if (strip_.stretch.empty())
       throw InputError("uniaxial: no rows, or no column mapped to 'stretch'; map one in \"columns\"");
@@ -125,7 +128,7 @@ class Uniaxial final : public Test {
                                 : channel == "normal_stretch"   ? Channel::normal_stretch
                                                                 : Channel::stress);
     rows_.count = strip_.stretch.size();
-    rows_.abscissae = {{"stretch", strip_.stretch}};
+    rows_.abscissae.front().values = strip_.stretch;
     rows_.channels = setup.rows.channels;
     rows_.time = strip_.time;
     return strip_;
