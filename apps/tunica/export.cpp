@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -25,11 +26,19 @@ struct ExportOptions {
   std::optional<double> bulk_ratio;
 };
 
+/// A bare number is no density: in kg/m³ it would be meant as seldom as in the units of the card.
 double density_of(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc{} && end == text.data() + text.size())
+    throw InputError(
+        fmt::format("--density '{0}': found a number without a unit; give for example \"1000 kg/m3\", or "
+                    "\"{0} tonne/mm3\"",
+                    text));
   try {
     return data::parse_quantity(text, "kg/m3");
   } catch (const InputError& problem) {
-    throw InputError(fmt::format("--density '{}': {}; give for example \"1000 kg/m3\"", text, problem.what()));
+    throw InputError(fmt::format("--density '{}': {}", text, problem.what()));
   }
 }
 

@@ -75,7 +75,7 @@ void check_length(std::string& answer, const char* option) {
   try {
     length = data::parse_quantity(answer, "mm");
   } catch (const InputError& problem) {
-    throw InputError(fmt::format("{} is no length: {}; give for example 5mm", option, problem.what()));
+    throw InputError(fmt::format("{} is no length: {}", option, problem.what()));
   }
   if (!(length > 0)) throw InputError(fmt::format("{} {}: it must be greater than zero. Correct it", option, answer));
   if (answer.find_first_not_of("0123456789.+-eE ") != answer.npos) return;

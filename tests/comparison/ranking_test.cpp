@@ -74,3 +74,29 @@ TEST(Ranking, TellsObjectivesAndTestsApart) {
   EXPECT_EQ(comparison::group_of(one), "sum_of_norms on circ");
   EXPECT_NE(comparison::group_of(one), comparison::group_of(other));
 }
+
+TEST(Ranking, SaysWhereAnotherModelWithFewerParametersIsPreferred) {
+  const auto fitted = [](const char* model, double objective, double aicc) {
+    RunSummary summary = run("a", objective);
+    summary.model = model;
+    summary.label = std::string(model) + "/lm";
+    summary.information.emplace();
+    summary.information->aicc = aicc;
+    return summary;
+  };
+  const auto told = [](const std::vector<RunSummary>& runs) {
+    auto ranking = comparison::rank(runs);
+    comparison::compare_information(runs, ranking);
+    return comparison::preferences(runs, ranking);
+  };
+  const auto warnings = told({fitted("ogden", 1.0, 16.4), fitted("yeoh", 1.1, 10.0), fitted("gent", 2.0, 12.0)});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, execution::WarningKind::other_model_preferred);
+  EXPECT_EQ(warnings[0].run, "ogden/lm");
+  EXPECT_THAT(warnings[0].sentence, ::testing::HasSubstr("AICc prefers yeoh/lm by 6.4"));
+  EXPECT_TRUE(told({fitted("ogden", 1.0, 13.9), fitted("yeoh", 1.1, 10.0)}).empty()) << "hardly better";
+  EXPECT_TRUE(told({fitted("ogden", 1.0, 10.0), fitted("yeoh", 1.1, 30.0)}).empty());
+  std::vector<RunSummary> aimed{fitted("ogden", 1.0, 16.4), fitted("yeoh", 1.1, 10.0)};
+  for (auto& one : aimed) one.target = 2;
+  EXPECT_TRUE(told(aimed).empty()) << "ranked by success";
+}

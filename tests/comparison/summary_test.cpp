@@ -133,6 +133,21 @@ TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {
   EXPECT_EQ(std::count_if(summary.warnings.begin(), summary.warnings.end(), same), 1);
 }
 
+TEST(Summary, SaysFirstThatTheRowsScatterByFarLessThanTheStatedNoise) {
+  Summarised made;
+  made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();
+  made.laboratory.bench.experiment.tests.front().data.noise = {{"y", {1e6, 0, 0}}};
+  made.plan.emplace(made.laboratory.plan());
+  made.results[0].realisations = {made.realisation(1, {9, 1, 3})};
+  const auto summary = made.summarise();
+  ASSERT_TRUE(summary.runs[0].misfit);
+  EXPECT_TRUE(summary.runs[0].misfit->falls_short());
+  EXPECT_FALSE(summary.runs[0].misfit->contradicts());
+  EXPECT_EQ(summary.warnings.at(0).kind, execution::WarningKind::noise_too_large);
+  EXPECT_THAT(summary.warnings.at(0).text(), HasSubstr("times the stated noise: σ of 'y' of test 'curve' is 1e+06"));
+  EXPECT_THAT(summary.warnings.at(0).text(), HasSubstr("Correct the noise, or the unit of the data"));
+}
+
 TEST(Summary, SaysFirstThatAMisfitIsOutOfAllScale) {
   Summarised made;
   made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();

@@ -31,7 +31,7 @@ TEST(Checks, TellStrainFromStretch) {
   EXPECT_EQ(strip_refusal("stretch,stress [kPa]\n0,0\n0.1,1\n0.6,5\n"),
             "strip.csv, line 2, column 1 ('stretch'): 'stretch' begins at 0, so it looks like strain; expected "
             "stretch, which is 1 at rest. "
-            "Write stretch = 1 + strain.");
+            "Write stretch = 1 + strain, or map the column as \"strain\".");
   EXPECT_NE(strip_refusal("stretch [%],stress [kPa]\n0,0\n60,5\n").find("looks like strain"), std::string::npos);
 }
 

@@ -183,7 +183,8 @@ class Run:
         kg/m³, for febio and lsdyna. subroutine: a new file for Abaqus' UANISOHYPER_INV, which the card then calls. Raises
         InputError with the reason for what the program cannot express."""
         return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio,
-                                 "" if density is None else str(density), str(subroutine))
+                                 "" if density is None else density if isinstance(density, str) else f"{float(density)!r} kg/m3",
+                                 str(subroutine))
 
     def __repr__(self):
         if not self.found:

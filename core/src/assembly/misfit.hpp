@@ -10,6 +10,8 @@ namespace tunica::assembly {
 
 /// Misfit of this size and above matters: χ² per degree of freedom.
 constexpr double noticeable_misfit = 1.5;
+/// Misfit below this is too little: the rows scatter by less than half of the noise.
+constexpr double little_misfit = 0.25;
 /// Probability that a model that is right is said to contradict its noise.
 constexpr double misfit_false_alarm = 1e-3;
 
@@ -32,6 +34,11 @@ struct Misfit {
   /// The rows contradict model and noise together: `chance` below misfit_false_alarm, and a misfit that matters.
   [[nodiscard]] bool contradicts() const {
     return judged() && chance < misfit_false_alarm && per_freedom() > noticeable_misfit;
+  }
+  /// The rows scatter by less than they would by noise as it is stated: so small a χ² has a chance below
+  /// misfit_false_alarm, and a difference that matters.
+  [[nodiscard]] bool falls_short() const {
+    return judged() && noise_freedom == 0 && 1 - chance < misfit_false_alarm && per_freedom() < little_misfit;
   }
 };
 

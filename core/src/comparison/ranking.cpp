@@ -14,6 +14,10 @@ namespace tunica::comparison {
 
 namespace {
 
+/// So much AICc above the least, a model has little support (K. P. Burnham, D. R. Anderson, Model Selection and
+/// Multimodel Inference (2002), section 2.6).
+constexpr double hardly_supported = 4;
+
 /// 0: fits and keeps the constraints; 1: breaks one; 2: no result.
 int standing(const RunSummary& run) { return !run.has_result ? 2 : run.status.ok() ? 0 : 1; }
 
@@ -87,6 +91,26 @@ void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked
       continue;
     entry.delta_aicc = *run.information->aicc - least[run.group];
   }
+}
+
+std::vector<execution::Warning> preferences(const std::vector<RunSummary>& runs, const std::vector<Ranked>& ranking) {
+  std::vector<execution::Warning> warnings;
+  for (const Ranked& first : ranking) {
+    const RunSummary& run = runs[first.run];
+    if (first.rank != 1U || !first.delta_aicc || *first.delta_aicc < hardly_supported ||
+        ranked_by_success(runs, run.group))
+      continue;
+    const auto preferred = std::find_if(ranking.begin(), ranking.end(), [&](const Ranked& other) {
+      return other.delta_aicc == 0. && runs[other.run].group == run.group;
+    });
+    if (preferred == ranking.end()) continue;
+    warnings.push_back({execution::WarningKind::other_model_preferred,
+                        fmt::format("ranks first by its objective, and AICc prefers {} by {:.3g}: the parameters that "
+                                    "it has more cost more than they gain. Take {}, unless physics asks for them",
+                                    runs[preferred->run].label, *first.delta_aicc, runs[preferred->run].label),
+                        run.label});
+  }
+  return warnings;
 }
 
 }  // namespace tunica::comparison

@@ -23,4 +23,8 @@ std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 /// Where runs of a group fit different models: AICc above the least of the group.
 void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked>& ranking);
 
+/// After that: a warning where the first of a group has so many parameters that AICc clearly prefers another model. The
+/// order stays that of the objectives.
+std::vector<execution::Warning> preferences(const std::vector<RunSummary>& runs, const std::vector<Ranked>& ranking);
+
 }  // namespace tunica::comparison

@@ -159,7 +159,9 @@ std::string quality_text(const Quality& quality) {
 std::string misfit_text(const assembly::Misfit& misfit, const char* noise) {
   return fmt::format("χ²/ν {:.3g} (χ² {:.4g}, ν {:.4g}), {:.2g} times the {} noise{}", misfit.per_freedom(),
                      misfit.chi_square, misfit.freedom, misfit.times(), noise,
-                     misfit.contradicts() ? ": the model misses the data" : "");
+                     misfit.contradicts()   ? ": the model misses the data"
+                     : misfit.falls_short() ? ": the noise or a unit is wrong"
+                                            : "");
 }
 
 /// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.

@@ -189,6 +189,7 @@ json best(const RunSummary& run) {
   if (!run.notes.empty()) result["notes"] = run.notes;
   result["certificate"] = certificate(run.certificate);
   result["hold_out"] = hold_out(run.quality);
+  if (!run.identifiability.empty()) result["identifiability"] = run.identifiability;
   if (!run.uncertainty.empty()) result["uncertainty"] = run.uncertainty;
   if (run.bootstrap) result["bootstrap"] = {{"draws", run.bootstrap->made}, {"failed", run.bootstrap->failed}};
   return result;

@@ -174,11 +174,11 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
     const auto same = [&](const auto& other) { return other.text() == warning.text(); };
     if (std::none_of(all.begin(), all.end(), same)) all.push_back(warning);
   };
-  const auto own = warnings_of(plan, summary.runs);
+  const auto own = warnings_of(plan, summary.runs, summary.ranking);
   const auto first = [](const execution::Warning& warning) {
     using Kind = execution::WarningKind;
     constexpr std::array kinds{Kind::no_feasible_point, Kind::misfit_out_of_scale, Kind::no_misfit,
-                               Kind::noise_contradicted};
+                               Kind::noise_contradicted, Kind::noise_too_large};
     return std::find(kinds.begin(), kinds.end(), warning.kind) != kinds.end();
   };
   for (const auto& warning : own)

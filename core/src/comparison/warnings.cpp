@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "comparison/ranking.hpp"
 #include "text/lists.hpp"
 #include "text/units.hpp"
 
@@ -25,6 +26,19 @@ void warn_of_contradicted_noise(const execution::Plan& plan, const RunSummary& r
            "tunica diagnose {}",
            run.misfit->times(), run.misfit->chi_square, run.misfit->freedom, plan.experiment->file.filename().string()),
        run.label});
+}
+
+void warn_of_large_noise(const RunSummary& run, Warnings& warnings) {
+  if (!run.misfit || !run.misfit->falls_short()) return;
+  const Deviation& worst = *run.deviation;
+  const std::string unit = text::unit_suffix(worst.unit);
+  warnings.push_back({WarningKind::noise_too_large,
+                      fmt::format("the rows scatter by {:.2g} times the stated noise: σ of '{}' of test '{}' is "
+                                  "{:.3g}{}, and the measured values reach {:.3g}{}. Misfits can hide below it, and "
+                                  "intervals are too wide. Correct the noise, or the unit of the data",
+                                  run.misfit->times(), worst.channel, worst.test, worst.sd, unit, worst.largest, unit),
+                      run.label,
+                      {worst.test, worst.channel}});
 }
 
 /// A misfit that no measurement has says that data, units or noise are not what they are taken for.
@@ -56,6 +70,8 @@ void warn_of_scale(const RunSummary& run, Warnings& warnings) {
                                                       worst.channel, worst.test, scales)),
          run.label,
          {worst.test, worst.channel}});
+  else
+    warn_of_large_noise(run, warnings);
 }
 
 void warn_of_missing_result(const RunSummary& run, const std::string& reasons, Warnings& warnings) {
@@ -204,7 +220,8 @@ void warn_of_set_up(const execution::PlannedRun& planned, const RunSummary& run,
 
 }  // namespace
 
-std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs) {
+std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs,
+                                            const std::vector<Ranked>& ranking) {
   Warnings warnings;
   for (const auto& run : runs)
     if (!run.has_result) warn_of_missing_result(run, reasons_text(run), warnings);
@@ -213,6 +230,7 @@ std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const s
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_scale(run, warnings);
   for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
+  for (auto& warning : preferences(runs, ranking)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
   for (const auto& run : runs) warn_of_bounds(run, warnings);

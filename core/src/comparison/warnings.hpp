@@ -8,9 +8,10 @@
 
 namespace tunica::comparison {
 
-/// What nobody should overlook in these runs, the gravest first: noise that the misfit contradicts, runs
-/// without a result, broken constraints, parameters
-/// at their bounds, failed evaluations, stops that gave up determinism, runs that cannot be compared.
-std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs);
+/// What nobody should overlook in these runs, the gravest first: runs without a result, broken constraints, noise that
+/// the misfit contradicts, parameters at their bounds, failed evaluations, stops that gave up determinism, runs that
+/// cannot be compared.
+std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const std::vector<RunSummary>& runs,
+                                            const std::vector<Ranked>& ranking);
 
 }  // namespace tunica::comparison

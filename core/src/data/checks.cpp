@@ -26,7 +26,7 @@ void check_stretch(const Series& series, const Series::Column& column, std::vect
   if (from_zero && *low > -1 && *high <= 2)
     throw InputError(
         fmt::format("{}: '{}' begins at {}, so it looks like strain; expected stretch, which is 1 at rest. "
-                    "Write stretch = 1 + strain.",
+                    "Write stretch = 1 + strain, or map the column as \"strain\".",
                     series.place(0, column), column.name, column.values.front()));
   if ((from_zero && *high > 2) || (*high > largest_stretch && column.unit.empty()))
     throw InputError(

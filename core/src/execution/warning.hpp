@@ -14,6 +14,7 @@ enum class WarningKind {
   misfit_out_of_scale,
   no_misfit,
   noise_contradicted,
+  noise_too_large,
   no_result,
   no_feasible_point,
   not_repeatable,
@@ -34,6 +35,7 @@ enum class WarningKind {
   prior,
   held_out,
   not_comparable,
+  other_model_preferred,
   certificate_failed,
   objective_differs,
   not_an_optimum,
@@ -44,10 +46,11 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 31> warning_codes{
+inline constexpr text::Codes<WarningKind, 33> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
+     {WarningKind::noise_too_large, "noise_too_large"},
      {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
      {WarningKind::not_repeatable, "not_repeatable"},
@@ -68,6 +71,7 @@ inline constexpr text::Codes<WarningKind, 31> warning_codes{
      {WarningKind::prior, "prior"},
      {WarningKind::held_out, "held_out"},
      {WarningKind::not_comparable, "not_comparable"},
+     {WarningKind::other_model_preferred, "other_model_preferred"},
      {WarningKind::certificate_failed, "certificate_failed"},
      {WarningKind::objective_differs, "objective_differs"},
      {WarningKind::not_an_optimum, "not_an_optimum"},

@@ -83,7 +83,7 @@ void add_warnings(const Origin& origin, std::vector<std::string>& paragraphs) {
   for (const Json& warning : list(origin.result, "warning_details"))
     if (const std::string run = word(warning, "run"); run.empty() || run == word(origin.run, "run"))
       add(paragraphs, "Warning: " + word(warning, "sentence"));
-  for (const std::string& sentence : report::words(list(origin.result, "identifiability")))
+  for (const std::string& sentence : report::words(list(member(origin.run, "best"), "identifiability")))
     add(paragraphs, "Identifiability: " + sentence);
 }
 
