@@ -104,6 +104,22 @@ TEST(FitChart, LaysAChannelOverWhatTheResultSays) {
   EXPECT_EQ(charts(scratch)["fit_t_force"]["x"]["title"], "b");
 }
 
+TEST(ParameterChart, SaysWhereADotIsNotFixed) {
+  const trial::Scratch scratch;
+  const std::string loose = R"({"objective": 1, "covariance": {}, "parameters": {
+      "mu": {"value": 1, "unit": "kPa", "ci95": [0.9, 1.1], "at_bound": null, "min": 0, "max": 9},
+      "k2": {"value": 3, "unit": "1", "ci95": null, "at_bound": null, "min": 0, "max": 9},
+      "k3": {"value": 9, "unit": "1", "ci95": null, "at_bound": "upper", "min": 0, "max": 9}}})";
+  const std::string unknown =
+      R"({"objective": 2, "parameters": {"mu": {"value": 1}, "k2": {"value": 3}, "k3": {"value": 9}}})";
+  scratch.write("result.json", R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": )" + loose +
+                                   R"(}, {"run": "m/p", "model": "m", "optimizer": "p", "best": )" + unknown + "}]}");
+  const auto found = charts(scratch);
+  EXPECT_EQ(found.at("parameter_mu_m")["labels"], nlohmann::json({"m/o", "m/p"}));
+  EXPECT_EQ(found.at("parameter_k2_m")["labels"], nlohmann::json({"m/o, not fixed", "m/p"}));
+  EXPECT_EQ(found.at("parameter_k3_m")["labels"], nlohmann::json({"m/o", "m/p"})) << "the table says: at its bound";
+}
+
 TEST(SimulationChart, DrawsEveryCurveOfAFamilyOverItsOwnAbscissa) {
   const trial::Scratch scratch;
   scratch.write("t.csv", "l1 [1],l2 [1],p [kPa]\n1,1.3,1\n1.1,1.3,2\n1.2,1.3,3\n1,1.5,2\n1.1,1.5,3\n1.2,1.5,4\n");

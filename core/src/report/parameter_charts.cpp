@@ -86,13 +86,18 @@ Chart across_runs(const std::string& name, const std::vector<const Order::Run*>&
   for (std::size_t k = 0; k < kinds.size(); ++k) series[k] = {kinds[k].name, static_cast<int>(k), {}};
   for (const Order::Run* run : runs) {
     const Json& estimate = member(member(member(*run->run, "best"), "parameters"), name);
-    chart.labels.push_back(run->label);
     chart.x.title = text::titled(name, word(estimate, "unit"));
+    // A dot alone would look precise.
+    bool open =
+        member(member(*run->run, "best"), "covariance").is_object() && !member(estimate, "at_bound").is_string();
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto [low, high] = interval(estimate, kinds[k].key);
-      used[k] = used[k] || std::isfinite(low) || std::isfinite(high);
+      const bool known = std::isfinite(low) || std::isfinite(high);
+      used[k] = used[k] || known;
+      open = open && !known;
       series[k].rows.push_back({k == 0 || std::isfinite(low) ? number(estimate, "value") : NAN, low, high, ""});
     }
+    chart.labels.push_back(run->label + (open ? ", not fixed" : ""));
   }
   for (std::size_t k = 0; k < kinds.size(); ++k)
     if (used[k]) chart.rows.push_back(std::move(series[k]));
