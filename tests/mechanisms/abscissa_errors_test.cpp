@@ -84,17 +84,16 @@ struct Recorded {
   bool elongation;
 };
 
-class ReferenceLength : public ::testing::TestWithParam<Recorded> {
- protected:
-  static Values truth(const Values& measured, double error) {
-    return corrected(measured, 1 + error, GetParam().elongation ? -error : 0);
-  }
-  static std::unique_ptr<Test> strip(const Values& measured, testing::StripSetup setup) {
-    setup.measure = GetParam().measure;
-    setup.from_elongation = GetParam().elongation;
-    return make_strip(measured, setup);
-  }
-};
+Values truth(const Recorded& how, const Values& measured, double error) {
+  return corrected(measured, 1 + error, how.elongation ? -error : 0);
+}
+std::unique_ptr<Test> recorded(const Recorded& how, const Values& measured, StripSetup setup) {
+  setup.measure = how.measure;
+  setup.from_elongation = how.elongation;
+  return make_strip(measured, setup);
+}
+
+class ReferenceLength : public ::testing::TestWithParam<Recorded> {};
 
 /// The force is P(true) whatever the stretch it is divided or multiplied by: σ = P m, S = P/m with the measured m.
 TEST_P(ReferenceLength, KeepsTheForceThatWasMeasured) {
@@ -102,8 +101,9 @@ TEST_P(ReferenceLength, KeepsTheForceThatWasMeasured) {
   constexpr double error = 0.04;
   const Values measured{1.02, 1.1, 1.3, 1.5};
   const std::vector<std::string> channels{"stress", "transverse_stretch"};
-  const auto test = wrapped_test("reference_length_error", strip(measured, {.channels = channels}));
-  const auto nominal = make_strip(truth(measured, error), {.channels = channels, .measure = "first_piola_kirchhoff"});
+  const auto test = wrapped_test("reference_length_error", recorded(GetParam(), measured, {.channels = channels}));
+  const auto nominal =
+      make_strip(truth(GetParam(), measured, error), {.channels = channels, .measure = "first_piola_kirchhoff"});
   Values expected = values_of(*nominal, {0});
   for (std::size_t i = 0; i < measured.size(); ++i) expected[i] *= std::pow(measured[i], power);
   expect_near(values_of(*test, {0, error}), expected, 1e-9);
@@ -115,8 +115,9 @@ TEST_P(ReferenceLength, ServesModelsWithMemory) {
   constexpr double error = 0.04;
   const Values measured{1.02, 1.3, 1.5, 1.1}, time{1, 2, 3, 4}, parameters{18.7, 24.9, 0.9, 46, 0.5, 0.4, 0.7, 3};
   const auto material = wrapped("viscoelasticity", wrapped("stress_softening", model("hgo")));
-  const auto test = wrapped_test("reference_length_error", strip(measured, {.time = time}));
-  const auto nominal = make_strip(truth(measured, error), {.measure = "first_piola_kirchhoff", .time = time});
+  const auto test = wrapped_test("reference_length_error", recorded(GetParam(), measured, {.time = time}));
+  const auto nominal =
+      make_strip(truth(GetParam(), measured, error), {.measure = "first_piola_kirchhoff", .time = time});
   Values expected = values_of(*nominal, {0}, *material, parameters);
   for (std::size_t i = 0; i < measured.size(); ++i) expected[i] *= std::pow(measured[i], power);
   expect_near(values_of(*test, {0, error}, *material, parameters), expected, 1e-9);
@@ -139,7 +140,7 @@ TEST_P(ReferenceLength, ServesModelsWithMemory) {
 
 TEST_P(ReferenceLength, HasExactDerivativesBesideErrorsOfTheForce) {
   const auto material = make_model("gho");
-  auto bare = strip({1.02, 1.1, 1.3, 1.5}, {.channels = {"transverse_stretch", "stress"}});
+  auto bare = recorded(GetParam(), {1.02, 1.1, 1.3, 1.5}, {.channels = {"transverse_stretch", "stress"}});
   const auto test = wrapped_test("reference_length_error", wrapped_test("force_offset", std::move(bare)));
   const Simulation simulation{*test, *material, set_s, {2, 1.5, -0.03}, {}};
   for (const TestProperty& property : test_properties())

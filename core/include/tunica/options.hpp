@@ -62,7 +62,7 @@ struct Option {
   std::vector<std::string> choices = {};
   /// Json: a JSON Schema of the value, for completion in editors; may be empty.
   std::string schema = {};
-
+  // A function makes each kind, with what it needs and no more.
   /// A whole number with a default. Read it with Options::integer(), or with Options::count() if it is a size.
   ///
   /// In all six functions `doc` is one sentence, with a capital letter and a full stop.

@@ -10,8 +10,8 @@ namespace tunica::assembly {
 
 /// Misfit of this size and above matters: χ² per degree of freedom.
 constexpr double noticeable_misfit = 1.5;
-/// Misfit below this is too little: the rows scatter by less than half of the noise.
-constexpr double little_misfit = 0.25;
+/// Misfit below this is too little: the rows scatter by less than a third of the noise.
+constexpr double little_misfit = 0.1;
 /// Probability that a model that is right is said to contradict its noise.
 constexpr double misfit_false_alarm = 1e-3;
 
