@@ -191,7 +191,8 @@ TEST(HostileInput, ExactlyLinearDataWithoutANoiseAreFittedToOnePercent) {
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("rows lie on a"));
   EXPECT_THAT(ended.out, HasSubstr("0.24 kPa assumed, 1 % of the largest value"));
-  for (const auto& run : bench.result("out")["runs"]) EXPECT_LT(run["best"]["objective"], 1e6);
+  const auto result = bench.result("out");
+  for (const auto& run : result["runs"]) EXPECT_LT(run["best"]["objective"], 1e6);
 }
 
 TEST(HostileInput, ATruncatedPluginInAFolderIsOneWarning) {
