@@ -25,6 +25,8 @@ endif()
 if(TUNICA_SANITIZE)
   add_compile_options(-fsanitize=${TUNICA_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${TUNICA_SANITIZE})
+  # Under a sanitizer Eigen aligns memory by hand, and libraries that were built without one do not.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 if(TUNICA_COVERAGE)
   add_compile_options(--coverage)
