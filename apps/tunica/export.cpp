@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,7 +9,6 @@
 #include "answer.hpp"
 #include "card_name.hpp"
 #include "cards/card.hpp"
-#include "data/units.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "exporting/fitted_material.hpp"
@@ -26,28 +24,12 @@ struct ExportOptions {
   std::optional<double> bulk_ratio;
 };
 
-/// A bare number is no density: in kg/m³ it would be meant as seldom as in the units of the card.
-double density_of(const std::string& text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc{} && end == text.data() + text.size())
-    throw InputError(
-        fmt::format("--density '{0}': found a number without a unit; give for example \"1000 kg/m3\", or "
-                    "\"{0} tonne/mm3\"",
-                    text));
-  try {
-    return data::parse_quantity(text, "kg/m3");
-  } catch (const InputError& problem) {
-    throw InputError(fmt::format("--density '{}': {}", text, problem.what()));
-  }
-}
-
 int export_card(const ExportOptions& options) {
   const cards::Target target = cards::target_of(options.target);
   const cards::UnitSystem units = cards::unit_system(options.units);
   const auto fitted = exporting::fitted_material({options.result, options.run, options.model});
   std::optional<double> density;
-  if (!options.density.empty()) density = density_of(options.density);
+  if (!options.density.empty()) density = cards::density_of(options.density);
   for (const auto& [option, file] : {std::pair("-o", options.file), std::pair("--subroutine", options.subroutine)})
     if (!file.empty() && std::filesystem::exists(file))
       throw InputError(fmt::format("{} {}: is there already; name a new file", option, file));

@@ -88,7 +88,7 @@ TEST_F(Export, WritesTheSubroutineBesideItsCard) {
 TEST_F(Export, TakesADensityWithItsUnit) {
   fit({{"type", "neo_hooke"}});
   EXPECT_THAT(refused({"out", "--to", "lsdyna"}), HasSubstr("give it, for example --density"));
-  EXPECT_THAT(refused({"out", "--to", "lsdyna", "--density", "1 kPa"}), HasSubstr("--density '1 kPa'"));
+  EXPECT_THAT(refused({"out", "--to", "lsdyna", "--density", "1 kPa"}), HasSubstr("density '1 kPa'"));
   EXPECT_THAT(refused({"out", "--to", "febio", "--density", "1.1e-9"}),
               HasSubstr("found a number without a unit; give for example \"1000 kg/m3\", or \"1.1e-9 tonne/mm3\""));
   const auto ended = exported({"out", "--to", "febio", "--density", "1.1 g/cm3", "--units", "m-N-Pa"});

@@ -241,7 +241,7 @@ std::string export_card(const std::string& result, const std::string& target, co
   if (!subroutine.empty() && std::filesystem::exists(subroutine))
     throw InputError(fmt::format("subroutine '{}': is there already; name a new file", subroutine));
   std::optional<double> mass;
-  if (!density.empty()) mass = data::parse_quantity(density, "kg/m3");
+  if (!density.empty()) mass = cards::density_of(density);
   const std::string card = cards::write_card(cards::target_of(target), fitted.material,
                                              {.name = name.empty() ? app::card_name(fitted.name) : name,
                                               .units = cards::unit_system(units),

@@ -182,8 +182,9 @@ class Run:
         and others that docs/export.md lists. model: where layers have several. density: "1000 kg/m3" or a number of
         kg/m³, for febio and lsdyna. subroutine: a new file for Abaqus' UANISOHYPER_INV, which the card then calls. Raises
         InputError with the reason for what the program cannot express."""
-        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio,
-                                 "" if density is None else density if isinstance(density, str) else f"{float(density)!r} kg/m3",
+        if density is not None and not isinstance(density, str):
+            density = f"{float(density)!r} kg/m3"
+        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio, density or "",
                                  str(subroutine))
 
     def __repr__(self):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cards/unit_system.hpp"
 
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -44,6 +45,21 @@ UnitSystem unit_system(std::string_view text) {
   system.stress_per_kPa = converted(text, 1, "kPa", system.stress);
   system.density_per_kg_m3 = std::pow(length, 4) / force;
   return system;
+}
+
+double density_of(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc{} && end == text.data() + text.size())
+    throw InputError(
+        fmt::format("density '{0}': found a number without a unit; give for example \"1000 kg/m3\", or "
+                    "\"{0} tonne/mm3\"",
+                    text));
+  try {
+    return data::parse_quantity(text, "kg/m3");
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("density '{}': {}", data::excerpt(text), problem.what()));
+  }
 }
 
 }  // namespace tunica::cards

@@ -19,4 +19,8 @@ struct UnitSystem {
 /// known, or the three do not go together, with what would.
 UnitSystem unit_system(std::string_view text);
 
+/// A mass density in kg/m³, from text with a unit. A number alone is refused: some mean kg/m³, others the units of the
+/// card. Throws InputError.
+double density_of(const std::string& text);
+
 }  // namespace tunica::cards
