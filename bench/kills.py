@@ -8,7 +8,8 @@
 
 Signals are -9, TERM and INT, a third each. Work is started, killed and gone on with until it comes to its end; then its
 numbers must be those of the work that was left alone, to the last bit. Kills come at random, on average a quarter of the
-work's length apart. A start that is refused with words counts apart: it is followed by one in a new folder. Exit code 1: a result differs, or a process ended in a way that is not documented."""
+work's length apart. A start that is refused with words counts apart: it is followed by one in a new folder.
+Exit code 1: a result differs, or a process ended in a way that is not documented."""
 import argparse
 import collections
 import pathlib
