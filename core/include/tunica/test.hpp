@@ -52,8 +52,8 @@ struct TestRows {
   struct Column {
     std::string observable;          ///< Observable::name
     std::span<const double> values;  ///< one a row
-    /// A stretch that was computed as 1 + a measured change of length over a gauge length, or from a strain. Where the
-    /// gauge length is wrong, its distance from 1 is, by that factor; else the stretch itself.
+    /// This is a stretch 1 + d/L with a measured change of length d and a gauge length L, or 1 + strain. So a wrong
+    /// gauge length scales the stretch less 1. Of another stretch it scales the whole.
     bool from_elongation = false;
   };
   /// n, the number of rows.
