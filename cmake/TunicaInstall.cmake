@@ -17,7 +17,8 @@ configure_file(cmake/tunica.pc.in ${generated}/tunica.pc @ONLY)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/tunica DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         COMPONENT development FILES_MATCHING PATTERN "*.hpp")
-install(TARGETS tunica_sdk EXPORT tunicaTargets COMPONENT development)
+install(TARGETS tunica_sdk tunica_kernels EXPORT tunicaTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        COMPONENT development)
 install(EXPORT tunicaTargets NAMESPACE tunica:: DESTINATION ${TUNICA_CMAKE_INSTALL_DIR} COMPONENT development)
 install(FILES ${generated}/tunicaConfig.cmake ${generated}/tunicaConfigVersion.cmake cmake/TunicaAddPlugin.cmake
               cmake/TunicaTestPlugin.cmake cmake/TunicaRunExample.cmake cmake/tunica_plugin.map

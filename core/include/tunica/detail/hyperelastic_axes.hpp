@@ -287,9 +287,4 @@ inline void evaluate_axes_on_this_level(const Parts& parts, const AxisPoints& po
   }
 }
 
-/// The same on the vector level of this library.
-inline void evaluate_axes(const Parts& parts, const AxisPoints& points, const AxisResponse& out) {
-  detail::vectorised([&parts, &points, &out] { evaluate_axes_on_this_level(parts, points, out); });
-}
-
 }  // namespace tunica::hyperelastic

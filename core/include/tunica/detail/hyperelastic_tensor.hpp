@@ -101,9 +101,4 @@ inline void evaluate_tensor_on_this_level(const Parts& parts, const MaterialPoin
   }
 }
 
-/// The same on the vector level of this library.
-inline void evaluate_tensor(const Parts& parts, const MaterialPoints& points, const MaterialResponse& out) {
-  detail::vectorised([&parts, &points, &out] { evaluate_tensor_on_this_level(parts, points, out); });
-}
-
 }  // namespace tunica::hyperelastic

@@ -9,10 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tunica/detail/hyperelastic_axes.hpp"
-#include "tunica/detail/hyperelastic_tensor.hpp"
-#include "tunica/detail/strip_of_parts.hpp"
-#include "tunica/detail/strip_solver.hpp"
+#include "tunica/detail/hyperelastic_kernels.hpp"
 #include "tunica/model.hpp"
 #include "tunica/plugin.hpp"
 
@@ -53,9 +50,7 @@ class Hyperelastic : public Model {
     return {};
   }
   bool solve_strip(const StripPath& strip, Status& status) const override {
-    if (parts_.size() > hyperelastic::StripOfParts::max_parts) return false;
-    status = hyperelastic::solve_strip<hyperelastic::StripOfParts>(*this, strip, parts_, strip);
-    return true;
+    return hyperelastic::solve_strip_of_parts(*this, parts_, strip, status);
   }
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return parts_; }
 
