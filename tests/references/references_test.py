@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """references_test.py TUNICA [CASE...] [--write]
 
-What the verbs say of the examples' data, against what they said when the references beside this script were written:
-every number of their JSON to 1e-4 of itself, every sentence, and count, mean and root mean square of every column of
-their tables. Counts of evaluations are left out. A change that means to move the others writes them anew with --write,
+What the verbs say of the data of the examples and of experiments/, against what they said when the references beside
+this script were written: every number of their JSON to 1e-4 of itself, every sentence, and count, mean and root mean
+square of every column of their tables. Counts of evaluations are left out. A change that means to move the others writes them anew with --write,
 and its diff shows what has moved."""
 import argparse
 import csv
@@ -59,6 +59,7 @@ def results(program, case):
     with tempfile.TemporaryDirectory(prefix="references") as room:
         folder = pathlib.Path(room) / "examples"
         shutil.copytree(EXAMPLES, folder, ignore=shutil.ignore_patterns("*.html", "*.svg", "*.png"))
+        shutil.copytree(HERE / "experiments", folder / "own")
         words = [str(pathlib.Path(program).resolve()), *case["words"], "-o", str(folder / "out"), "--quiet"]
         ended = subprocess.run(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                text=True, check=False, env={"TUNICA_VECTOR_LEVEL": "baseline", **os.environ})
