@@ -12,17 +12,19 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t draws = 4000;
-constexpr Eigen::Index channels = 8, rows = 6;
+constexpr std::size_t draw_count = 4000;
+constexpr Eigen::Index channel_count = 8, rows_each = 6;
 
 /// Channels of which the mean is fitted, and the noise estimated from the rest: five degrees of freedom each.
 Evidence with_estimated_noise(double moderation) {
   Evidence evidence;
-  evidence.fit.residuals = Eigen::VectorXd::Zero(channels * rows);
-  evidence.estimated.span = Eigen::MatrixXd::Zero(channels * rows, channels);
-  for (Eigen::Index g = 0; g < channels; ++g) {
-    evidence.estimated.span.col(g).segment(g * rows, rows).setConstant(1 / std::sqrt(static_cast<double>(rows)));
-    evidence.estimated.group.insert(evidence.estimated.group.end(), rows, static_cast<std::size_t>(g));
+  evidence.fit.residuals = Eigen::VectorXd::Zero(channel_count * rows_each);
+  evidence.estimated.span = Eigen::MatrixXd::Zero(channel_count * rows_each, channel_count);
+  for (Eigen::Index g = 0; g < channel_count; ++g) {
+    evidence.estimated.span.col(g)
+        .segment(g * rows_each, rows_each)
+        .setConstant(1 / std::sqrt(static_cast<double>(rows_each)));
+    evidence.estimated.group.insert(evidence.estimated.group.end(), rows_each, static_cast<std::size_t>(g));
   }
   evidence.estimated.moderation = moderation;
   return evidence;
@@ -37,15 +39,15 @@ double variance_of_log_precision(const Draws& found) {
 // ln of χ²_5/5 has the variance ψ′(5/2) = 0.490. Seed 1; the variance of 32 000 of them has a standard deviation of
 // about 0.0058: of a logarithm of χ²_5 the fourth moment is below four squared variances. Four of them: 6e-5.
 TEST(NoiseDraws, HaveTheUncertaintyOfWhatTheirRowsSay) {
-  const Draws found = noise_draws(with_estimated_noise(0), draws, 1);
-  ASSERT_EQ(found.precision.rows(), channels);
+  const Draws found = noise_draws(with_estimated_noise(0), draw_count, 1);
+  ASSERT_EQ(found.precision.rows(), channel_count);
   EXPECT_NEAR(variance_of_log_precision(found), boost::math::trigamma(2.5), 4 * 0.0058);
 }
 
 // With d degrees of freedom of the other channels, the variance falls from ψ′(5/2) = 0.49 towards ψ′((5 + d)/2), 0.083
 // for d = 20. d is estimated anew in each draw, from eight channels, which makes it smaller and the variance larger.
 TEST(NoiseDraws, LearnFromTheOtherChannelsWhereTheEstimateDid) {
-  const double found = variance_of_log_precision(noise_draws(with_estimated_noise(20), draws, 1));
+  const double found = variance_of_log_precision(noise_draws(with_estimated_noise(20), draw_count, 1));
   EXPECT_GT(found, boost::math::trigamma(12.5));
   EXPECT_LT(found, 0.25);
 }
@@ -53,12 +55,12 @@ TEST(NoiseDraws, LearnFromTheOtherChannelsWhereTheEstimateDid) {
 // Rows of stated noise are standard normal: the mean of 24 000 squares has a standard deviation of √(2/24000).
 TEST(NoiseDraws, LeaveStatedNoiseAlone) {
   Evidence evidence = with_estimated_noise(0);
-  for (std::size_t i = 0; i < rows; ++i) evidence.estimated.group[i] = assembly::known_variance;
-  evidence.estimated.span.topRows(rows).setZero();
-  const Draws found = noise_draws(evidence, draws, 1);
-  EXPECT_NEAR(found.residuals.topRows(rows).cwiseAbs2().cast<double>().mean(), 1, 4 * std::sqrt(2.0 / 24000));
-  EXPECT_EQ(found.precision_of_rows(0).head(rows), Eigen::VectorXd::Ones(rows));
-  EXPECT_EQ(found.precision_of_rows(0)[rows], static_cast<double>(found.precision(1, 0)));
+  for (std::size_t i = 0; i < rows_each; ++i) evidence.estimated.group[i] = assembly::known_variance;
+  evidence.estimated.span.topRows(rows_each).setZero();
+  const Draws found = noise_draws(evidence, draw_count, 1);
+  EXPECT_NEAR(found.residuals.topRows(rows_each).cwiseAbs2().cast<double>().mean(), 1, 4 * std::sqrt(2.0 / 24000));
+  EXPECT_EQ(found.precision_of_rows(0).head(rows_each), Eigen::VectorXd::Ones(rows_each));
+  EXPECT_EQ(found.precision_of_rows(0)[rows_each], static_cast<double>(found.precision(1, 0)));
 }
 
 /// One curve of 200 rows whose noise replicates have said.
@@ -79,22 +81,22 @@ double squared_correlation(const Draws& found) {
   double mean = 0;
   for (const auto draw : found.residuals.colwise()) {
     const double r = static_cast<double>(draw.head(199).dot(draw.tail(199)) / draw.squaredNorm());
-    mean += r * r / static_cast<double>(draws);
+    mean += r * r / static_cast<double>(draw_count);
   }
   return mean;
 }
 
 // χ²_ν/ν divides: with ν = 12 the mean square is 12/10, and that of a draw has a standard deviation of √(2/8) · 1.2.
 TEST(NoiseDraws, AreLargerByWhatReplicatesLeaveOpen) {
-  const Draws found = noise_draws(with_replicates(12, 0), draws, 1);
-  EXPECT_NEAR(found.residuals.cwiseAbs2().cast<double>().mean(), 1.2, 4 * 0.6 / std::sqrt(draws));
-  EXPECT_NEAR(squared_correlation(found), 1.0 / 200, 4 * std::sqrt(2.0 / draws) / 200) << "no correlation";
+  const Draws found = noise_draws(with_replicates(12, 0), draw_count, 1);
+  EXPECT_NEAR(found.residuals.cwiseAbs2().cast<double>().mean(), 1.2, 4 * 0.6 / std::sqrt(draw_count));
+  EXPECT_NEAR(squared_correlation(found), 1.0 / 200, 4 * std::sqrt(2.0 / draw_count) / 200) << "no correlation";
 }
 
 // ρ ~ N(0, 0.1²): the mean of ρ² is 0.01, and 1/200 is the noise of its estimate. Four standard deviations: 6e-5.
 TEST(NoiseDraws, KeepWhatACorrelationMayBeWrongBy) {
-  EXPECT_NEAR(squared_correlation(noise_draws(with_replicates(1000, 0.1), draws, 1)), 0.01 + 0.005,
-              4 * 0.015 * std::sqrt(2.0 / draws));
+  EXPECT_NEAR(squared_correlation(noise_draws(with_replicates(1000, 0.1), draw_count, 1)), 0.01 + 0.005,
+              4 * 0.015 * std::sqrt(2.0 / draw_count));
 }
 
 }  // namespace

@@ -88,6 +88,23 @@ TEST(DiscoveryKinds, BendFromALineToAWallOverTheRangeOfTheData) {
   expect("I1_power", 2, 12);
 }
 
+/// Searches begin at a gentle bend, a clear one and a steep one over the same range.
+TEST(DiscoveryKinds, BeginAtBendsThatTheDataCanTellApart) {
+  const auto kinds = all_kinds();
+  const auto expect = [&](const std::string& name, const std::vector<double>& starts) {
+    const Shape& shape = shape_of(kinds, name);
+    ASSERT_EQ(shape.starts.size(), starts.size()) << name;
+    for (std::size_t k = 0; k < starts.size(); ++k)
+      EXPECT_NEAR(shape.starts[k], starts[k], 1e-12 * starts[k]) << name << ", start " << k;
+  };
+  expect("I1_exponential", {0.5 / first, 2 / first, 6 / first});
+  expect("I1_gent", {1.1 * first, 2 * first, 8 * first});
+  expect("I1_inverse_langevin", {1 + 1.1 * first / 3, 1 + 2 * first / 3, 1 + 8 * first / 3});
+  expect("I1_power", {2.5, 5});
+  expect("fibre_axial_exponential_square", {0.5 / along / along, 3 / along / along, 9 / along / along});
+  expect("fibre_diagonal_quadratic", {30, 45, 60});
+}
+
 /// λ^α up to e^15 at the largest stretch, and down to it where α is below 0.
 TEST(DiscoveryKinds, HaveExponentsThatTheLargestStretchTellsApart) {
   const auto kinds = all_kinds();
