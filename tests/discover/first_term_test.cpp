@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// A search from nothing begins with one term, and with nothing of the model that the file has.
+#include <gmock/gmock.h>
+
+#include "discovery/subject.hpp"
+
+namespace tunica::discovery {
+namespace {
+
+using ::testing::IsEmpty;
+
+TEST(FirstTerm, StandsInThePlaceOfTheModelAndOfAllThatBelongsToIt) {
+  experiment::ModelEntry wall{"wall", "gho", {}, {{"mu", {}}}, {{"fibre_dispersion", {}, {}, {}}}};
+  wall.options.set("angles", "mean");
+  experiment::Experiment given;
+  given.models = {wall, wall};
+  given.models[1].name = "other";
+  const experiment::Experiment found = with_first_term(given, "wall");
+  const experiment::ModelEntry& first = found.models.at(0);
+  EXPECT_EQ(first.name, "wall");
+  EXPECT_EQ(first.type, "composed");
+  EXPECT_FALSE(first.options.has("angles"));
+  EXPECT_EQ(first.options.text("terms"), R"([{"name":"I1_linear","invariant":"I1","law":"linear"}])");
+  EXPECT_THAT(first.parameters, IsEmpty());
+  EXPECT_THAT(first.mechanisms, IsEmpty());
+  EXPECT_EQ(found.models.at(1).type, "gho") << "another model stays";
+  EXPECT_TRUE(found.models.at(1).options.has("angles"));
+}
+
+}  // namespace
+}  // namespace tunica::discovery
