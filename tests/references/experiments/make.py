@@ -3,7 +3,8 @@
 """Writes the data and experiments of this folder: stresses in closed form, with noise drawn once from seed 7.
 
     rubbers/     a cohort of four Mooney-Rivlin rubbers of a term in I2 that differs, measured twice each
-    replicates/  one of them, six times; neighbouring rows share their errors with a correlation of 0.6"""
+    replicates/  one of them, six times; neighbouring rows share their errors with a correlation of 0.6
+    wrong_row/   neo-Hookean rubber whose noise nobody states; one row is read 25 kPa too high"""
 import json
 import pathlib
 import random
@@ -70,6 +71,17 @@ def replicates(draw):
         "replicates", lambda protocol: {"files": [f"data/{protocol}_{k}.csv" for k in range(count)]}))
 
 
+def wrong_row(draw):
+    folder, row = HERE / "wrong_row", 12
+    for protocol in PROTOCOLS:
+        rows = iter(range(len(STRETCHES)))
+        wrong = protocol == "uniaxial"
+        write_curve(folder / f"data/{protocol}.csv", protocol, 200, 0,
+                    lambda: draw.gauss(0, 1) + (25 if wrong and next(rows) == row else 0))
+    write_json(folder / "experiment.json", experiment("wrong_row", lambda protocol: {"file": f"data/{protocol}.csv"}))
+
+
 if __name__ == "__main__":
     rubbers(random.Random(7))
     replicates(random.Random(7))
+    wrong_row(random.Random(7))
