@@ -275,6 +275,24 @@ TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {
               HasSubstr("\"dispersion\" goes with the invariant 'fibre' only"));
 }
 
+TEST(Composed, SaysWhichKnotsMakeASpline) {
+  using ::testing::HasSubstr;
+  const auto spline = [](const std::string& knots) {
+    return R"([{"name": "a", "invariant": "I1", "law": "spline", "knots": )" + knots + "}]";
+  };
+  EXPECT_THAT(refusal(spline(R"([0, "1"])")), HasSubstr("has an entry that is no number"));
+  for (const char* wrong : {"[0]", "[0.1, 1]", "[0, 1, 1]", "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]"})
+    EXPECT_THAT(refusal(spline(wrong)), HasSubstr("no rising list that begins at 0")) << wrong;
+  EXPECT_NO_THROW((void)composed(spline("[0, 1]")));
+  EXPECT_NO_THROW((void)composed(spline("[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]")));
+}
+
+TEST(Composed, HasPowersOfTheStretchesOnly) {
+  EXPECT_NO_THROW((void)composed(R"([{"name": "a", "invariant": "stretches", "law": "power"}])"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "stretches", "law": "cubic"}])"),
+              ::testing::HasSubstr("a term of the principal stretches has no law but 'power'"));
+}
+
 TEST(Composed, WritesItsEnergyAsAFormula) {
   EXPECT_EQ(composed("[" + matrix + ", " + fibre("f", "diagonal") + "]")->describe().formula,
             "W = m_mu/2 (I1 - 3) + sum over +-f_theta of f_k1/(2 f_k2) (exp(f_k2 (I4 - 1)^2) - 1)");
