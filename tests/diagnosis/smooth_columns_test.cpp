@@ -76,8 +76,8 @@ TEST(SmoothColumns, AreTheRowsWhereTheAbscissaStandsStill) {
   for (Eigen::Index i = 0; i < 9; ++i) EXPECT_NEAR(columns(i, 1), static_cast<double>(i) / 4 - 1, 1e-12);
 }
 
-// 19 rows up, the last one twice, and 17 down: of the polynomials up to degree 5, those up to degree 3 are there once
-// more with the direction.
+// 19 rows up, the last one standing still, and 17 down. The polynomials up to degree 3 are there once more, times the
+// direction.
 TEST(SmoothColumns, HaveBranchesOfTheirOwnWhereTheCurveRunsToAndFro) {
   std::vector<double> x = rising(18), back(x.rbegin(), x.rend());
   x.insert(x.end(), back.begin(), back.end());
