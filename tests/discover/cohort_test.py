@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """cohort_test.py TUNICA: `tunica discover` on a cohort from end to end, on rubbers that have a term in I2.
 
-Stresses are closed forms, drawn once with noise of 1 kPa from the seed below."""
+Their stresses are closed forms, drawn once with noise of 1 kPa (tests/references/experiments/make.py)."""
 import csv
 import json
 import pathlib
-import random
 import shutil
 import sys
 import tempfile
@@ -14,53 +13,22 @@ import tempfile
 import jsonschema
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cluster"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS / "cluster"))
 from laboratory import Program, expect, run_cases
 
 root = pathlib.Path(tempfile.mkdtemp(prefix="terms"))
-SCHEMA = json.loads((pathlib.Path(__file__).resolve().parents[2] /
-                     "schemas/tunica-result.schema.json").read_text(encoding="utf-8"))
-SECOND = {"a": 20.0, "b": 35.0, "c": 50.0, "d": 65.0}  # kPa, moduli of the term in I2
-
-
-def stress(protocol, stretch, first, second):
-    """Cauchy stress of (mu_1/2)(I1 - 3) + (mu_2/2)(I2 - 3), incompressible."""
-    if protocol == "uniaxial":
-        return first * (stretch**2 - 1 / stretch) + second * (stretch - stretch**-2)
-    return first * (stretch**2 - stretch**-4) + second * (stretch**4 - stretch**-2)
+SCHEMA = json.loads((TESTS.parent / "schemas/tunica-result.schema.json").read_text(encoding="utf-8"))
+SECOND = {"a": 20.0, "b": 35.0, "c": 50.0, "d": 65.0}  # kPa, moduli of the term in I2, as make.py has them
 
 
 def rubbers(name, missing=()):
-    """A cohort of four in a folder of its own, without the files of `missing`."""
+    """The cohort of four in a folder of its own, without the files of `missing`."""
     folder = root / name
-    (folder / "data").mkdir(parents=True)
-    draw = random.Random(7)
-    for k, (specimen, second) in enumerate(SECOND.items()):
-        for protocol in ("uniaxial", "equibiaxial"):
-            lines = ["stretch [1],stress [kPa]"]
-            for i in range(25):
-                stretch = 1.1 + 0.05 * i
-                value = stress(protocol, stretch, 200 + 30 * k, second) + draw.gauss(0, 1)
-                lines.append(f"{stretch:.8g},{value:.8g}")
-            if specimen not in missing:
-                (folder / f"data/{specimen}_{protocol}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    data = {"columns": {"stretch": "stretch", "stress": "stress"}, "noise": {"absolute": "1 kPa"}}
-    experiment = {
-        "format": 1, "name": "rubber",
-        "models": {"rubber": {"type": "neo_hooke", "parameters": {"mu": {"initial": "200 kPa"}}}},
-        "tests": {
-            "uniaxial": {"type": "uniaxial", "direction": "axial", "data": {"file": "data/a_uniaxial.csv", **data}},
-            "equibiaxial": {"type": "biaxial", "protocol": "equibiaxial",
-                            "data": {"file": "data/a_equibiaxial.csv", **data}}},
-        "optimizers": {"lm": {"type": "ceres_lm"}},
-        "runs": [{"model": "rubber", "optimizer": "lm"}]}
-    cohort = {
-        "format": 1, "name": "rubbers", "experiment": "experiment.json", "specimens": "specimens.csv",
-        "bind": {"/tests/uniaxial/data/file": "data/{specimen}_uniaxial.csv",
-                 "/tests/equibiaxial/data/file": "data/{specimen}_equibiaxial.csv"}}
-    (folder / "experiment.json").write_text(json.dumps(experiment, indent=1), encoding="utf-8")
-    (folder / "cohort.json").write_text(json.dumps(cohort, indent=1), encoding="utf-8")
-    (folder / "specimens.csv").write_text("\n".join(["specimen", *SECOND]) + "\n", encoding="utf-8")
+    shutil.copytree(TESTS / "references/experiments/rubbers", folder)
+    for specimen in missing:
+        for file in folder.glob(f"data/{specimen}_*.csv"):
+            file.unlink()
     return folder, Program(sys.argv[1], folder)
 
 
