@@ -129,14 +129,16 @@ std::vector<std::string> single_terms() {
   return all;
 }
 
-// Seed 20230211, the same on every run: the outcome is deterministic.
+// Seed 20230211, the same on every run: the outcome is deterministic. Threads race with the splines, whose laws keep
+// the most, and so with every kind of invariant that has one; a race takes 0.4 s.
 TEST(Composed, KeepsEveryPropertyOfAModelWhateverTheTerm) {
   for (const std::string& term : single_terms()) {
     const auto model = composed("[" + matrix + R"(, {"name": "t", )" + term + "}]");
     // One family alone is no wall with paired fibres.
-    const bool paired = term.find("single") == std::string::npos;
+    const bool paired = term.find("single") == std::string::npos, raced = term.find("spline") != std::string::npos;
     for (const ModelProperty& property : model_properties())
-      if (paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall") {
+      if ((paired || std::string(property.name) != "response_has_the_symmetry_of_the_wall") &&
+          (raced || std::string(property.name) != "concurrent_calls_agree")) {
         EXPECT_EQ(property.check(*model, 20230211).counter_example, "") << term << ", " << property.name;
       }
   }

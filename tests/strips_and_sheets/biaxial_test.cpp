@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "conformance/test_properties.hpp"
@@ -97,7 +98,11 @@ INSTANTIATE_TEST_SUITE_P(All, BiaxialConformance,
                          ::testing::Combine(::testing::Values("general", "equibiaxial", "pure_shear"),
                                             ::testing::Values("cauchy", "first_piola_kirchhoff",
                                                               "second_piola_kirchhoff"),
-                                            ::testing::ValuesIn(test_properties())));
+                                            ::testing::ValuesIn(test_properties())),
+                         [](const auto& at) {
+                           const auto& [protocol, measure, property] = at.param;
+                           return fmt::format("{}_{}_{}", protocol, measure, property.name);
+                         });
 
 TEST(Biaxial, TensorsGiveWhatTheAxesGive) {
   const auto model = make_model("gho");

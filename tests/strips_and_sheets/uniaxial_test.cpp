@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "conformance/test_properties.hpp"
@@ -121,7 +122,12 @@ INSTANTIATE_TEST_SUITE_P(All, UniaxialConformance,
                          ::testing::Combine(::testing::Values("circumferential", "axial"),
                                             ::testing::Values("cauchy", "first_piola_kirchhoff",
                                                               "second_piola_kirchhoff"),
-                                            ::testing::Values(0., 4.), ::testing::ValuesIn(test_properties())));
+                                            ::testing::Values(0., 4.), ::testing::ValuesIn(test_properties())),
+                         [](const auto& at) {
+                           const auto& [direction, measure, misalignment, property] = at.param;
+                           return fmt::format("{}_{}_by_{:.0f}_degrees_{}", direction, measure, misalignment,
+                                              property.name);
+                         });
 
 TEST(Uniaxial, OverflowIsAStatusOnBothPaths) {
   const auto model = make_model("gho");
