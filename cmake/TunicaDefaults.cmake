@@ -40,3 +40,28 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
                                   CCACHE_SLOPPINESS=pch_defines,time_macros
                                   ${CCACHE_PROGRAM})
 endif()
+
+# tunica_precompiled_headers(NAME TYPE HEADERS ... LIBRARIES ... OPTIONS ...): headers that many targets include, compiled once
+# for all targets that are compiled like it; TYPE is LIBRARY or PROGRAM. Such a target takes them by
+# tunica_use_precompiled_headers(TARGET NAME). A cache of compiled files does better without: to it they are new with every
+# build, and so is whatever was compiled with them.
+function(tunica_precompiled_headers name type)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES;OPTIONS" ${ARGN})
+  if(NOT TUNICA_PRECOMPILED_HEADERS OR CCACHE_PROGRAM OR CMAKE_CXX_COMPILER_LAUNCHER)
+    return()
+  endif()
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "// Carries a precompiled header; nothing is linked from here.\n")
+  add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} tunica_developer)
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
+  if(type STREQUAL "PROGRAM")
+    set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${name} PRIVATE -fPIE)
+  endif()
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+function(tunica_use_precompiled_headers target name)
+  if(TARGET ${name})
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endif()
+endfunction()
