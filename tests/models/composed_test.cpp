@@ -289,8 +289,53 @@ TEST(Composed, SaysWhichKnotsMakeASpline) {
   EXPECT_NO_THROW((void)composed(spline("[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]")));
 }
 
+TEST(Composed, TakesAListOfObjectsWithNamesInPlainLetters) {
+  using ::testing::HasSubstr;
+  for (const char* wrong : {"[]", "3", R"({"m": {"name": "a", "invariant": "I1", "law": "linear"}})", "[3"})
+    EXPECT_THAT(refusal(wrong), HasSubstr("no list of terms")) << wrong;
+  EXPECT_THAT(refusal("[" + matrix + ", 3]"), HasSubstr("\"terms\", term 2: found no object"));
+  EXPECT_THAT(refusal(R"([{"name": 5, "invariant": "I1", "law": "linear"}])"), HasSubstr("\"name\" is no text"));
+  const auto named = [](const std::string& name) {
+    return R"([{"name": ")" + name + R"(", "invariant": "I1", "law": "linear"}])";
+  };
+  for (const char* wrong : {"", "_a", "a-b", "a b"}) EXPECT_THAT(refusal(named(wrong)), HasSubstr("is not a letter"));
+  EXPECT_EQ(composed(named("a_1"))->describe().parameters.front().name, "a_1_mu");
+}
+
+TEST(Composed, SaysWhichKeysGoWithWhichInvariant) {
+  using ::testing::HasSubstr;
+  const auto of = [](const std::string& invariant, const std::string& more) {
+    return R"([{"name": "a", "invariant": ")" + invariant + R"(", "law": "quadratic", )" + more + "}]";
+  };
+  const std::string strain = R"("fibre_switch": "strain")", axial = R"("family": "axial")";
+  for (const std::string other : {"I1", "I2", "coupling"})
+    EXPECT_THAT(refusal(of(other, strain)), HasSubstr("\"fibre_switch\" goes with the invariant 'fibre' or 'radial'"));
+  EXPECT_THAT(refusal(of("across", axial + ", " + strain)), HasSubstr("\"fibre_switch\" goes with"));
+  for (const std::string given : {"strain", "stretch", "none"})
+    EXPECT_NO_THROW((void)composed(of("fibre", axial + R"(, "fibre_switch": ")" + given + "\"")));
+  for (const std::string given : {"strain", "none"})
+    EXPECT_NO_THROW((void)composed(of("radial", R"("fibre_switch": ")" + given + "\"")));
+  EXPECT_THAT(refusal(of("I1", R"("angle_of": "a")")), HasSubstr("the term has no angle"));
+  EXPECT_THAT(refusal(of("I1", R"("knots": [0, 1])")), HasSubstr("\"knots\" go with the law 'spline' only"));
+}
+
+TEST(Composed, SharesAnAngleThatIsATermsOwn) {
+  using ::testing::HasSubstr;
+  const auto sharing = [](const std::string& of) {
+    return "[" + matrix + ", " + fibre("f", "diagonal") + ", " + fibre("g", "diagonal", R"(, "angle_of": "f")") + ", " +
+           fibre("h", "diagonal", R"(, "angle_of": ")" + of + "\"") + "]";
+  };
+  // m_mu, three times k1 and k2, and one angle.
+  EXPECT_EQ(composed(sharing("f"))->describe().parameters.size(), 8u);
+  for (const std::string of : {"m", "g", "h", "nobody"})
+    EXPECT_THAT(refusal(sharing(of)), HasSubstr("\"angle_of\" is '" + of + "', which is no term with an angle")) << of;
+}
+
 TEST(Composed, HasPowersOfTheStretchesOnly) {
   EXPECT_NO_THROW((void)composed(R"([{"name": "a", "invariant": "stretches", "law": "power"}])"));
+  EXPECT_NO_THROW((void)composed(R"([{"name": "a", "invariant": "stretches"}])"));
+  EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "stretches", "family": "axial"}])"),
+              ::testing::HasSubstr("goes with the invariant 'fibre' or 'across' only"));
   EXPECT_THAT(refusal(R"([{"name": "a", "invariant": "stretches", "law": "cubic"}])"),
               ::testing::HasSubstr("a term of the principal stretches has no law but 'power'"));
 }
