@@ -85,6 +85,28 @@ TEST_P(AddedTerm, IsTheSumWithTheBase) {
   EXPECT_EQ(gradient, bare);
 }
 
+// A search that may leave a term out has to reach 0, which the logarithm of a stiffness does not.
+TEST(AddedTermDescription, HasAnAmplitudeThatMayBeNothing) {
+  const auto& mechanism = catalogue().mechanisms().at("added_term").factory;
+  ASSERT_EQ(mechanism.parameters.size(), 1u);  // by default I2, linear
+  EXPECT_EQ(mechanism.parameters[0].name, "mu");
+  Options options = defaults(mechanism.options);
+  const auto amplitude = [&](const std::string& invariant, const std::string& law, const std::string& knots = "[]") {
+    options.set("invariant", invariant);
+    options.set("law", law);
+    options.set("knots", knots);
+    return mechanism.parameters_of(options).front();
+  };
+  for (const Parameter& one : {mechanism.parameters[0], amplitude("I1", "gent"), amplitude("fibre", "power"),
+                               amplitude("radial", "spline", "[0, 1]")}) {
+    EXPECT_EQ(one.min, 0) << one.name;
+    EXPECT_EQ(one.scale, Scale::linear) << one.name;
+    EXPECT_EQ(one.max, 1e5) << one.name;
+  }
+  // Ogden's coefficients have either sign.
+  EXPECT_EQ(amplitude("stretches", "power").min, -5000);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllTerms, AddedTerm, ::testing::ValuesIn(all()), words);
 
 }  // namespace tunica::testing

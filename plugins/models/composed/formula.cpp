@@ -47,17 +47,14 @@ std::string invariant_words(const Term& term) {
   return "";
 }
 
-/// The law's formula with the invariant for x and the term's names for its parameters. An x within a word is a letter.
+/// The law's formula with the invariant for x and the term's names for its parameters. The x of "exp" is a letter.
 std::string filled(const Term& term) {
   const std::string& pattern = term.law.formula;
-  const auto is_letter = [&](std::size_t k) {
-    return k < pattern.size() && std::isalpha(static_cast<unsigned char>(pattern[k])) != 0;
-  };
   std::string text;
   for (std::size_t k = 0; k < pattern.size(); ++k) {
     if (pattern[k] == '$')
       text += term.name + "_";
-    else if (pattern[k] == 'x' && !is_letter(k + 1) && (k == 0 || !is_letter(k - 1)))
+    else if (pattern[k] == 'x' && std::isalpha(static_cast<unsigned char>(pattern[k + 1])) == 0)
       text += invariant_words(term);
     else
       text += pattern[k];
