@@ -83,6 +83,8 @@ TEST(CarriedByOneTest, LeavesOutTestsThatHardlySeeTheEffect) {
   EXPECT_EQ((Case{.signature = {1, 0.2}, .measured = {6, 0}}.carried()), std::nullopt);
   EXPECT_NE((Case{.signature = {1, 0.21}, .measured = {6, 0}}.carried()), std::nullopt);
   EXPECT_EQ((Case{.absorbed = {0, 1}}.carried()), std::nullopt) << "a parameter absorbs it in the second test";
+  EXPECT_EQ((Case{.absorbed = {1, 1}}.carried()), std::nullopt)
+      << "in both: without the first it takes all of the second";
   EXPECT_NE((Case{.absorbed = {1, 0}}.carried()), std::nullopt) << "the parameter goes with the test";
 }
 
@@ -94,6 +96,18 @@ TEST(CarriedByOneTest, CountsInStandardDeviations) {
   EXPECT_EQ((Case{.measured = {1.54, 0}}.carried()), std::nullopt) << "0.77 would not be seen with 3.5 of 0.224";
   EXPECT_NE((Case{.measured = {1.55, 0.42}}.carried()), std::nullopt) << "off by 0.565, 3.57 of 0.158";
   EXPECT_EQ((Case{.measured = {1.5, 0.42}}.carried()), std::nullopt) << "off by 0.54, 3.42 of 0.158";
+}
+
+// σ of all is 0.2, without the first test 0.2236, and 0.1 of the difference between the two.
+TEST(CarriedByOneTest, MeasuresTheDifferenceByWhatTheTestLeftOutAdds) {
+  EXPECT_THAT((Case{.signature = {0.5, 1}, .measured = {1.285, 0.42}}.carried()),
+              Optional(Eq("without the test 'a' the rest shows force_offset = 0.42 ± 0.438, but 0.85 was expected")));
+}
+
+TEST(CarriedByOneTest, DoesNotDependOnTheUnitOfTheAmplitude) {
+  EXPECT_THAT(
+      (Case{.signature = {1e8, 1e8}}.carried()),
+      Optional(Eq("without the test 'a' the rest shows force_offset = 0 ± 4.38e-09, but 1.5e-08 was expected")));
 }
 
 }  // namespace

@@ -70,6 +70,11 @@ TEST(EstimateWarnings, SayWhatNeighbouringRowsContradict) {
   one.neighbours = 1;
   one.neighbours_freedom = 20;
   EXPECT_NEAR(contradiction(one), 2 * 0.001579, 1e-6);
+  one.noise.absolute = 3;
+  one.neighbours = 1.5;
+  EXPECT_NEAR(contradiction(one), 2 * 0.001579, 1e-6) << "the ratio alone counts";
+  one.noise.absolute = 2;
+  one.neighbours = 1;
   EXPECT_THAT(text_of({one}), Not(HasSubstr("give another σ")));
   one.noise.absolute = 2.5;
   EXPECT_THAT(text_of({one}), HasSubstr("give another σ, by more than chance: a, stress (1 kPa). It is larger"));
@@ -104,6 +109,8 @@ TEST(EstimateWarnings, CompareOnlyWhatCanBeCompared) {
   one.noise.relative = 0;
   one.freedom = 0;
   EXPECT_EQ(contradiction(one), 1) << "known";
+  one.freedom = 0.9;
+  EXPECT_LT(contradiction(one), 1) << "little is known of it";
   one.freedom = 20;
   one.kind = Kind::differences;
   EXPECT_EQ(contradiction(one), 1) << "it is the differences";

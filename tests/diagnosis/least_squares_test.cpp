@@ -167,6 +167,18 @@ TEST(LeastSquares, LeavesOutRowsThatDoNotCount) {
   EXPECT_GT(fit(assembly, each_alone(assembly), {1, 1, 0}).chi2, 100);
 }
 
+TEST(LeastSquares, LeavesOutTheFirstRowToo) {
+  Parabola bench([](double x) { return x == 0 ? 7.0 : 0; });
+  const auto assembly = bench.assemble();
+  std::vector<bool> counted(12, true);
+  counted[0] = false;
+  const Fit found = fit(assembly, each_alone(assembly), {1, 1, 0}, {nullptr, &counted});
+  EXPECT_LT(found.chi2, 1e-4);
+  EXPECT_EQ(found.residuals[0], 0);
+  EXPECT_EQ(found.jacobian.row(0).norm(), 0);
+  EXPECT_GT(found.jacobian.row(1).norm(), 1);
+}
+
 TEST(LeastSquares, TellsWhyNothingCouldBeEvaluated) {
   Parabola bench;
   const auto assembly = bench.assemble();
