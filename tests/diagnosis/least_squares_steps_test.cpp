@@ -268,6 +268,14 @@ TEST(SecantSteps, AskOnceMoreForTheSlopeBeforeTheyEnd) {
   EXPECT_EQ(evaluations(1.2, 5), 3u);
 }
 
+// Down to the bound of 0, where the gradient presses against it.
+TEST(SecantSteps, EndAtABoundWithoutAskingAgain) {
+  const auto above = [](double a) { return a + 5; };
+  const Fit found = Differenced(above, above, 1).fit(5);
+  EXPECT_EQ(found.evaluations, 3u);
+  EXPECT_EQ(found.free[0], 0);
+}
+
 /// 3 and 2(a − 3) until the first step, to 3, has been made; then 2(a − 3) is a part of either, which only the slope
 /// taken again sees.
 Differenced hidden_way(double sd) {

@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <limits>
-#include <regex>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
