@@ -100,8 +100,8 @@ INSTANTIATE_TEST_SUITE_P(All, BiaxialConformance,
                                                               "second_piola_kirchhoff"),
                                             ::testing::ValuesIn(test_properties())),
                          [](const auto& at) {
-                           const auto& [protocol, measure, property] = at.param;
-                           return fmt::format("{}_{}_{}", protocol, measure, property.name);
+                           return fmt::format("{}_{}_{}", std::get<0>(at.param), std::get<1>(at.param),
+                                              std::get<2>(at.param).name);
                          });
 
 TEST(Biaxial, TensorsGiveWhatTheAxesGive) {

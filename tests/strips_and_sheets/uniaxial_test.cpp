@@ -124,9 +124,8 @@ INSTANTIATE_TEST_SUITE_P(All, UniaxialConformance,
                                                               "second_piola_kirchhoff"),
                                             ::testing::Values(0., 4.), ::testing::ValuesIn(test_properties())),
                          [](const auto& at) {
-                           const auto& [direction, measure, misalignment, property] = at.param;
-                           return fmt::format("{}_{}_by_{:.0f}_degrees_{}", direction, measure, misalignment,
-                                              property.name);
+                           return fmt::format("{}_{}_by_{:.0f}_degrees_{}", std::get<0>(at.param),
+                                              std::get<1>(at.param), std::get<2>(at.param), std::get<3>(at.param).name);
                          });
 
 TEST(Uniaxial, OverflowIsAStatusOnBothPaths) {
