@@ -254,9 +254,8 @@ NoiseEstimate encompassing_noise(const Evidence& evidence, const Fit& fit,
     const double nu = found.freedom[g], d = moderated ? others.freedom : 0;
     const double variance =
         (nu * found.variance[g] + d * of_others) / (nu + d) * open.unit[observable] * open.unit[observable];
-    // Where nothing but rounding is predicted, there is nothing that noise could be a share of.
-    const double grown = std::sqrt(variance * growing.share[observable]);
-    const double relative = largest[g] > 1e-9 * grown ? grown / largest[g] : 0;
+    // Where nothing is predicted, there is nothing that noise could be a share of.
+    const double relative = largest[g] > 0 ? std::sqrt(variance * growing.share[observable]) / largest[g] : 0;
     for (NoiseSource& source : estimate.sources) {
       if (source.test != curve.test || source.channel != curve.channel) continue;
       source.kind = NoiseSource::Kind::encompassing;
