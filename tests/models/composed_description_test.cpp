@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a model that is put together in the file says of itself: its parameters with their bounds, its formula, its
 // limits.
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/loaded.hpp"
+#include "models/composed.hpp"
 
 namespace tunica::testing::composed_description_test {
 namespace {
@@ -16,11 +17,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::unique_ptr<Model> composed(const std::string& terms) {
-  Options options;
-  options.set("terms", terms);
-  return make_model("composed", options);
-}
 std::string one_term(const std::string& more) { return R"([{"name": "t", )" + more + "}]"; }
 ModelDescription described(const std::string& more) { return composed(one_term(more))->describe(); }
 
@@ -128,15 +124,6 @@ std::string many(std::size_t count, const std::string& more) {
   std::vector<std::string> all;
   for (std::size_t k = 0; k < count; ++k) all.push_back(fmt::format(R"({{"name": "t{}", {}}})", k, more));
   return fmt::format("[{}]", fmt::join(all, ", "));
-}
-
-std::string refusal(const std::string& terms) {
-  try {
-    (void)composed(terms);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(ComposedDescription, HasSixPowersOfTheStretchesAtMostAnd64Parameters) {

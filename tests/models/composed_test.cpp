@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The model that is put together in the file: every built-in energy of sum form again, and what it refuses.
+#include "models/composed.hpp"
+
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -7,19 +9,11 @@
 
 #include "conformance/material_point.hpp"
 #include "conformance/model_properties.hpp"
-#include "data/written_file.hpp"
-#include "support/loaded.hpp"
 #include "tunica/detail/hyperelastic_tensor.hpp"
 
 namespace tunica::testing::composed_test {
 using namespace conformance;
 namespace {
-
-std::unique_ptr<Model> composed(const std::string& terms) {
-  Options options;
-  options.set("terms", terms);
-  return make_model("composed", options);
-}
 
 /// A built-in model and the same energy term by term: parameter j of the built-in is `factor` times parameter
 /// `index` of the composed one.
@@ -239,10 +233,6 @@ TEST(Composed, EightChainsStiffenAsTheInverseLangevinFunction) {
   double lambda = std::sqrt(i1);
   for (int step = 0; step < 50; ++step) lambda = std::sqrt(i1 - 2 / lambda);
   EXPECT_NEAR(slope(lambda), mu * 100 / (6 * 0.99), 1e-3 * mu * 100);
-}
-
-std::string refusal(const std::string& terms) {
-  return message_of<InputError>([&] { (void)composed(terms); });
 }
 
 TEST(Composed, SaysWhichTermIsWrongAndWhatToDo) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "data/written_file.hpp"
+#include "support/loaded.hpp"
+
+namespace tunica::testing {
+
+/// The model of a list of terms.
+inline std::unique_ptr<Model> composed(const std::string& terms) {
+  Options options;
+  options.set("terms", terms);
+  return make_model("composed", options);
+}
+
+/// What is said to a list of terms that is refused; empty where it is taken.
+inline std::string refusal(const std::string& terms) {
+  return message_of<InputError>([&] { (void)composed(terms); });
+}
+
+}  // namespace tunica::testing
