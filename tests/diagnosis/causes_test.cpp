@@ -199,10 +199,32 @@ TEST(AmplitudeOfACause, IsAtABoundUnlessThatIsItsNull) {
   EXPECT_TRUE(at_bound.at_bound);
   EXPECT_EQ(at_bound.value, 200);
   EXPECT_TRUE(std::isnan(at_bound.low)) << "nothing is left to move";
+  EXPECT_FALSE(at_bound.plausible) << "twice as far as plausible";
   const Amplitude at_null = amplitude_of(-50, 1, Side::positive, plausible_between(0, 100));
   EXPECT_EQ(at_null.value, 0);
   EXPECT_FALSE(at_null.at_bound);
+  EXPECT_TRUE(at_null.plausible);
   EXPECT_FALSE(amplitude_of(50, 1, Side::positive, plausible_between(0, 100)).at_bound);
+}
+
+// What w does, three times the amplitude does as well: the data say nothing about one without the other.
+TEST(AmplitudeOfACause, IsOpenWhereItsNuisanceDoesTheSame) {
+  MadeUpCauses causes({2}, at_rows(2, {{0, 6}, {1, -6}}));
+  causes.add({"m",
+              at_rows(2, {{0, 1}, {1, -1}}),
+              {{"a"}},
+              Side::both,
+              1,
+              0,
+              {{"w", at_rows(2, {{0, 3}, {1, -3}})}},
+              plausible_between(-100, 100)});
+  causes.close();
+  const Refit refit = *causes.single("m").best;
+  const Cause cause =
+      cause_of(causes.inquiry(), causes.analysis, refit, 0, causes.analysis.hypotheses.directions.front());
+  EXPECT_EQ(cause.amplitude.low, -200);
+  EXPECT_EQ(cause.amplitude.high, 200);
+  EXPECT_TRUE(cause.amplitude.plausible);
 }
 
 }  // namespace

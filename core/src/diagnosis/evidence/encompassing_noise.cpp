@@ -28,6 +28,7 @@ constexpr double covered = 0.25;           ///< of a projected signature may sta
 constexpr double few = 4;                  ///< degrees of freedom of a channel that is pooled with others
 constexpr double apart = 1e-4;             ///< chance of a single row, all rows together
 constexpr Eigen::Index one_alone_in = 30;  ///< may stand apart
+constexpr double rounding = 1e-9;          ///< of σ is no level
 
 /// Jacobian and smooth shapes, orthonormal.
 Eigen::MatrixXd smooth_span(const Evidence& evidence, const Eigen::MatrixXd& J) {
@@ -88,7 +89,7 @@ OpenCurves open_curves(const Evidence& evidence, const Eigen::VectorXd& sd) {
   return open;
 }
 
-/// Predicted values of the fitted rows, for the level that noise may grow with.
+/// Predicted values of the fitted rows, for the level that noise may grow with; 0 where they are rounding beside σ.
 Eigen::VectorXd levels(const Evidence& evidence, const Fit& fit, const Eigen::VectorXd& sd) {
   Eigen::VectorXd level = Eigen::VectorXd::Zero(sd.size());
   for (const Curve& curve : evidence.curves)
@@ -98,6 +99,7 @@ Eigen::VectorXd levels(const Evidence& evidence, const Fit& fit, const Eigen::Ve
           const Eigen::Index row = curve.first + i;
           level[row] = view.measured[curve.rows[static_cast<std::size_t>(i)]];
           if (curve.noise.noise.correlation == 0) level[row] += fit.residuals[row] * sd[row];
+          if (std::abs(level[row]) < rounding * sd[row]) level[row] = 0;
         }
   return level;
 }

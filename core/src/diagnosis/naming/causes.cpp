@@ -15,7 +15,10 @@
 namespace tunica::diagnosis {
 namespace {
 
-/// Standard deviations of the variables, those at a bound held: the diagonal of (JᵀJ)⁻¹.
+constexpr double inseparable = 1e-6;  ///< share of a variable that the data do not see
+
+/// Standard deviations of the variables, those at a bound held: the diagonal of (JᵀJ)⁻¹. Not a number for those held,
+/// infinite for those that the data cannot tell from others.
 std::vector<double> deviations(const Fit& fit) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < fit.jacobian.cols(); ++k)
@@ -25,10 +28,12 @@ std::vector<double> deviations(const Fit& fit) {
   Eigen::MatrixXd J = fit.jacobian(Eigen::all, free);
   const Eigen::VectorXd lengths = J.colwise().norm().transpose();
   for (Eigen::Index k = 0; k < J.cols(); ++k) J.col(k) /= lengths[k];
-  const Eigen::MatrixXd covariance = numerics::pseudo_inverse(J.transpose() * J);
+  const Eigen::MatrixXd information = J.transpose() * J, covariance = numerics::pseudo_inverse(information);
+  const Eigen::MatrixXd seen = covariance * information;  // onto the directions that the data see
   for (std::size_t k = 0; k < free.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    sd[static_cast<std::size_t>(free[k])] = std::sqrt(std::max(covariance(i, i), 0.0)) / lengths[i];
+    sd[static_cast<std::size_t>(free[k])] =
+        seen(i, i) < 1 - inseparable ? INFINITY : std::sqrt(std::max(covariance(i, i), 0.0)) / lengths[i];
   }
   return sd;
 }
@@ -54,7 +59,9 @@ Amplitude bounded(Amplitude amplitude, const MechanismFactory& mechanism, const 
                   const AmplitudeRange& range) {
   // An amplitude at its null is no bound to worry about; beyond what is plausible by more than its uncertainty is.
   amplitude.at_bound = amplitude.at_bound && amplitude.value != mechanism.null;
-  amplitude.plausible = amplitude.high >= range.plausible_min && amplitude.low <= range.plausible_max;
+  const bool known = !std::isnan(amplitude.low);
+  amplitude.plausible = (known ? amplitude.high : amplitude.value) >= range.plausible_min &&
+                        (known ? amplitude.low : amplitude.value) <= range.plausible_max;
   amplitude.low = std::max(amplitude.low, parameter.min);
   amplitude.high = std::min(amplitude.high, parameter.max);
   const bool upwards = mechanism.plausible_max > mechanism.null;
