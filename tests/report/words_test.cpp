@@ -75,6 +75,19 @@ TEST(Words, KeepApartWhatWasFittedAndWhatWasHeldOut) {
               HasSubstr("Fit more of the tests together, or take a model with fewer parameters. Widen the bounds"));
 }
 
+TEST(Words, DoubtTheNoiseThatIsTooLargeForARun) {
+  const trial::Scratch scratch;
+  const auto page_with = [&](const std::string& run) {
+    const std::string result = R"({"warning_details": [{"kind": "noise_too_large", "run": ")" + run + R"(",
+      "sentence": "small"}], "runs": [{"run": "m/a", "model": "m", "optimizer": "a", "best": {"objective": 2}}],
+      "ranking": [{"run": "m/a", "rank": 1, "group": "g"}]})";
+    return page_of(scratch, result.c_str());
+  };
+  const char* const doubt = "The rows scatter far less than the stated noise says.";
+  EXPECT_THAT(page_with("m/a"), HasSubstr(doubt));
+  EXPECT_THAT(page_with("m/b"), Not(HasSubstr(doubt)));
+}
+
 TEST(Words, OfAnOlderResultAreTakenFromItsFiguresNotFromItsSentences) {
   const trial::Scratch scratch;
   const char* const older = R"({"warnings": ["m/a: k lies at a bound", "m/b: k lies at a bound"],

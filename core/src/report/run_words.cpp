@@ -155,9 +155,19 @@ bool predicts_worse(const Json& best) {
                      [](const Json& channel) { return word(channel, "verdict") == "worse_than_fitted"; });
 }
 
-Doubts doubts_of(const Json& best) {
+/// Of one run, by its warnings: figures of its own do not tell.
+void noise_in_doubt(const Json& result, const std::string& run, Doubts& doubts) {
+  const Json& warnings = list(result, "warning_details");
+  if (std::any_of(warnings.begin(), warnings.end(), [&](const Json& warning) {
+        return word(warning, "kind") == "noise_too_large" && word(warning, "run") == run;
+      }))
+    doubts.add("the rows scatter far less than the stated noise says", "Correct the noise, or the unit of the data.");
+}
+
+Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
   Doubts doubts;
   fit_in_doubt(best, doubts);
+  noise_in_doubt(result, run, doubts);
   if (predicts_worse(best))
     doubts.add("the run fits better than it predicts what was held out",
                "Fit more of the tests together, or take a model with fewer parameters.");
@@ -193,7 +203,7 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
     if (groups.size() > 1) page.heading(fmt::format("Best of {}", order.title(group)));
     const auto rivals =
         std::count_if(order.runs().begin(), order.runs().end(), [&](const auto& run) { return run.group == group; });
-    const Doubts doubts = doubts_of(best);
+    const Doubts doubts = doubts_of(result, word(*first->run, "run"), best);
     std::vector<std::string> names;
     for (const auto& entry : member(best, "parameters").items()) names.push_back(entry.key());
     page.word_lists(
