@@ -208,6 +208,7 @@ TEST_P(SofteningBesideOthers, AnswersDoNotDependOnWhatElseIsWanted) {
 
 INSTANTIATE_TEST_SUITE_P(StressSoftening, SofteningBesideOthers,
                          ::testing::Values(std::pair{"", "stress_softening"},
+                                           std::pair{"stress_softening", "stress_softening"},
                                            std::pair{"viscoelasticity", "stress_softening"},
                                            std::pair{"stress_softening", "viscoelasticity"}),
                          [](const auto& at) {
