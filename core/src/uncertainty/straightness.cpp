@@ -30,8 +30,8 @@ Straightness::Straightness(const assembly::Assembly& assembly, const assembly::W
       by_constraint_(constraints_.size() * free.size()),
       centre_(free.size()) {
   assembly.box().to_unit(free, centre_);
-  least_ = fit(centre_, {});
-  if (!constraints_.empty() || !std::isfinite(linearise(centre_))) return;
+  least_ = fit(centre_, {}, {});
+  if (!std::isfinite(here_ ? least_ : linearise(centre_))) return;
   centre_residuals_ = residuals_;
   centre_jacobian_ = jacobian_;
 }
@@ -78,7 +78,9 @@ bool Straightness::holds(Eigen::Index parameter, double side, double half_width,
   const double expected = std::pow(quantile * (x[j] - centre_[j]) / half_width, 2);
   if (expected < 0.05) return true;  // next to a bound: nothing to tell
   Straightness own(*this);
-  const double rise = (own.fit(x, parameter) - least_) / expected;
+  // What surely lies between these needs no second decimal.
+  const Between settled{least_ + 0.6 * expected, least_ + 1.8 * expected};
+  const double rise = (own.fit(x, parameter, settled) - least_) / expected;
   return rise > 0.5 && rise < 2;
 }
 
@@ -122,12 +124,13 @@ Vector Straightness::step(const std::vector<double>& x, const std::vector<Eigen:
   return found->step;
 }
 
-double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> held) {
+double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> held, const Between& settled) {
   const int iterations = constraints_.empty() ? 8 : 20;
   constexpr int halvings = 4;
   constexpr double enough = 1e-2;  // of −2 ln L, where intervals end at about 4
   const auto n = static_cast<Eigen::Index>(x.size());
   double here = linearise(x);
+  here_ = true;
   for (int k = 0; k < iterations && std::isfinite(here); ++k) {
     std::vector<Eigen::Index> moving;
     const Eigen::Map<const Rows> J(jacobian_.data(), static_cast<Eigen::Index>(residuals_.size()), n);
@@ -144,7 +147,8 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
     const Vector step = this->step(x, moving);
     if (step.size() == 0) break;
     // What is to be gained is known before it is simulated, where no constraint is broken.
-    if (violation == 0 && r.squaredNorm() - (r + J(Eigen::all, moving) * step).squaredNorm() < enough) break;
+    const double ahead = (r + J(Eigen::all, moving) * step).squaredNorm();
+    if (violation == 0 && (here - ahead < enough || (ahead > settled.low && here < settled.high))) break;
     here += (penalty_ - penalty) * violation;
     std::vector<double> next;
     double there = std::numeric_limits<double>::infinity(), length = 1;
@@ -156,7 +160,8 @@ double Straightness::fit(std::vector<double>& x, std::optional<Eigen::Index> hel
       }
       there = linearise(next);
     }
-    if (!(there < here)) break;
+    here_ = there < here;
+    if (!here_) break;
     const double gain = here - there;
     x = std::move(next);
     here = there;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,7 +14,7 @@ namespace tunica::uncertainty {
 /// Whether a linearised interval can be believed: at both its ends (or at a bound that comes before), with the
 /// parameter held there and the others fitted again by Gauss–Newton steps, −2 ln L should have risen by t² (at a bound
 /// in proportion to the square of the distance). It holds when both rises are between a half and twice that: the ends
-/// then are within some 40 % of where a profile would put them. Two linearisations a parameter and more where it bends.
+/// then are within some 40 % of where a profile would put them. A linearisation an end and more where it bends.
 /// Constraints are kept on the way, by steps of constrained_step.hpp and an exact penalty, so that the border may bend,
 /// or be left, as in a profile.
 class Straightness {
@@ -27,8 +28,12 @@ class Straightness {
   /// The same with a workspace of its own.
   Straightness(const Straightness& other);
   void move_along(Eigen::Index parameter, double by, std::vector<double>& x) const;
-  /// Least −2 ln L from x on, with one coordinate held; x is moved there. Infinity where nothing can be evaluated.
-  double fit(std::vector<double>& x, std::optional<Eigen::Index> held);
+  struct Between {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+  };
+  /// Least −2 ln L from x on, with one coordinate held; x is moved there. Infinity where nothing can be evaluated. It
+  /// ends where the value at hand and the least one of the linear model are `settled` between two bounds.
+  double fit(std::vector<double>& x, std::optional<Eigen::Index> held, const Between& settled);
   /// The step of Gauss and Newton from x in the coordinates `moving`; empty where the constraints allow none.
   Vector step(const std::vector<double>& x, const std::vector<Eigen::Index>& moving);
   /// −2 ln L at x, and the penalty of broken constraints; residuals, constraints and their Jacobians by the unit box.
@@ -40,8 +45,9 @@ class Straightness {
   std::vector<double> free_, predictions_, by_free_, residuals_, jacobian_, constraints_, by_constraint_;
   double penalty_ = 0;                                      ///< of a unit of violation
   double violation_ = 0;                                    ///< at the last point
+  bool here_ = false;                                       ///< whether that is where the last fit ended
   std::vector<double> centre_;                              ///< the optimum of the likelihood next to the point
-  std::vector<double> centre_residuals_, centre_jacobian_;  ///< there; empty under constraints
+  std::vector<double> centre_residuals_, centre_jacobian_;  ///< there; empty where it cannot be evaluated
   double least_;
 };
 
