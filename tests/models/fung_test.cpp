@@ -131,5 +131,21 @@ TEST(Fung, SaysWhatIsAdmissible) {
   EXPECT_GT(values("wall", carotid).at(1), 0);
 }
 
+TEST(Fung, SaysWhichParametersAnAdmissibleCombinationIsOf) {
+  for (const std::string form : {"plane", "wall", "wall_with_shear"}) {
+    const auto model = fung(form);
+    const ModelDescription& description = model->describe();
+    const auto names_of = [&](const Combination& combination) {
+      std::vector<std::string> names;
+      for (const std::size_t index : combination.arguments) names.push_back(description.parameters.at(index).name);
+      return names;
+    };
+    ASSERT_EQ(description.admissible.size(), form == "plane" ? 1u : 2u);
+    EXPECT_EQ(names_of(description.admissible[0]), (std::vector<std::string>{"a1", "a2", "a4"})) << form;
+    if (form != "plane")
+      EXPECT_EQ(names_of(description.admissible[1]), (std::vector<std::string>{"a1", "a2", "a3", "a4", "a5", "a6"}));
+  }
+}
+
 }  // namespace
 }  // namespace tunica::testing::fung_test
