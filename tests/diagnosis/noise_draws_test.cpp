@@ -134,5 +134,109 @@ TEST(NoiseDraws, KeepWhatACorrelationMayBeWrongBy) {
               4 * 0.015 * std::sqrt(2.0 / draw_count));
 }
 
+TEST(NoiseDraws, AreDividedByTheUncertaintyOfReplicatesOnly) {
+  const Draws plain = noise_draws(with_replicates(0, 0), 20, 1);
+  Evidence none = with_replicates(0, 0);
+  none.curves.clear();
+  EXPECT_EQ(plain.residuals, noise_draws(none, 20, 1).residuals) << "σ is stated";
+  Evidence open = with_replicates(5, 0.1);
+  open.curves[0].noise.kind = NoiseSource::Kind::encompassing;
+  EXPECT_EQ(noise_draws(open, 20, 1).residuals, plain.residuals) << "the residuals say it";
+  for (const double freedom : {0.8, 6.0}) {
+    const Draws divided = noise_draws(with_replicates(freedom, 0), 20, 1);
+    for (Eigen::Index b = 0; b < 20; ++b) {
+      const Eigen::VectorXf ratio = divided.residuals.col(b).cwiseQuotient(plain.residuals.col(b));
+      EXPECT_GT(std::abs(ratio[0] - 1), 1e-4F) << b;
+      EXPECT_NEAR(ratio.maxCoeff(), ratio.minCoeff(), 1e-4F * ratio[0]) << "one σ of all rows";
+    }
+  }
+}
+
+// v_i = u_i + ρ v_{i−1} with one ρ a draw, from the first row of the curve on.
+TEST(NoiseDraws, CarryACorrelationFromRowToRow) {
+  const Draws without = noise_draws(with_replicates(1000, 0), 20, 1);
+  const Draws with = noise_draws(with_replicates(1000, 0.3), 20, 1);
+  for (Eigen::Index b = 0; b < 20; ++b) {
+    const Eigen::VectorXd u = without.residuals.col(b).cast<double>(), v = with.residuals.col(b).cast<double>();
+    EXPECT_EQ(u[0], v[0]);
+    const double rho = (v - u).tail(199).dot(v.head(199)) / v.head(199).squaredNorm();
+    EXPECT_LT(((v - u).tail(199) - rho * v.head(199)).norm(), 1e-4);
+    EXPECT_GT(std::abs(rho), 1e-4);
+  }
+}
+
+// A draw whose noise grows with the level in another way: rows of four times the variance are twice as large.
+TEST(NoiseDraws, GrowWithTheLevelInOneOfTheWaysThatAreProbable) {
+  Evidence evidence = with_replicates(0, 0);
+  const Draws plain = noise_draws(evidence, 20, 1);
+  evidence.estimated.probability = {0, 1};
+  evidence.estimated.variance = Eigen::MatrixXd::Ones(200, 2);
+  evidence.estimated.variance.col(1).tail(100).setConstant(4);
+  const Draws grown = noise_draws(evidence, 20, 1);
+  EXPECT_EQ(grown.residuals.topRows(100), plain.residuals.topRows(100));
+  EXPECT_LT((grown.residuals.bottomRows(100) - 2 * plain.residuals.bottomRows(100)).norm(), 1e-4F);
+}
+
+// One row of a channel in which one degree of freedom is left: too few to be learned from. The first draw has the same
+// noise either way.
+TEST(NoiseDraws, LearnNothingFromChannelsWithNextToNoFreedom) {
+  Evidence evidence = with_estimated_noise(20);
+  const Eigen::Index last = channel_count - 1;
+  evidence.estimated.span.conservativeResize(Eigen::NoChange, channel_count + 4);
+  evidence.estimated.span.rightCols(4).setZero();
+  for (Eigen::Index k = 0; k < 4; ++k) {  // columns that are orthogonal to a constant: 1, −1; 1, 1, −2; …
+    auto column = evidence.estimated.span.col(channel_count + k).segment(last * rows_each, rows_each);
+    column.head(k + 1).setOnes();
+    column[k + 1] = -static_cast<double>(k + 1);
+    column.normalize();
+  }
+  Evidence stated = evidence;
+  for (Eigen::Index i = last * rows_each; i < channel_count * rows_each; ++i)
+    stated.estimated.group[static_cast<std::size_t>(i)] = assembly::known_variance;
+  const Draws with = noise_draws(evidence, 1, 1), without = noise_draws(stated, 1, 1);
+  ASSERT_EQ(with.precision.rows(), without.precision.rows() + 1);
+  EXPECT_EQ(with.precision.topRows(last), without.precision);
+}
+
+TEST(NoiseDraws, AreAsManyAsAreAskedFor) {
+  const Draws found = noise_draws(with_estimated_noise(0), 700, 1);
+  ASSERT_EQ(found.residuals.cols(), 700);
+  for (const auto draw : found.residuals.colwise())
+    EXPECT_NEAR((draw.tail(rows_each).array() - draw.tail(rows_each).mean()).square().sum(), 5, 1e-4);
+}
+
+TEST(NoiseDraws, SayThePrecisionOfEveryRow) {
+  Draws draws;
+  EXPECT_EQ(draws.precision_of_rows(0).size(), 0);
+  draws.residuals = Eigen::MatrixXf::Zero(3, 2);
+  draws.precision = (Eigen::MatrixXf(1, 2) << 2, 3).finished();
+  draws.group = {0, assembly::known_variance, 0};
+  EXPECT_EQ(draws.precision_of_rows(1), Eigen::Vector3d(3, 1, 3));
+}
+
+// As above with channels that differ more, and the mean of σ²/σ̂² beside that of its logarithm.
+TEST(NoiseDraws, LearnLessWhereChannelsDifferMore) {
+  for (const double d : {6.0, 0.5}) {
+    const Draws found = noise_draws(with_estimated_noise(d), draw_count, 1);
+    std::mt19937_64 generator(2);
+    std::chi_squared_distribution<double> of_others(d), own(5);
+    Eigen::ArrayXd logs(draw_count), precisions(draw_count);
+    for (Eigen::Index b = 0; b < logs.size(); ++b) {
+      std::vector<double> V(channel_count), ratios(channel_count);
+      for (std::size_t g = 0; g < V.size(); ++g) {
+        V[g] = 1 / std::max(of_others(generator) / d, 1e-6);
+        ratios[g] = V[g] * own(generator) / 5;
+      }
+      const Moderation others = moderation_of(ratios, std::vector<double>(channel_count, 5));
+      precisions[b] = V[0] * (others.freedom + 5) / (others.freedom * others.ratio + 5 * ratios[0]);
+      logs[b] = std::pow(std::log(precisions[b]), 2);
+    }
+    const Eigen::ArrayXd drawn = found.precision.row(0).transpose().cast<double>().array();
+    const MeanSquare log(logs), drawn_log(drawn.log().square()), precision(precisions), drawn_precision(drawn);
+    EXPECT_NEAR(drawn_log.value, log.value, 4 * std::hypot(drawn_log.sd, log.sd)) << d;
+    EXPECT_NEAR(drawn_precision.value, precision.value, 4 * std::hypot(drawn_precision.sd, precision.sd)) << d;
+  }
+}
+
 }  // namespace
 }  // namespace tunica::diagnosis

@@ -2,6 +2,7 @@
 // Smooth shapes that whatever is no noise may have.
 #include "diagnosis/evidence/smooth_columns.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -116,6 +117,36 @@ TEST(SmoothColumns, HaveParabolasInLongHolds) {
           << i << ' ' << degree;
 }
 
+TEST(SmoothColumns, KnowADirectionOnlyWhereTheCurveTurns) {
+  std::vector<double> x = rising(36);
+  std::reverse(x.begin(), x.end());
+  EXPECT_EQ(columns_over(x).cols(), 6) << "down only";
+  for (const bool up : {true, false}) {  // one row alone beyond the turning point
+    x = rising(17);
+    if (!up) std::reverse(x.begin(), x.end());
+    x.push_back(1.5);
+    const Eigen::MatrixXd columns = columns_over(x);
+    ASSERT_EQ(columns.cols(), 6);
+    for (Eigen::Index i = 0; i < 18; ++i) EXPECT_EQ(columns(i, 2), (i < 17) == up ? 1 : -1) << i;
+  }
+}
+
+// Of 36 rows there may be twelve columns, of 30 ten, of 27 nine.
+TEST(SmoothColumns, OfAHoldAreThreeAtMost) {
+  std::vector<double> x = rising(28);
+  x.insert(x.end(), 8, 2.5);
+  EXPECT_EQ(columns_over(x).cols(), 9);
+  EXPECT_EQ(columns_over(std::vector<double>(30, 1.5)).cols(), 6) << "a curve that is held throughout has no other";
+  x = rising(9);
+  x.insert(x.end(), 9, 2.5);
+  for (int i = 0; i < 9; ++i) x.push_back(3 + 0.1 * i);
+  EXPECT_EQ(columns_over(x).cols(), 9) << "in the middle";
+  x = rising(28);
+  for (int i = 0; i < 8; ++i) x.push_back(2.5 + 1e-4 * (i % 2));
+  for (double& value : x) value += 1000;
+  EXPECT_EQ(columns_over(x).cols(), 6) << "a ten-thousandth of the range is no standstill, wherever the range lies";
+}
+
 TEST(SmoothColumns, StandSideBySideForSeveralCurves) {
   Curve first = curve_over(rising(6)), second = curve_over(rising(9));
   second.first = 9;
@@ -136,10 +167,25 @@ TEST(LoadingDirections, TurnWhereTheAbscissaGoesBackByATwentiethOfItsRange) {
       << "from its highest point on";
 }
 
+TEST(LoadingDirections, DependOnNoUnitOfTheAbscissa) {
+  for (const double unit : {1e-3, 10.0, 1e3}) {
+    const auto scaled = [unit](std::vector<double> x) {
+      for (double& value : x) value *= unit;
+      return loading_directions(x);
+    };
+    EXPECT_THAT(scaled({0, 0.5, 0.451, 1}), ElementsAre(1, 1, 1, 1)) << unit;
+    EXPECT_THAT(scaled({0, 0.5, 0.449, 1}), ElementsAre(1, 1, -1, 1)) << unit;
+    EXPECT_THAT(scaled({0, 0.04, -0.02, 1}), ElementsAre(1, 1, 1, 1)) << unit;
+    EXPECT_THAT(scaled({0, 0.5, 0.5 + 4e-7, 0.5, 0.5 - 4e-7, 1}), ElementsAre(1, 1, 0, 0, 0, 1)) << unit;
+    EXPECT_THAT(scaled({0, 0.5, 0.5 + 4e-6, 0.5, 0.5 - 4e-6, 1}), ElementsAre(1, 1, 1, 1, 1, 1)) << unit;
+  }
+}
+
 TEST(LoadingDirections, AreNoneInAHoldOfFourRows) {
   EXPECT_THAT(loading_directions({0, 1, 1, 1, 1, 2}), ElementsAre(1, 1, 0, 0, 0, 1));
   EXPECT_THAT(loading_directions({0, 1, 1, 1, 2}), ElementsAre(1, 1, 1, 1, 1));
   EXPECT_THAT(loading_directions({0, 1, 1, 1 + 1e-5, 1, 2}), ElementsAre(1, 1, 1, 1, 1, 1)) << "it moves";
+  EXPECT_THAT(loading_directions({1, 1, 1, 1, 2}), ElementsAre(1, 0, 0, 0, 1)) << "from the first row on";
 }
 
 TEST(LoadingDirections, AreUpwardsWhereNothingMoves) {
