@@ -55,6 +55,22 @@ TEST(HostileInput, CountsOnTheCommandLine) {
   }
 }
 
+// Realisations that the schema allows, where a process may have 600 MB.
+TEST(HostileInput, WhatDoesNotFitIntoTheMemoryIsRefusedBeforeItIsTried) {
+  trial::Bench bench;
+  bench.experiment["runs"][0]["realisations"] = 100000;
+  bench.save();
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", "experiment.json", "-o", "out"}, {"check", "experiment.json"}}) {
+    std::vector<std::string> command{"/bin/sh", "-c", "ulimit -d 600000; exec \"$@\"", "sh"};
+    for (std::string& word : trial::tunica_command(arguments)) command.push_back(std::move(word));
+    const auto ended = trial::Process(command, bench.folder.path()).wait();
+    EXPECT_EQ(ended.code, 2) << ended.err.substr(0, 1000);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("the experiment needs about"), HasSubstr("lower \"realisations\"")));
+    EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+  }
+}
+
 TEST(HostileInput, AHugeKeyAndAHugeValueAreQuotedInShort) {
   trial::Bench bench;
   bench.experiment[std::string(10'000'000, 'k')] = 1;
