@@ -10,16 +10,19 @@
 namespace tunica::testing {
 
 /// A model that takes its interface by the word: every span has the length that its description says, or is empty. It
-/// carries one double a point, the number of steps that it has taken.
+/// carries one double a point, the number of steps that it has taken, unless it is told to have no memory. `calls`
+/// counts evaluations where it is given.
 class ExactModel final : public Model {
  public:
-  explicit ExactModel(std::unique_ptr<Model> base) : base_(std::move(base)), description_(base_->describe()) {
-    description_.history_size = 1;
+  explicit ExactModel(std::unique_ptr<Model> base, std::size_t* calls = nullptr, bool memory = true)
+      : base_(std::move(base)), description_(base_->describe()), calls_(calls) {
+    description_.history_size = memory ? 1 : 0;
     description_.principal_axes = false;
   }
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
 
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override {
+    if (calls_ != nullptr) ++*calls_;
     const std::size_t n = points.count, parameters = description_.parameters.size();
     const auto is = [n](const auto& span, std::size_t each) { return span.empty() || span.size() == each * n; };
     if (points.parameters.size() != parameters) return Status::failed("parameters of somebody else");
@@ -39,6 +42,7 @@ class ExactModel final : public Model {
  private:
   std::unique_ptr<Model> base_;
   ModelDescription description_;
+  std::size_t* calls_;
 };
 
 }  // namespace tunica::testing

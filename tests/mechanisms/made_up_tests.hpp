@@ -71,11 +71,12 @@ class OverheardTest final : public PassedOnTest {
   Listener listener_;
 };
 
-/// Its channels times a factor, an ordinary parameter in front of its own, which begins at 1.
+/// Its channels times a factor, an ordinary parameter in front of its own, which begins at `start`.
 class TimesAFactor final : public PassedOnTest {
  public:
-  explicit TimesAFactor(std::unique_ptr<Test> base) : PassedOnTest(std::move(base)) {
-    description_.parameters.insert(description_.parameters.begin(), {"factor", "1", 1, 0, 2, Scale::linear, "", ""});
+  explicit TimesAFactor(std::unique_ptr<Test> base, double start = 1) : PassedOnTest(std::move(base)) {
+    description_.parameters.insert(description_.parameters.begin(),
+                                   {"factor", "1", start, 0, 3, Scale::linear, "", ""});
     description_.nulls.insert(description_.nulls.begin(), std::numeric_limits<double>::quiet_NaN());
   }
   Status predict(const TestInput& input, const TestOutput& output) const override {

@@ -114,6 +114,49 @@ TEST(MemoryEdges, ABaseIsAskedInItsOwnTerms) {
   expect_answers(*wrapped("stress_softening", wrapped("viscoelasticity", exact("hgo"))), {0.7, tau, 0.5, 0.4});
 }
 
+/// How often the base is evaluated in one call; a state stands for steps before.
+std::size_t calls_of(const std::vector<std::string>& mechanisms, const Values& own, bool memory, bool stress,
+                     bool tangent, bool before, bool commit) {
+  std::size_t calls = 0;
+  std::unique_ptr<Model> made = std::make_unique<ExactModel>(model("neo_hooke"), &calls, memory);
+  for (const std::string& mechanism : mechanisms) made = wrapped(mechanism, std::move(made));
+  Values parameters{mu}, energy(1), s(stress ? 6 : 0), t(tangent ? 36 : 0);
+  parameters.insert(parameters.end(), own.begin(), own.end());
+  const std::size_t history = made->describe().history_size;
+  const Values C = uniaxial_deformation(1.2), step{1}, old(before ? history : 0, 0.1);
+  Values state(commit ? history : 0);
+  const Status status = made->evaluate({1, C, parameters, step, old}, {energy, s, t, {}, state});
+  EXPECT_TRUE(status.ok()) << status.reason();
+  return calls;
+}
+
+/// At the null the base answers alone, and where nothing can be soft yet. Softening asks for the energy at rest too,
+/// and for the stress without memory where a tangent needs it: every evaluation costs as much as the material does.
+TEST(MemoryEdges, SofteningAsksItsBaseAsOftenAsItNeeds) {
+  const auto calls = [](double s, bool memory, bool stress, bool tangent, bool before, bool commit) {
+    return calls_of({"stress_softening"}, {s, 0.5}, memory, stress, tangent, before, commit);
+  };
+  EXPECT_EQ(calls(0, false, true, true, true, false), 1u) << "at the null";
+  EXPECT_EQ(calls(0.4, false, true, true, false, false), 1u) << "at the first step";
+  EXPECT_EQ(calls(0.4, false, false, false, true, false), 1u) << "of the energy alone";
+  EXPECT_EQ(calls(0.4, false, true, true, true, false), 2u) << "and the energy at rest";
+  EXPECT_EQ(calls(0.4, true, true, false, true, false), 2u) << "a stress needs no other";
+  EXPECT_EQ(calls(0, true, true, true, true, true), 2u) << "Wmax alone";
+  EXPECT_EQ(calls(0.4, true, true, true, true, false), 3u) << "and the stress without memory";
+}
+
+/// A branch asks for the stress at rest where a path begins, and beside another one for the elastic response.
+TEST(MemoryEdges, ABranchAsksItsBaseAsOftenAsItNeeds) {
+  const std::vector<std::string> one{"viscoelasticity"}, two{"viscoelasticity", "viscoelasticity"};
+  EXPECT_EQ(calls_of(one, {0.5, tau}, true, true, true, true, true), 1u);
+  EXPECT_EQ(calls_of(one, {0.5, tau}, true, true, true, false, true), 2u) << "and at rest";
+  EXPECT_EQ(calls_of(one, {0.5, tau}, true, false, false, false, false), 1u) << "of the energy alone";
+  EXPECT_EQ(calls_of(one, {0, tau}, true, true, true, false, true), 1u) << "at the null";
+  EXPECT_EQ(calls_of(two, {0, tau, 0, tau}, true, true, true, true, false), 1u) << "both at the null";
+  EXPECT_EQ(calls_of(two, {0.5, tau, 0, tau}, true, true, true, true, false), 1u) << "the second at the null";
+  EXPECT_EQ(calls_of(two, {0.5, tau, 0.3, tau}, true, true, true, true, false), 2u) << "and the elastic response";
+}
+
 /// W of a neo-Hookean material in a strip.
 double energy_of(double stretch) { return mu / 2 * (stretch * stretch + 2 / stretch - 3); }
 

@@ -111,6 +111,7 @@ TEST(PartsOfParts, AModulusOfTwoParametersStiffens) {
     const double x = c[i] + c[n + i] + c[2 * n + i] - 3, grown = std::expm1(0.5 * x) / 0.5;
     EXPECT_NEAR(W_dp[i], grown / 2, 1e-12);
     EXPECT_NEAR(W_dp[n + i], grown, 1e-12);
+    EXPECT_NEAR(W_dp[2 * n + i], 7 * (x * std::exp(0.5 * x) - grown) / 0.5, 1e-11);
     EXPECT_NEAR(g_dp[i], std::exp(0.5 * x) / 2, 1e-12);
     EXPECT_NEAR(g_dp[3 * n + i], std::exp(0.5 * x), 1e-12);
   }

@@ -118,8 +118,16 @@ TEST(SlackStripOfAnother, FailsWhereTheJacobianInsideFails) {
 
 /// What it corrects has to be the stress of a strip, whatever else the test has to be fitted.
 TEST(SlackStripOfAnother, HasTheStressOfAStripWhateverElseIsFitted) {
-  EXPECT_EQ(wrapped_test("permanent_set", std::make_unique<TimesAFactor>(make_strip(loop)))->describe().nulls.size(),
-            3u);
+  const auto wrap = [](double factor) {
+    return wrapped_test("permanent_set", std::make_unique<TimesAFactor>(make_strip(loop), factor));
+  };
+  EXPECT_EQ(wrap(1)->describe().nulls.size(), 3u);
+  try {
+    wrap(3);
+    FAIL() << "three times a stress is none of a strip";
+  } catch (const InputError& problem) {
+    EXPECT_THAT(problem.what(), HasSubstr("permanent_set: the test's stress is no Cauchy, first or second"));
+  }
 }
 
 }  // namespace
