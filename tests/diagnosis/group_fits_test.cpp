@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include <gmock/gmock.h>
 
@@ -53,18 +52,6 @@ struct Rows : MadeUpCauses {
   }
   [[nodiscard]] std::vector<Group> refitted(std::vector<Group> groups, const std::vector<Single>& singles = {}) const {
     return GroupFits(inquiry(), analysis, singles).refitted(std::move(groups), 0, 1);
-  }
-  /// Draws of the noise say what a member has to explain: here about ten.
-  void need_more_than_noise() {
-    std::mt19937 generator(7);
-    std::normal_distribution<float> normal;
-    Draws draws;
-    draws.residuals =
-        Eigen::MatrixXf::NullaryExpr(analysis.evidence.fit.residuals.size(), 500, [&] { return normal(generator); });
-    const Shapes none{Eigen::MatrixXd(analysis.evidence.fit.residuals.size(), 0), {}};
-    analysis.alarm.detector =
-        std::make_shared<const Detector>(analysis.hypotheses.projection, analysis.hypotheses.directions,
-                                         analysis.hypotheses.candidates.size(), none, draws);
   }
   Eigen::Index size;
 
@@ -175,7 +162,7 @@ std::vector<std::string> kept_of_seven(std::size_t needed) {
   Rows causes(shown);
   for (Eigen::Index row = 0; row < 14; ++row) causes.add_row(row);
   causes.close();
-  causes.need_more_than_noise();
+  causes.calibrate_by_noise();
   std::vector<Group> groups;
   for (int k = 0; k < 7; ++k)
     groups.push_back(causes.group({"m" + std::to_string(2 * k), "m" + std::to_string(2 * k + 1)}));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace tunica::diagnosis {
@@ -146,9 +147,23 @@ void MadeUpCauses::close() {
   // Draws of nothing at all: any loss is enough for a member of a group to be needed.
   Draws draws;
   draws.residuals = Eigen::MatrixXf::Zero(evidence.fit.residuals.size(), 100);
-  const Shapes none{Eigen::MatrixXd(evidence.fit.residuals.size(), 0), {}};
+  calibrate(draws);
+}
+
+void MadeUpCauses::calibrate(const Draws& draws) {
+  const Hypotheses& hypotheses = analysis.hypotheses;
+  const Shapes none{Eigen::MatrixXd(draws.residuals.rows(), 0), {}};
   analysis.alarm.detector = std::make_shared<const Detector>(hypotheses.projection, hypotheses.directions,
                                                              hypotheses.candidates.size(), none, draws);
+}
+
+void MadeUpCauses::calibrate_by_noise() {
+  std::mt19937 generator(7);
+  std::normal_distribution<float> normal;
+  Draws draws;
+  draws.residuals =
+      Eigen::MatrixXf::NullaryExpr(analysis.evidence.fit.residuals.size(), 500, [&] { return normal(generator); });
+  calibrate(draws);
 }
 
 std::size_t MadeUpCauses::direction(const std::string& id, std::size_t place) const {

@@ -38,6 +38,9 @@ class MadeUpCauses : public fakes::Bench {
   /// After all of these: fits the base, and makes the hypotheses.
   void close();
 
+  /// After that: thresholds by 500 draws of noise (seed 7) instead of by nothing at all; they come to about ten.
+  void calibrate_by_noise();
+
   [[nodiscard]] Inquiry inquiry() const { return {experiment, request, shelf, progress}; }
   /// The direction of a mechanism in one of its places.
   [[nodiscard]] std::size_t direction(const std::string& id, std::size_t place = 0) const;
@@ -61,6 +64,8 @@ class MadeUpCauses : public fakes::Bench {
   Analysis analysis;
 
  private:
+  void calibrate(const Draws& draws);
+
   std::vector<MadeUp> mechanisms_;
   std::mutex mutex_;
 };
