@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "diagnosis/measured.hpp"
+#include "discover/paths_of.hpp"
 #include "numerics/distributions.hpp"
 
 namespace tunica::discovery::history_test {
@@ -14,32 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Strips of a wall that the base describes; tests choose the residuals.
-class PathsOf {
- public:
-  explicit PathsOf(std::vector<trial::Strip> strips) {
-    const trial::Measured measured(std::move(strips));
-    measured.measure(31);
-    const experiment::Experiment read = measured.read();
-    const diagnosis::Request request = diagnosis::request_of(read);
-    const diagnosis::Progress silent;
-    evidence_ = diagnosis::evidence_of({read, request, testing::catalogue(), silent}, {});
-  }
-
-  /// `of(test, row, stretch)`
-  [[nodiscard]] PathDependence with(const std::function<double(const std::string&, std::size_t, double)>& of) const {
-    diagnosis::Fit fit = evidence_.fit;
-    for (const diagnosis::Curve& curve : evidence_.curves)
-      for (std::size_t i = 0; i < curve.abscissa.size(); ++i)
-        fit.residuals[curve.first + static_cast<Eigen::Index>(i)] = of(curve.test, i, curve.abscissa[i]);
-    fit.chi2 = fit.residuals.squaredNorm();
-    return path_dependence(evidence_, fit);
-  }
-  [[nodiscard]] double rows() const { return static_cast<double>(evidence_.fit.residuals.size()); }
-
- private:
-  diagnosis::Evidence evidence_;
-};
+using trial::PathsOf;
 
 /// Up to 1.5 in ten steps, and back to where it began.
 std::vector<double> there_and_back() {

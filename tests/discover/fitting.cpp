@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "discover/fitting.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace tunica::trial {
+namespace {
+
+diagnosis::Evidence evidence_of(const Rubber& rubber, const ToFit& what) {
+  experiment::Experiment read = rubber.read();
+  if (what.from_nothing) read = discovery::with_first_term(std::move(read), "rubber");
+  const diagnosis::Request request = diagnosis::request_of(read);
+  const diagnosis::Progress silent;
+  return diagnosis::evidence_of({read, request, testing::catalogue(), silent}, {});
+}
+
+}  // namespace
+
+MeasuredRubber::MeasuredRubber(const ToFit& what) {
+  for (Strip& strip : strips) {
+    strip.sd = what.sd;
+    strip.stretch.erase(strip.stretch.begin(), strip.stretch.end() - static_cast<std::ptrdiff_t>(what.rows));
+    std::string text = "stretch [1],stress [kPa]\n";
+    for (const double stretch : strip.stretch) text += fmt::format("{},0\n", stretch);
+    folder.write(strip.name + ".csv", text);
+  }
+  if (what.with) what.with(experiment);
+  measure(what.seed, what.hide);
+}
+
+FittedRubber::FittedRubber(const ToFit& what)
+    : rubber(what),
+      evidence(evidence_of(rubber, what)),
+      subject{evidence.experiment, evidence.run, "rubber", what.from_nothing, testing::catalogue()},
+      fitter(subject, evidence) {}
+
+discovery::KindPointer FittedRubber::kind(const std::string& name,
+                                          const std::function<void(discovery::Kind&)>& change) const {
+  for (discovery::Kind& one : discovery::kinds_of({}, states(), true))
+    if (one.name == name) {
+      one.largest = fitter.largest_amplitude(one);
+      if (change) change(one);
+      return std::make_shared<const discovery::Kind>(one);
+    }
+  throw std::out_of_range(name);
+}
+
+discovery::SetFit FittedRubber::at(const std::vector<discovery::KindPointer>& kinds,
+                                   const std::vector<double>& free) const {
+  discovery::SetFit one{kinds, std::make_shared<const discovery::BoundSet>(subject, kinds), {}, 0};
+  const assembly::Assembly& assembly = one.set->assembly();
+  one.fit.status =
+      diagnosis::whitened(assembly, free, *assembly.evaluator().make_workspace(), one.fit.residuals, &one.fit.jacobian);
+  one.fit.free = free;
+  one.fit.chi2 = one.fit.residuals.squaredNorm();
+  one.fit.at_bound.assign(free.size(), false);
+  return one;
+}
+
+double FittedRubber::measured() const {
+  double sum = 0;
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
+    for (std::size_t i = 0; i < view.count; ++i) sum += std::pow(view.measured[i] / view.noise->absolute, 2);
+  return std::sqrt(sum);
+}
+
+std::size_t place_of(const discovery::SetFit& fit, const std::string& parameter) {
+  return discovery::index_of(fit.set->assembly(), parameter);
+}
+
+Measured::Hide hidden(const std::string& invariant, const std::string& law,
+                      const std::vector<std::pair<std::string, double>>& parameters, const std::string& family) {
+  nlohmann::json term = {{"invariant", invariant}, {"law", law}};
+  if (!family.empty()) term["family"] = family;
+  for (const auto& [name, value] : parameters) term["parameters"][name]["initial"] = value;
+  return hidden_term(term);
+}
+
+}  // namespace tunica::trial
