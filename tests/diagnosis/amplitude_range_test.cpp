@@ -1,149 +1,197 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large an amplitude may be, by the size of the data. The base shows 1 + x/10, and so do they.
+// How large amplitudes may be, from the data: ranges of curves over effects that are made by hand.
 #include "diagnosis/hypotheses/amplitude_range.hpp"
+
+#include <cmath>
 
 #include <gmock/gmock.h>
 
-#include "diagnosis/search_bed.hpp"
+#include "diagnosis/made_up_causes.hpp"
 
-namespace tunica::diagnosis::amplitude_range_test {
+namespace tunica::diagnosis {
 namespace {
 
-using Settings = std::vector<MechanismFactory::Setting>;
+using ::testing::ElementsAre;
+using Side = MechanismFactory::Side;
 
-void expect_range(const std::optional<AmplitudeRange>& found, double plausible_min, double plausible_max, double min,
-                  double max) {
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->plausible_min, plausible_min, 1e-6);
-  EXPECT_NEAR(found->plausible_max, plausible_max, 1e-6);
-  EXPECT_NEAR(found->min, min, 1e-6);
-  EXPECT_NEAR(found->max, max, 1e-6);
-}
+constexpr double slight = 1e-9;
 
-/// "a" at 1, 2, 5 with channels y and z (ten times as large), "b" at 3, 4: they span 0.4, 4 and 0.1.
-struct Bed : SearchBed {
-  Bed() {
-    add("a", {1, 2, 5}, true);
-    add("b", {3, 4});
+/// Test "a" with four rows that span 6, test "b" with three that span 2, and a mechanism that shows in both.
+struct Ranged : MadeUpCauses {
+  explicit Ranged(const std::function<void(MechanismFactory&)>& declare = {}, MadeUp one = shown_in_both())
+      : MadeUpCauses({4, 3}, beyond()) {
+    one.declare = declare;
+    add(one);
+    close();
   }
-  std::optional<AmplitudeRange> range(MechanismFactory factory, const Place& place,
-                                      const Settings& settings = {MechanismFactory::Setting{}}) {
-    const std::string id = factory.id;
-    put(std::move(factory));
-    const MechanismFactory& mechanism = shelf.mechanisms().at(id).factory;
-    const Extension extended(experiment, run, {{id, place, settings.front()}}, shelf);
-    return range_from_data(extended, mechanism, settings, extended.at_null({}),
+  static Eigen::VectorXd beyond() {
+    // 1 + x/10 is what the base shows.
+    Eigen::VectorXd wanted(7), base(7);
+    wanted << 2, 8, 5, 3, -1, 1, 0.5;
+    for (Eigen::Index i = 0; i < 7; ++i) base[i] = 1 + 0.1 * static_cast<double>(i);
+    return wanted - base;
+  }
+  static MadeUp shown_in_both() {
+    Eigen::VectorXd shape(7);
+    shape << -4, 0.5, 1, 0, 0.25, 0, -0.5;
+    return {"m", shape, {{"a"}, {"b"}, {"a", "b"}}};
+  }
+  [[nodiscard]] const MechanismFactory& mechanism() const { return shelf.mechanisms().at("m").factory; }
+  [[nodiscard]] std::optional<AmplitudeRange> range(const Place& place) const {
+    const Extension extended(experiment, run, {{"m", place, {}}}, shelf);
+    return range_from_data(extended, mechanism(), {{}}, extended.at_null(analysis.evidence.fit.free),
                            *extended.assembly().evaluator().make_workspace());
   }
 };
 
-MechanismFactory filling(const std::string& id, double share, Effect effect) {
-  MechanismFactory factory = acting(id, std::move(effect));
-  factory.plausible_effect = share;
-  return factory;
-}
-
-const Effect proportional = [](double x, auto own, const Options&) { return own[0] * x; };
-
-TEST(RangeFromData, OfAChannelIsItsSpan) {
-  MechanismFactory channel = acting("channel", proportional);
-  channel.options = {Option::text("channel", "y", "")};
-  channel.null = 7;
-  expect_range(Bed().range(channel, {{"a"}, "y"}), 6.6, 7.4, 5, 9);
-  expect_range(Bed().range(channel, {{"a"}, "z"}), 3, 11, -13, 27);
-  expect_range(Bed().range(channel, {{"b"}, "y"}), 6.9, 7.1, 6.5, 7.5);
-  Bed flat;
-  flat.add("flat", {2, 2});
-  EXPECT_FALSE(flat.range(channel, {{"flat"}, "y"})) << "it spans nothing";
-}
-
-TEST(RangeFromData, IsTheDeclaredOneUnlessTheMechanismSaysOtherwise) {
-  EXPECT_FALSE(Bed().range(acting("p", proportional), {{"a"}}));
-}
-
-// v x is 5 v at most in "a" of which the span is 0.4 in y, and 4 v in "b" with a span of 0.1.
-TEST(RangeFromData, FillsTheChannelThatItShowsMostIn) {
-  expect_range(Bed().range(filling("p", 1, proportional), {{"b"}}), -0.025, 0.025, -0.125, 0.125);
-  expect_range(Bed().range(filling("p", 2, proportional), {{"a"}}), -0.16, 0.16, -0.8, 0.8);
-  expect_range(Bed().range(filling("p", 0.5, proportional), {{"a", "b"}}), -0.0125, 0.0125, -0.0625, 0.0625);
-  const Effect against = [](double x, auto own, const Options&) { return -own[0] * x; };
-  expect_range(Bed().range(filling("p", 2, against), {{"a"}}), -0.16, 0.16, -0.8, 0.8);
-  EXPECT_FALSE(Bed().range(filling("p", 1, [](double, auto, const Options&) { return 0.0; }), {{"a"}}))
-      << "it shows nowhere";
-  const Effect first = [](double x, auto own, const Options&) { return x == 1 ? own[0] : 0.0; };
-  expect_range(Bed().range(filling("p", 1, first), {{"a"}}), -0.4, 0.4, -2, 2);
-}
-
-TEST(RangeFromData, StaysOnTheSidesThatTheMechanismHas) {
-  MechanismFactory up = filling("up", 1, proportional), down = filling("down", 1, proportional);
-  up.plausible_min = 0;
-  expect_range(Bed().range(up, {{"b"}}), 0, 0.025, -0.125, 0.125);
-  down.plausible_max = 0;
-  expect_range(Bed().range(down, {{"b"}}), -0.025, 0, -0.125, 0.125);
-  MechanismFactory bounded = filling("bounded", 1, proportional);
-  bounded.parameters.front().min = 0;
-  expect_range(Bed().range(bounded, {{"b"}}), -0.025, 0.025, 0, 0.125);
-  bounded.parameters.front().min = -10;
-  bounded.parameters.front().max = 0;
-  expect_range(Bed().range(bounded, {{"b"}}), -0.025, 0.025, -0.125, 0);
-}
-
-TEST(RangeFromData, WithoutAUnitIsTheDeclaredOneAtLeast) {
-  MechanismFactory share = filling("share", 1, proportional);
-  share.parameters.front().unit = "1";
-  expect_range(Bed().range(share, {{"b"}}), -1, 1, -10, 10);
-  share.plausible_effect = 100;
-  expect_range(Bed().range(share, {{"b"}}), -2.5, 2.5, -12.5, 12.5);
-}
-
-// v x^w: at w = 0 one unit shows as one unit, at w = 2 as 25.
-TEST(RangeFromData, IsThatOfTheSettingThatAllowsMost) {
-  MechanismFactory power = acting_with_nuisance(
-      "power", [](double x, auto own, const Options&) { return own[0] * std::pow(x, own[1]); }, "1");
-  power.plausible_effect = 1;
-  const Settings settings{{{"w", 2}}, {{"w", 0}}, {{"w", 1}}};
-  expect_range(Bed().range(power, {{"a"}}, settings), -0.4, 0.4, -2, 2);
-  expect_range(Bed().range(power, {{"a"}}, {settings.front()}), -0.016, 0.016, -0.08, 0.08);
-}
-
-// What remembers has no derivatives: to S a share of the S of the row before is added, 1.1, 1.2 and 1.3 here.
-TEST(RangeFromData, IsTakenFromADifferenceWhereThereAreNoDerivatives) {
-  Bed bed;
-  MechanismFactory memory = bed.shelf.mechanisms().at("memory").factory;
-  memory.id = "remembering";
-  memory.plausible_effect = 1;
-  memory.parameters.front().unit = "kPa";
-  memory.parameters.front().min = -1;
-  memory.plausible_max = 3;
-  const double reach = 0.1 / 1.3;
-  expect_range(bed.range(memory, {}), -reach, reach, -5 * reach, 5 * reach);
-  SearchBed alone;  // a row without one before it shows nothing
-  alone.add("one", {9});
-  alone.add("b", {3, 4});
-  alone.put(memory);
-  const Extension extended(alone.experiment, alone.run, {{"remembering", {}, {}}}, alone.shelf);
-  const auto workspace = extended.assembly().evaluator().make_workspace();
-  expect_range(range_from_data(extended, memory, {{}}, extended.at_null({}), *workspace), -reach, reach, -5 * reach,
-               5 * reach);
-}
-
-TEST(WithSetting, PutsNuisanceParametersWhereItSaysWithinTheirBounds) {
-  Bed bed;
-  bed.put(acting_with_nuisance("p", proportional, "1"));
-  const Extension extended(bed.experiment, bed.run, {{"p", {{"a", "b"}}, {}}}, bed.shelf);
-  const MechanismFactory& mechanism = bed.shelf.mechanisms().at("p").factory;
-  const std::vector<double> null = extended.at_null({});
-  const auto values_at = [&](const MechanismFactory::Setting& setting) {
-    const std::vector<double> all = with_setting(extended, mechanism, setting, null);
-    std::vector<double> nuisance;
-    for (const std::size_t member : extended.parts().front().nuisance.front()) nuisance.push_back(all[member]);
-    for (const std::size_t member : extended.parts().front().amplitude) EXPECT_EQ(all[member], 0);
-    return nuisance;
+/// An effect of this share of the range is plausible, on both sides of a null.
+std::function<void(MechanismFactory&)> effect(double share, double null = 0) {
+  return [=](MechanismFactory& factory) {
+    factory.plausible_effect = share;
+    factory.plausible_min = null - 1e-3;
+    factory.plausible_max = null + 1e-3;
   };
-  EXPECT_EQ(values_at({{"w", 7}}), (std::vector<double>{7, 7}));
-  EXPECT_EQ(values_at({{"w", 700}}), (std::vector<double>{100, 100}));
-  EXPECT_EQ(values_at({{"v", 7}, {"other", 8}}), (std::vector<double>{1, 1}));
+}
+
+void expect_range(const std::optional<AmplitudeRange>& range, double null, double plausible) {
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->plausible_min, null - plausible, slight);
+  EXPECT_NEAR(range->plausible_max, null + plausible, slight);
+  EXPECT_NEAR(range->min, null - 5 * plausible, 5 * slight);
+  EXPECT_NEAR(range->max, null + 5 * plausible, 5 * slight);
+}
+
+TEST(AmplitudeRange, OfAChannelSpansItsValues) {
+  MadeUp one = Ranged::shown_in_both();
+  one.null = 3;
+  const Ranged causes({}, one);
+  expect_range(causes.range({{"a"}, "y"}), 3, 6);
+  expect_range(causes.range({{"b"}, "y"}), 3, 2);
+}
+
+TEST(AmplitudeRange, OfAChannelThatDoesNotChangeIsThatOfTheMechanism) {
+  MadeUpCauses causes({2}, Eigen::Vector2d(0.1, 0));
+  causes.add({"m", Eigen::Vector2d(1, 1)});
+  causes.close();
+  const Extension extended(causes.experiment, causes.run, {{"m", {{"a"}, "y"}, {}}}, causes.shelf);
+  EXPECT_FALSE(range_from_data(extended, causes.shelf.mechanisms().at("m").factory, {{}},
+                               extended.at_null(causes.analysis.evidence.fit.free),
+                               *extended.assembly().evaluator().make_workspace()));
+}
+
+TEST(AmplitudeRange, LetsTheLargestEffectFillAShareOfTheCurve) {
+  const Ranged causes(effect(0.5));
+  expect_range(causes.range({{"a"}}), 0, 0.5 * 6 / 4);
+  expect_range(causes.range({{"b"}}), 0, 0.5 * 2 / 0.5);
+}
+
+// A model that remembers has no Jacobian: the effect is a difference then. 3 d + d² has the slope 3 at the null.
+TEST(AmplitudeRange, IsTheSameFromDifferences) {
+  MadeUp one = Ranged::shown_in_both();
+  one.null = 2;
+  one.by = [](double distance) { return 3 * distance + distance * distance; };
+  Ranged causes(effect(1, 2), one);
+  causes.model().mechanisms.push_back({"memory", {}, {}, ""});
+  const Extension extended(causes.experiment, causes.run, {{"m", {{"a", "b"}}, {}}}, causes.shelf);
+  ASSERT_FALSE(extended.assembly().layout().jacobian_is_exact);
+  const auto workspace = extended.assembly().evaluator().make_workspace();
+  std::vector<double> null(extended.assembly().layout().parameters.size());
+  for (std::size_t j = 0; j < null.size(); ++j) null[j] = extended.assembly().layout().parameters[j].initial;
+  for (const std::size_t member : extended.parts().front().amplitude) null[member] = 2;
+  const auto range = range_from_data(extended, causes.mechanism(), {{}}, null, *workspace);
+  ASSERT_TRUE(range);
+  EXPECT_NEAR(range->plausible_max, 2 + 6 / (3 * 4.0), 1e-6);
+  EXPECT_NEAR(range->min, 2 - 5 * 6 / (3 * 4.0), 1e-5);
+}
+
+TEST(AmplitudeRange, OfSeveralCurvesIsThatOfTheOneThatAllowsLeast) {
+  expect_range(Ranged(effect(1)).range({{"a", "b"}}), 0, 1.5);
+  MadeUp weak_in_a = Ranged::shown_in_both();
+  weak_in_a.shape.head(4) *= 0.1;
+  expect_range(Ranged(effect(1), weak_in_a).range({{"a", "b"}}), 0, 4);
+}
+
+TEST(AmplitudeRange, IsThatOfTheMechanismWhereItsSizeDoesNotDependOnTheSpecimen) {
+  EXPECT_FALSE(Ranged(effect(0)).range({{"a"}}));
+}
+
+TEST(AmplitudeRange, OfWhatShowsNowhereIsThatOfTheMechanism) {
+  MadeUp nowhere = Ranged::shown_in_both();
+  nowhere.shape.setZero();
+  EXPECT_FALSE(Ranged(effect(1), nowhere).range({{"a"}}));
+}
+
+TEST(AmplitudeRange, LiesOnTheSideThatIsDeclared) {
+  const auto one_side = [](double sign) {
+    return [sign](MechanismFactory& factory) {
+      factory.plausible_effect = 1;
+      (sign > 0 ? factory.plausible_min : factory.plausible_max) = 0;
+      (sign > 0 ? factory.parameters.front().min : factory.parameters.front().max) = 0;
+    };
+  };
+  const auto up = Ranged(one_side(1)).range({{"a"}}), down = Ranged(one_side(-1)).range({{"a"}});
+  ASSERT_TRUE(up && down);
+  EXPECT_EQ(up->plausible_min, 0);
+  EXPECT_EQ(up->min, 0);
+  EXPECT_NEAR(up->plausible_max, 1.5, slight);
+  EXPECT_NEAR(up->max, 7.5, slight);
+  EXPECT_EQ(down->plausible_max, 0);
+  EXPECT_EQ(down->max, 0);
+  EXPECT_NEAR(down->plausible_min, -1.5, slight);
+  EXPECT_NEAR(down->min, -7.5, slight);
+}
+
+// A number without a unit means the same in every specimen: what is declared stays within the range.
+TEST(AmplitudeRange, OfANumberHoldsAtLeastWhatIsDeclared) {
+  const auto declared = [](double plausible, double bound) {
+    return [=](MechanismFactory& factory) {
+      factory.plausible_effect = 1;
+      factory.plausible_min = -plausible;
+      factory.plausible_max = 2 * plausible;
+      factory.parameters.front() = {"v", "1", 0, -bound, 2 * bound, Scale::linear, "", ""};
+    };
+  };
+  const auto wide = Ranged(declared(10, 100)).range({{"a"}}), narrow = Ranged(declared(0.1, 1)).range({{"a"}});
+  ASSERT_TRUE(wide && narrow);
+  EXPECT_THAT((std::vector{wide->plausible_min, wide->plausible_max, wide->min, wide->max}),
+              ElementsAre(-10, 20, -100, 200));
+  EXPECT_NEAR(narrow->plausible_min, -1.5, slight);
+  EXPECT_NEAR(narrow->plausible_max, 1.5, slight);
+  EXPECT_NEAR(narrow->min, -7.5, slight);
+  EXPECT_NEAR(narrow->max, 7.5, slight);
+}
+
+TEST(AmplitudeRange, FoundBeforeIsTaken) {
+  const Ranged causes(effect(1));
+  const auto values = [&](const Addition& addition) {
+    const AmplitudeRange range = range_of(causes.mechanism(), addition);
+    return std::vector{range.plausible_min, range.plausible_max, range.min, range.max};
+  };
+  EXPECT_THAT(values({"m", {{"a"}}, {}, AmplitudeRange{1, 2, 0, 3}}), ElementsAre(1, 2, 0, 3));
+  EXPECT_THAT(values({"m", {{"a"}}, {}}), ElementsAre(-1e-3, 1e-3, -1000, 1000)) << "as the mechanism declares";
+}
+
+TEST(Setting, StandsInThePlaceOfNuisanceParametersWithinTheirBounds) {
+  MadeUp one = Ranged::shown_in_both();
+  one.nuisance = {{"w", one.shape}, {"u", one.shape}};
+  const Ranged causes({}, one);
+  const Extension extended(causes.experiment, causes.run, {{"m", {{"a", "b"}}, {}}}, causes.shelf);
+  const std::vector<double> null = extended.at_null(causes.analysis.evidence.fit.free);
+  const auto& nuisance = extended.parts().front().nuisance;
+  ASSERT_EQ(nuisance.size(), 2u);
+  ASSERT_EQ(nuisance[0].size(), 2u) << "one a test";
+  const auto with = [&](const MechanismFactory::Setting& setting) {
+    return with_setting(extended, causes.mechanism(), setting, null);
+  };
+  std::vector<double> expected = null;
+  for (const std::size_t member : nuisance[1]) expected[member] = 7;
+  EXPECT_EQ(with({{"u", 7}}), expected);
+  EXPECT_EQ(with({{"other", 7}}), null);
+  expected = null;
+  for (const std::size_t member : nuisance[0]) expected[member] = 1000;
+  for (const std::size_t member : nuisance[1]) expected[member] = -1000;
+  EXPECT_EQ(with({{"w", 1e5}, {"u", -1e5}}), expected);
 }
 
 }  // namespace
-}  // namespace tunica::diagnosis::amplitude_range_test
+}  // namespace tunica::diagnosis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least amplitude that would be found, of signatures that are written down here.
+// The least amplitude that data would show: closed forms for mechanisms whose signatures are made by hand.
 #include "diagnosis/prospects/detectable.hpp"
 
 #include <cmath>
@@ -8,165 +8,175 @@
 
 #include "diagnosis/made_up_causes.hpp"
 
-namespace tunica::diagnosis::detectable_test {
+namespace tunica::diagnosis {
 namespace {
 
 using ::testing::SizeIs;
 using Side = MechanismFactory::Side;
 
-/// Where the draws are so small that any score raises the alarm, 80 % power takes this score by itself.
-constexpr double power = 0.8416;
+constexpr double power_80 = 0.8416;  // quantile of the normal distribution
+constexpr double infinite = INFINITY;
 
-const Detectable& of(const std::vector<Detectable>& all, const std::string& id) {
-  for (const Detectable& one : all)
+Detectable of(const MadeUpCauses& causes, const std::string& id) {
+  for (const Detectable& one : detectable(causes.inquiry(), causes.analysis))
     if (one.id == id) return one;
-  throw std::runtime_error("nothing of " + id);
+  ADD_FAILURE() << "nothing of " << id;
+  return {};
 }
 
-std::vector<Detectable> detectable_in(const MadeUpCauses& causes) {
-  return detectable(causes.inquiry(), causes.analysis);
+/// √Λ of a candidate: its threshold, and what 80 % power asks for beyond it.
+double root_of_needed(const MadeUpCauses& causes, std::size_t candidate) {
+  return std::sqrt(causes.analysis.alarm.detector->threshold(candidate, causes.request.alpha)) + power_80;
 }
 
-TEST(Detectable, IsAScoreThatRaisesTheAlarmWithEightyPercentPower) {
-  MadeUpCauses causes({4}, Eigen::Vector4d(1, 1, 1, 1));
-  causes.add({"p", Eigen::Vector4d(2, 0, 0, 0)});
-  causes.add({"q", Eigen::Vector4d(0, 0, 3, 4)});
+TEST(DetectableAmplitude, IsWhatTheSignatureShowsWithEightyPerCentPower) {
+  MadeUpCauses causes({4}, Eigen::VectorXd::Zero(4));
+  causes.add({"long", at_rows(4, {{0, 3}, {1, -4}})});
+  causes.add({"even", at_rows(4, {{2, 0.5}}), {{"a"}}, Side::even});
   causes.close();
-  EXPECT_NEAR(of(detectable_in(causes), "p").detectable, power / 2, 1e-9);
-  EXPECT_NEAR(of(detectable_in(causes), "q").detectable, power / 5, 1e-9);
-  // With draws that say something the score of an alarm is larger, and depends on the level.
-  Draws draws;
-  draws.residuals.resize(4, 100);
-  for (Eigen::Index b = 0; b < 100; ++b) draws.residuals.col(b).setConstant(0.04F * static_cast<float>(b));
-  const Hypotheses& hypotheses = causes.analysis.hypotheses;
-  causes.analysis.alarm.detector = std::make_shared<const Detector>(hypotheses.projection, hypotheses.directions, 2,
-                                                                    Shapes{Eigen::MatrixXd(4, 0), {}}, draws);
-  for (const double alpha : {0.05, 0.2}) {
-    causes.request.alpha = alpha;
-    const double T = causes.analysis.alarm.detector->threshold(1, alpha);
-    ASSERT_GT(T, 0.1);
-    EXPECT_NEAR(of(detectable_in(causes), "q").detectable, (std::sqrt(T) + power) / 5, 1e-9);
+  causes.calibrate_by_noise();
+  const Detectable linear = of(causes, "long"), even = of(causes, "even");
+  EXPECT_NEAR(linear.detectable, root_of_needed(causes, 0) / 5, 1e-9);
+  EXPECT_NEAR(even.detectable, std::sqrt(root_of_needed(causes, 1) / 0.5), 1e-9);
+  EXPECT_NEAR(linear.identifiable, linear.detectable, 1e-9) << "nothing is like it";
+  EXPECT_EQ(linear.correlation, 0);
+  EXPECT_EQ(linear.closest, "");
+  EXPECT_EQ(linear.place.tests, std::vector<std::string>{"a"});
+  EXPECT_NEAR(linear.retained, 1, 1e-12);
+  EXPECT_EQ(linear.absent, "");
+}
+
+// Half of what "half" does, the free parameter does as well.
+TEST(DetectableAmplitude, CountsWhatARefitLeaves) {
+  MadeUpCauses causes({2}, Eigen::VectorXd::Zero(2));
+  causes.free("a", -50, 50);
+  causes.add({"half", at_rows(2, {{0, 2}})});
+  causes.add({"all", Eigen::Vector2d(1, 1)});
+  causes.add({"elsewhere", at_rows(2, {{1, 1}})});
+  causes.close();
+  causes.analysis.hypotheses.candidates[2].absence = Absence::absorbed;
+  causes.analysis.hypotheses.candidates[2].absent = "it is not asked for";
+  std::erase_if(causes.analysis.hypotheses.directions, [](const Direction& one) { return one.candidate == 2; });
+  const Detectable half = of(causes, "half"), all = of(causes, "all"), told = of(causes, "elsewhere");
+  EXPECT_NEAR(half.detectable, root_of_needed(causes, 0) / std::sqrt(2), 1e-9);
+  EXPECT_NEAR(half.retained, std::sqrt(0.5), 1e-9);
+  EXPECT_EQ(all.detectable, infinite);
+  EXPECT_EQ(all.identifiable, infinite);
+  EXPECT_EQ(all.absence, Absence::absorbed);
+  EXPECT_EQ(all.absent, "a refit of the parameters absorbs it");
+  EXPECT_EQ(all.unit, "kPa");
+  EXPECT_EQ(all.reach, 500);
+  EXPECT_EQ(told.absent, "it is not asked for");
+}
+
+// "p" is at 0.8 to "q", whichever way that goes, and at 0.6 to "r".
+TEST(IdentifiableAmplitude, IsWhatTellsAMechanismFromTheOneMostLikeIt) {
+  MadeUpCauses causes({3}, Eigen::VectorXd::Zero(3));
+  causes.add({"p", Eigen::Vector3d(1, 0, 0)});
+  causes.add({"r", Eigen::Vector3d(0.6, 0.8, 0)});
+  causes.add({"q", Eigen::Vector3d(-0.8, 0, 0.6)});
+  causes.close();
+  causes.calibrate_by_noise();
+  const Detectable p = of(causes, "p");
+  EXPECT_EQ(p.closest, "q");
+  EXPECT_NEAR(p.correlation, 0.8, 1e-12);
+  EXPECT_NEAR(p.identifiable, std::sqrt(std::max(std::pow(root_of_needed(causes, 0), 2), 5.41 / 0.2)), 1e-9);
+  EXPECT_GT(5.41 / 0.2, std::pow(root_of_needed(causes, 0), 2)) << "so that the likeness decides";
+  EXPECT_EQ(of(causes, "q").closest, "p");
+}
+
+TEST(IdentifiableAmplitude, IsNoneWhereAnotherDoesTheSame) {
+  for (const double off : {0.03, 0.06}) {  // cosines of 0.9995 and 0.998
+    MadeUpCauses causes({2}, Eigen::VectorXd::Zero(2));
+    causes.add({"p", Eigen::Vector2d(1, 0)});
+    causes.add({"q", Eigen::Vector2d(std::cos(off), std::sin(off))});
+    causes.close();
+    EXPECT_EQ(std::isinf(of(causes, "p").identifiable), off < 0.05) << off;
+    EXPECT_TRUE(std::isfinite(of(causes, "p").detectable));
   }
 }
 
-// Beside one whose signature has a correlation c with it, a score of 5.41/(1 − c).
-TEST(Detectable, IsNamedWhereItIsToldFromWhatIsMostAlike) {
-  MadeUpCauses causes({4}, Eigen::Vector4d(1, 1, 1, 1));
-  causes.add({"p", Eigen::Vector4d(2, 0, 0, 0)});
-  causes.add({"far", Eigen::Vector4d(0.1, 1, 0, 0)});
-  causes.add({"near", Eigen::Vector4d(-0.8, 0, 0.6, 0)});
-  causes.add({"alone", Eigen::Vector4d(0, 0, 0, 1)});
-  causes.add({"twin", Eigen::Vector4d(0, 0, 0.001, -2)});
-  causes.close();
-  const auto all = detectable_in(causes);
-  ASSERT_THAT(all, SizeIs(5));
-  const Detectable& p = of(all, "p");
-  EXPECT_EQ(p.closest, "near") << "whatever the sign";
-  EXPECT_NEAR(p.correlation, 0.8, 1e-12);
-  EXPECT_NEAR(p.identifiable, std::sqrt(5.41 / 0.2) / 2, 1e-9);
-  EXPECT_NEAR(p.detectable, power / 2, 1e-9);
-  EXPECT_EQ(of(all, "alone").closest, "twin");
-  EXPECT_TRUE(std::isinf(of(all, "alone").identifiable)) << "more than 0.999 alike";
-  EXPECT_FALSE(std::isinf(of(all, "alone").detectable));
-}
-
-TEST(Detectable, OfAnEvenEffectIsTheRootOfTheSquare) {
-  MadeUpCauses causes({2}, Eigen::Vector2d(1, 1));
-  causes.add({"even", Eigen::Vector2d(4, 0), {{"a"}}, Side::even});
-  causes.close();
-  EXPECT_NEAR(of(detectable_in(causes), "even").detectable, std::sqrt(power / 4), 1e-9);
-}
-
-TEST(Detectable, SaysWhatTheAmplitudeIs) {
-  MadeUpCauses causes({2, 2}, Eigen::Vector4d(1, 1, 1, 1));
+TEST(DetectableAmplitude, SaysWhatTheMechanismDeclares) {
+  MadeUpCauses causes({2}, Eigen::VectorXd::Zero(2));
   const auto declare = [](MechanismFactory& factory) {
-    factory.plausible_min = -3;
-    factory.plausible_max = 9;
+    factory.plausible_min = -2;
+    factory.plausible_max = 7;
   };
-  causes.add({"p", Eigen::Vector4d(1, 0, 1, 2), {{"a"}, {"b"}}, Side::both, 1, 2, {}, declare});
-  causes.add({"up", Eigen::Vector4d(0, 1, 0, 0), {{"a"}}, Side::positive});
-  causes.add({"constant", Eigen::Vector4d(1, 1, 1, 1), {{"a", "b"}}});
-  causes.add({"none", Eigen::Vector4d(0, 0, 0, 0), {{"a"}}});
-  causes.free("a", -10, 10);
+  causes.add({"up", at_rows(2, {{0, 1}}), {{"a"}}, Side::positive, 1, 1, {}, declare});
+  causes.add({"down", at_rows(2, {{1, 1}}), {{"a"}}, Side::both, 1, 4, {}, declare});
   causes.close();
-  for (Candidate& candidate : causes.analysis.hypotheses.candidates)
-    if (candidate.id == "none") {
-      candidate.absent = "there is no clock";
-      candidate.absence = Absence::no_clock;
-    }
-  const auto all = detectable_in(causes);
-  const Detectable& p = of(all, "p");
-  EXPECT_EQ(p.unit, "kPa");
-  EXPECT_EQ(p.null, 2);
-  EXPECT_EQ(p.reach, 7);
-  EXPECT_FALSE(p.one_sided);
-  EXPECT_EQ(p.place.tests, std::vector<std::string>{"b"}) << "where it shows best";
-  EXPECT_EQ(p.absence, Absence::none);
-  // (1, 2) less its mean over the four rows.
-  EXPECT_NEAR(p.retained, std::sqrt(5 - 9.0 / 4) / std::sqrt(5), 1e-9);
-  EXPECT_NEAR(p.detectable, power / std::sqrt(5 - 9.0 / 4), 1e-9);
-  EXPECT_TRUE(of(all, "up").one_sided);
-  const Detectable& absorbed = of(all, "constant");
-  EXPECT_EQ(absorbed.absence, Absence::absorbed);
-  EXPECT_THAT(absorbed.absent, ::testing::HasSubstr("absorbs"));
-  EXPECT_TRUE(std::isinf(absorbed.detectable));
-  EXPECT_TRUE(std::isinf(absorbed.identifiable));
-  EXPECT_EQ(absorbed.reach, 500);
-  EXPECT_EQ(absorbed.unit, "kPa");
-  EXPECT_EQ(of(all, "none").absence, Absence::no_clock);
-  EXPECT_EQ(of(all, "none").absent, "there is no clock");
+  const Detectable up = of(causes, "up"), down = of(causes, "down");
+  EXPECT_EQ(up.null, 1);
+  EXPECT_TRUE(up.one_sided);
+  EXPECT_FALSE(down.one_sided);
+  EXPECT_EQ(up.reach, 6) << "from 1 to 7";
+  EXPECT_EQ(down.reach, 6) << "from 4 to -2";
+  causes.analysis.hypotheses.candidates[0].hypotheses[0].addition.range = AmplitudeRange{0, 30, -9, 90};
+  EXPECT_EQ(of(causes, "up").reach, 29) << "what the data say comes first";
 }
 
-TEST(Detectable, ReachesToTheFartherSideInTheUnitOfItsChannel) {
-  MadeUpCauses causes({2}, Eigen::Vector2d(1, 1));
-  causes.add({"down", Eigen::Vector2d(1, 0), {{"a"}}, Side::both, 1, 0, {}, [](MechanismFactory& factory) {
-                factory.plausible_min = -8;
-                factory.plausible_max = 3;
+TEST(DetectableAmplitude, OfAChannelHasTheUnitOfTheChannel) {
+  MadeUpCauses causes({2}, Eigen::VectorXd::Zero(2));
+  causes.add({"m", at_rows(2, {{0, 1}}), {{"a"}}, Side::both, 1, 0, {}, [](MechanismFactory& factory) {
                 factory.parameters.front().unit = "1";
               }});
   causes.close();
-  EXPECT_EQ(of(detectable_in(causes), "down").reach, 8);
-  EXPECT_EQ(of(detectable_in(causes), "down").unit, "1");
-  Hypothesis& only = causes.analysis.hypotheses.candidates[0].hypotheses[0];
-  only.addition.place.channel = "y";
-  only.addition.range = AmplitudeRange{-2, 5, -10, 10};
-  EXPECT_EQ(of(detectable_in(causes), "down").reach, 5) << "from the data";
-  EXPECT_EQ(of(detectable_in(causes), "down").unit, "kPa");
+  EXPECT_EQ(of(causes, "m").unit, "1");
+  Place& place = causes.analysis.hypotheses.candidates[0].hypotheses[0].addition.place;
+  place.channel = "y";
+  EXPECT_EQ(of(causes, "m").unit, "kPa");
+  place.channel = "z";
+  EXPECT_EQ(of(causes, "m").unit, "1") << "no such channel";
+  place = {{"b"}, "y"};
+  EXPECT_EQ(of(causes, "m").unit, "1") << "no such test";
 }
 
-/// One mechanism in five places, of which tests change the settings.
+/// A mechanism that shows in five tests by these lengths.
 struct Places : OneRowEach {
-  Places() : OneRowEach({1, 1, 1, 1, 1}) {
-    add_everywhere("m", {1, 3, 5, 4, 2});
+  Places() : OneRowEach({0, 0, 0, 0, 0}) {
+    add_everywhere("m", {1, 3, 2, 8, 9});
     close();
   }
-  std::vector<Hypothesis>& all() { return analysis.hypotheses.candidates[0].hypotheses; }
-  [[nodiscard]] std::string place() const { return of(detectable_in(*this), "m").place.tests.front(); }
+  Hypothesis& hypothesis(std::size_t place) { return analysis.hypotheses.candidates[0].hypotheses[place]; }
+  [[nodiscard]] std::string place() const { return of(*this, "m").place.tests.front(); }
 };
 
-TEST(Detectable, IsLookedForWhereItShowsBest) {
-  Places places;
-  EXPECT_EQ(places.place(), "c");
-  places.all()[2].at_large = true;
-  EXPECT_EQ(places.place(), "d") << "at the null";
-  places.all()[3].addition.place.row = 0;
-  EXPECT_EQ(places.place(), "b") << "of whole curves";
-  places.all()[0].addition.range = AmplitudeRange{0, 5000, 0, 1};
-  EXPECT_EQ(places.place(), "a") << "1 · 5000 and not 3 · 500";
-  for (const std::size_t k : {2u, 3u, 4u}) places.all()[k].addition.range = AmplitudeRange{0, 0.1, 0, 1};
-  places.all()[1].addition.range = AmplitudeRange{0, 0.5, 0, 1};
-  places.all()[0].addition.range = AmplitudeRange{0, INFINITY, 0, INFINITY};
-  EXPECT_EQ(places.place(), "b") << "without an end it is a unit: 1 · 1 and not 3 · 0.5";
+TEST(DetectableAmplitude, IsThatOfThePlaceThatShowsMost) {
+  Places causes;
+  EXPECT_EQ(causes.place(), "e");
+  causes.hypothesis(4).at_large = true;
+  EXPECT_EQ(causes.place(), "d") << "at the null";
+  causes.hypothesis(3).addition.place.row = 0;
+  EXPECT_EQ(causes.place(), "b") << "in whole curves";
+  causes.hypothesis(0).addition.range = AmplitudeRange{-10, 10000, -10, 10000};
+  EXPECT_EQ(causes.place(), "a") << "by its largest plausible amplitude";
+  causes.hypothesis(0).addition.range = AmplitudeRange{-10, infinite, -10, infinite};
+  EXPECT_EQ(causes.place(), "b") << "of which there has to be one";
 }
 
-// In each setting it is the place where it shows best; of four settings by their effects the third.
-TEST(Detectable, IsThatOfTheSettingInTheMiddle) {
-  Places places;
-  for (std::size_t k = 0; k < 5; ++k) places.all()[k].addition.setting = {{"w", k == 2 ? 3.0 : static_cast<double>(k)}};
-  EXPECT_EQ(places.place(), "b") << "1, 2, 3, 5, for the place with 4 has the setting of that with 5";
-  places.all()[2].addition.setting = {{"w", 2}};
-  EXPECT_EQ(places.place(), "b") << "1, 2, 3, 4, 5";
+TEST(DetectableAmplitude, IsThatOfTheSettingInTheMiddle) {
+  Places causes;
+  for (std::size_t k = 0; k < 3; ++k) causes.hypothesis(k).addition.setting = {{"time", static_cast<double>(k)}};
+  causes.hypothesis(3).addition.setting = causes.hypothesis(4).addition.setting = {{"time", 2}};
+  EXPECT_EQ(causes.place(), "b") << "1, 3 and 9 of three settings";
+  causes.hypothesis(4).at_large = true;
+  causes.hypothesis(3).addition.setting = {{"time", 0}};
+  causes.hypothesis(1).addition.setting = {{"time", 2}};
+  EXPECT_EQ(causes.place(), "d") << "of two, 8 and 3, the larger one";
+}
+
+TEST(DetectableAmplitude, IsToldOfEveryMechanismInOrder) {
+  MadeUpCauses causes({2}, Eigen::VectorXd::Zero(2));
+  causes.add({"z", at_rows(2, {{0, 1}})});
+  causes.add({"nothing", at_rows(2, {})});
+  causes.add({"a", at_rows(2, {{1, 1}})});
+  causes.close();
+  const auto all = detectable(causes.inquiry(), causes.analysis);
+  ASSERT_THAT(all, SizeIs(3));
+  EXPECT_EQ(all[0].id, "z");
+  EXPECT_EQ(all[1].id, "nothing");
+  EXPECT_EQ(all[2].id, "a");
 }
 
 }  // namespace
-}  // namespace tunica::diagnosis::detectable_test
+}  // namespace tunica::diagnosis

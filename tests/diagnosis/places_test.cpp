@@ -112,7 +112,7 @@ TEST(ClockOfTheData, HasTheShortestStepAndTheLongestTest) {
   EXPECT_EQ(clock_of(bed.experiment, bed.run, bed.shelf).shortest, INFINITY);
 }
 
-std::vector<std::string> words_of(const std::vector<Place>& places) {
+std::vector<std::string> tests_and_channels(const std::vector<Place>& places) {
   std::vector<std::string> words;
   for (const Place& place : places)
     words.push_back(place.tests.front() + (place.channel.empty() ? "" : "." + place.channel));
@@ -126,7 +126,9 @@ TEST(SinglePlaces, AreTestsOrTheirChannelsThatAreFitted) {
   bed.add("c", {1, 2}).type = "rough_curve";
   bed.add("held_out", {1, 2}).hold_out.all = true;
   MechanismFactory mechanism = acting("m", [](double, auto, const Options&) { return 0.0; });
-  const auto places = [&] { return words_of(single_places(mechanism, bed.experiment, bed.run, bed.assemble())); };
+  const auto places = [&] {
+    return tests_and_channels(single_places(mechanism, bed.experiment, bed.run, bed.assemble()));
+  };
   using ::testing::ElementsAre;
   EXPECT_THAT(places(), ElementsAre("a", "b", "c"));
   mechanism.applies_to = {"strip", "curve"};
