@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sets in which a law takes the place of others: it begins where it comes closest to what they say.
 #include <cmath>
+#include <functional>
 
 #include <gmock/gmock.h>
 
@@ -98,6 +99,92 @@ TEST(OneLaw, HasToDoMoreThanHalfASigma) {
   const double unit = strong->fit.jacobian.col(1).norm();
   EXPECT_TRUE(distilled_of(0.52 / unit));
   EXPECT_FALSE(distilled_of(0.48 / unit));
+}
+
+/// Where a fit begins that puts one law for two terms of I2: dψ/dx at 24 places between rest and all that the data
+/// reach, and the law of those first shapes that is nearest to it by least squares.
+std::vector<double> nearest(const Kind& law, const std::function<double(double)>& slope,
+                            const std::function<double(double, double)>& unit) {
+  std::vector<double> best;
+  double least = INFINITY;
+  for (const double shape : law.shapes[0].starts) {
+    double together = 0, length = 0, misfit = 0;
+    for (int i = 0; i < 24; ++i) {
+      const double x = law.reach.high * (i + 0.5) / 24;
+      together += slope(x) * unit(shape, x);
+      length += unit(shape, x) * unit(shape, x);
+    }
+    for (int i = 0; i < 24; ++i) {
+      const double x = law.reach.high * (i + 0.5) / 24;
+      misfit += std::pow(slope(x) - together / length * unit(shape, x), 2);
+    }
+    if (misfit < least) {
+      least = misfit;
+      best = {together / length, shape};
+    }
+  }
+  return best;
+}
+
+diagnosis::Fit fit_from(const FittedRubber& rubber, const std::vector<KindPointer>& kinds,
+                        const std::vector<double>& start) {
+  const BoundSet set(rubber.subject, kinds);
+  const assembly::Assembly& assembly = set.assembly();
+  return diagnosis::least_squares(assembly, diagnosis::all_variables(assembly), start,
+                                  *assembly.evaluator().make_workspace(), 60, {.negligible = diagnosis::says_nothing});
+}
+
+/// μ/2 + kx of a linear and a quadratic law as μ/2 e^{bx}; other terms stay where they are.
+TEST(OneLaw, BeginsAtTheNearestOfItsShapes) {
+  const FittedRubber rubber({.hide = hidden("I2", "exponential", {{"mu", 25}, {"b", 0.08}}), .sd = 3});
+  const KindPointer linear = rubber.kind("I2_linear"), curved = rubber.kind("I2_quadratic"),
+                    law = rubber.kind("I2_exponential"), other = rubber.kind("I1_quadratic");
+  for (const auto& [mu, k] : {std::pair(20., 0.3), std::pair(4., 4.), std::pair(30., 0.02)}) {
+    const SetFit from = rubber.at({linear, curved}, {310, mu, k});
+    const std::vector<double> at = nearest(
+        *law, [mu = mu, k = k](double x) { return mu / 2 + k * x; },
+        [](double b, double x) { return 0.5 * std::exp(b * x); });
+    const auto found = rubber.fitter.distilled(from, law);
+    const diagnosis::Fit expected = fit_from(rubber, {law}, {310, at[0], at[1]});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->fit.evaluations, expected.evaluations);
+    for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(found->fit.free[j], expected.free[j], 1e-9 * expected.free[j]);
+  }
+  const SetFit three = rubber.at({other, linear, curved}, {290, 0.5, 20, 0.3});
+  const std::vector<double> at = nearest(
+      *law, [](double x) { return 10 + 0.3 * x; }, [](double b, double x) { return 0.5 * std::exp(b * x); });
+  const diagnosis::Fit expected = fit_from(rubber, {other, law}, {290, 0.5, at[0], at[1]});
+  const auto found = rubber.fitter.distilled(three, law);
+  ASSERT_EQ(found.has_value(), expected.free[1] > 0.01);
+  if (found) {
+    EXPECT_EQ(found->kinds.size(), 2U);
+    EXPECT_EQ(found->fit.evaluations, expected.evaluations);
+    for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(found->fit.free[j], expected.free[j], 1e-9 * expected.free[j]);
+  }
+}
+
+/// The angle of diagonal fibres is known from the terms that are replaced.
+TEST(OneLaw, OfFibresKeepsTheirAngle) {
+  const FittedRubber rubber(
+      {.hide = hidden("fibre", "quadratic", {{"k", 8}, {"theta", 52}}, "diagonal"), .with = on_a_linear_scale});
+  const KindPointer law = rubber.kind("fibre_diagonal_quadratic");
+  const SetFit from = rubber.at({law}, {300, 8, 52});
+  ASSERT_LT(from.chi2(), 1e-6);
+  const auto found = rubber.fitter.distilled(from, law);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fit.evaluations, 1U);
+  EXPECT_NEAR(found->fit.free[2], 52, 1e-9);
+}
+
+/// A sum that falls is nearest to nothing, and amplitudes begin within their range.
+TEST(OneLaw, BeginsWithinTheRangeOfItsAmplitude) {
+  const FittedRubber rubber({.hide = hidden("I2", "linear", {{"mu", 40}}), .with = on_a_linear_scale});
+  const KindPointer little = rubber.kind("I2_linear", [](Kind& kind) { kind.largest = 60; });
+  const auto found = rubber.fitter.distilled(rubber.at({rubber.kind("I2_linear")}, {300, 90}), little);
+  const diagnosis::Fit expected = fit_from(rubber, {little}, {300, 60});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->fit.evaluations, expected.evaluations);
+  EXPECT_NEAR(found->fit.free[1], expected.free[1], 1e-9);
 }
 
 }  // namespace
