@@ -31,7 +31,7 @@ Straightness::Straightness(const assembly::Assembly& assembly, const assembly::W
       centre_(free.size()) {
   assembly.box().to_unit(free, centre_);
   least_ = fit(centre_, {}, {});
-  if (!std::isfinite(here_ ? least_ : linearise(centre_))) return;
+  if (!constraints_.empty() || !std::isfinite(here_ ? least_ : linearise(centre_))) return;
   centre_residuals_ = residuals_;
   centre_jacobian_ = jacobian_;
 }

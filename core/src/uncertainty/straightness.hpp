@@ -47,7 +47,7 @@ class Straightness {
   double violation_ = 0;                                    ///< at the last point
   bool here_ = false;                                       ///< whether that is where the last fit ended
   std::vector<double> centre_;                              ///< the optimum of the likelihood next to the point
-  std::vector<double> centre_residuals_, centre_jacobian_;  ///< there; empty where it cannot be evaluated
+  std::vector<double> centre_residuals_, centre_jacobian_;  ///< there; empty under constraints
   double least_;
 };
 
