@@ -11,6 +11,7 @@ namespace {
 using testing::evaluate;
 using testing::model;
 using testing::random_deformations;
+using testing::refusal;
 using testing::relative_difference;
 using testing::wrapped;
 
@@ -132,15 +133,6 @@ INSTANTIATE_TEST_SUITE_P(ChangedParts, EveryChange,
                          ::testing::Values(Case{"matrix_stiffening", 0}, Case{"chain_extensibility", 0},
                                            Case{"fibre_recruitment", 1}),
                          [](const auto& at) { return std::string(at.param.mechanism); });
-
-std::string refusal(const std::string& mechanism, std::unique_ptr<Model> base) {
-  try {
-    wrapped(mechanism, std::move(base));
-  } catch (const InputError& problem) {
-    return problem.what();
-  }
-  return "accepted";
-}
 
 TEST(ChangedParts, RefuseModelsWithoutSuchParts) {
   EXPECT_THAT(refusal("matrix_stiffening", model("ogden")),

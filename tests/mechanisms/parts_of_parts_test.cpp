@@ -61,14 +61,6 @@ TEST(PartsOfParts, FibresAreTakenUpLateAndDispersedInEitherOrder) {
                 kappa * late, (1 - 3 * kappa) * late);
 }
 
-std::string refusal(const std::string& mechanism, std::unique_ptr<Model> base) {
-  try {
-    wrapped(mechanism, std::move(base));
-  } catch (const InputError& problem) {
-    return problem.what();
-  }
-  return "accepted";
-}
 std::unique_ptr<MadeUpPart> part() { return std::make_unique<MadeUpPart>(); }
 std::unique_ptr<Model> with(std::unique_ptr<MadeUpPart> made) { return std::make_unique<MadeUpModel>(std::move(made)); }
 

@@ -25,6 +25,16 @@ inline std::unique_ptr<Model> wrapped(const std::string& mechanism, std::unique_
   return plugins::wrap(entry, std::move(base), defaults(entry.factory.options));
 }
 
+/// What a mechanism says of a model that it does not fit, or "accepted".
+inline std::string refusal(const std::string& mechanism, std::unique_ptr<Model> base) {
+  try {
+    wrapped(mechanism, std::move(base));
+  } catch (const InputError& problem) {
+    return problem.what();
+  }
+  return "accepted";
+}
+
 /// All outputs of a model at some points, stored.
 struct Response {
   std::vector<double> energy, stress, tangent, stress_dp, state;
