@@ -67,6 +67,12 @@ TEST(CommonRivals, ThatSayTheSameStandByName) {
   EXPECT_EQ(common[0].id, "y");
 }
 
+TEST(CommonRivals, ThatSayNoMoreThanTheBaseDoNotShow) {
+  const CommonFit base = base_of({{-20, 40}});
+  EXPECT_EQ(common_rivals({{rival("m", -20, 30)}}, base).at(0).chi2, 40);
+  EXPECT_EQ(common_rivals({{rival("m", -19.9, 30)}}, base).at(0).chi2, 30);
+}
+
 TEST(CommonRivals, OfNothingAreNone) {
   EXPECT_THAT(common_rivals({{}, {}}, base_of({{-20, 40}, {-20, 40}})), IsEmpty());
 }

@@ -8,7 +8,6 @@
 
 #include "discover/fitting.hpp"
 #include "discovery/common/common_fit.hpp"
-#include "discovery/common/common_rivals.hpp"
 
 namespace tunica::discovery::common_sets_test {
 namespace {
@@ -215,79 +214,6 @@ TEST(SetsOfSpecimens, TakeOneLawForSeveral) {
   ASSERT_TRUE(half);
   EXPECT_THAT(half->specimens[0].kinds, SizeIs(0));
   EXPECT_THAT(names_of(half->specimens[1].kinds), ElementsAre("I2_linear"));
-}
-
-/// What a specimen says of a mechanism, beside a base of these evidences and |r|².
-Rival rival(const std::string& id, double log_evidence, double chi2, bool clean = true, bool plausible = true) {
-  Rival one;
-  one.id = id;
-  one.log_prior = -1;
-  one.log_evidence = log_evidence - 1;
-  one.chi2 = chi2;
-  one.clean = clean;
-  one.plausible = plausible;
-  return one;
-}
-
-CommonFit bases(const std::vector<std::pair<double, double>>& of) {
-  CommonFit base;
-  for (const auto& [log_evidence, chi2] : of) {
-    base.specimens.emplace_back().log_evidence = log_evidence;
-    base.specimens.back().fit.chi2 = chi2;
-  }
-  return base;
-}
-
-/// Where a mechanism says no more than the base, the base stands; its prior counts once.
-TEST(RivalsOfSpecimens, AreWeighedTogether) {
-  const auto common = common_rivals({{rival("clamp", -50, 90), rival("drift", -58, 95)}, {rival("clamp", -74, 80)}, {}},
-                                    bases({{-60, 120}, {-70, 140}, {-80, 160}}));
-  ASSERT_THAT(common, SizeIs(2));
-  EXPECT_EQ(common[0].id, "clamp") << "likeliest first";
-  EXPECT_EQ(common[1].id, "drift");
-  EXPECT_NEAR(common[0].log_evidence, -1 - 50 - 70 - 80 - 3 * either_way, 1e-12);
-  EXPECT_NEAR(common[0].chi2, 90 + 140 + 160, 1e-12);
-  EXPECT_NEAR(common[1].log_evidence, -1 - 58 - 70 - 80 - 3 * either_way, 1e-12);
-  EXPECT_NEAR(common[1].chi2, 95 + 140 + 160, 1e-12);
-}
-
-/// By the prior evidence of the data: a rival that is ahead of the base by less than nothing does not show.
-TEST(RivalsOfSpecimens, ShowWhereTheySayMoreThanTheBase) {
-  const auto same = common_rivals({{rival("clamp", -60, 90)}}, bases({{-60, 120}}));
-  EXPECT_EQ(same[0].chi2, 120);
-  const auto more = common_rivals({{rival("clamp", -59.5, 90)}}, bases({{-60, 120}}));
-  EXPECT_EQ(more[0].chi2, 90);
-}
-
-/// Plausible in half of those in which it shows; clean in nine of ten.
-TEST(RivalsOfSpecimens, ArePlausibleAndCleanInMost) {
-  const auto plausible_in = [](int plausible, int seen) {
-    std::vector<std::vector<Rival>> of;
-    std::vector<std::pair<double, double>> base;
-    for (int s = 0; s < seen + 2; ++s) {
-      of.push_back({rival("clamp", s < seen ? -50 : -70, 90, true, s < plausible)});
-      base.emplace_back(-60, 120);
-    }
-    return common_rivals(of, bases(base)).front().plausible;
-  };
-  EXPECT_TRUE(plausible_in(1, 2));
-  EXPECT_FALSE(plausible_in(1, 3));
-  EXPECT_TRUE(plausible_in(2, 3));
-  const auto clean_in = [](int clean, int all) {
-    std::vector<std::vector<Rival>> of;
-    std::vector<std::pair<double, double>> base;
-    for (int s = 0; s < all; ++s) {
-      of.push_back({rival("clamp", -50, 90, s < clean)});
-      base.emplace_back(-60, 120);
-    }
-    return common_rivals(of, bases(base)).front().clean;
-  };
-  EXPECT_TRUE(clean_in(9, 10));
-  EXPECT_FALSE(clean_in(8, 10));
-  EXPECT_FALSE(clean_in(8, 9));
-  EXPECT_TRUE(clean_in(1, 1));
-  EXPECT_FALSE(common_rivals({{rival("clamp", -50, 90)}, {}}, bases({{-60, 120}, {-60, 120}})).front().clean)
-      << "nothing was fitted there";
 }
 
 }  // namespace
