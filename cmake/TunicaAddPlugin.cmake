@@ -2,7 +2,7 @@
 # tunica_add_plugin(NAME SOURCES a.cpp ... [LIBRARIES ...] [INTERNAL]): a shared library that tunica loads at run time.
 # It exports one symbol, tunica_plugin (tunica_plugin.map); -fno-gnu-unique keeps inline statics apart.
 # Neither errno nor floating-point traps are read anywhere: without them loops vectorise, and no value changes.
-set(TUNICA_PLUGIN_OPTIONS -fno-gnu-unique -fno-math-errno -fno-trapping-math CACHE INTERNAL "")
+set(TUNICA_PLUGIN_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> -fno-math-errno -fno-trapping-math CACHE INTERNAL "")
 function(tunica_add_plugin name)
   cmake_parse_arguments(ARG "INTERNAL" "" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT ARG_SOURCES)
