@@ -23,6 +23,9 @@ class WithMadeUp : public Test {
   [[nodiscard]] const TestRows& rows() const override { return base_->rows(); }
   Status predict(const TestInput& input, const TestOutput& output) const override {
     const std::size_t own = 1 + added_->nuisance.size(), first = input.test_parameters.size() - own;
+    if (added_->watch)
+      if (Status status = added_->watch(input.model_parameters, input.test_parameters.subspan(first)); !status.ok())
+        return status;
     TestInput inner = input;
     inner.test_parameters = input.test_parameters.first(first);
     if (Status status = base_->predict(inner, output); !status.ok()) return status;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ struct MadeUp {
   std::vector<std::pair<std::string, Eigen::VectorXd>> nuisance = {};  ///< each adds its value times a shape
   std::function<void(MechanismFactory&)> declare = {};                 ///< what else it says of itself
   std::function<double(double)> by = {};                               ///< in place of v − null
+  /// Told of every prediction before it is made: parameters of the model, and its own. It can make the prediction fail.
+  std::function<Status(std::span<const double> model, std::span<const double> own)> watch = {};
 };
 
 /// Noise of 1 in every row, a base that shows 1 + x/10 in row x, and mechanisms that add up: what each explains of
