@@ -31,7 +31,7 @@ class LinearModel : public Model {
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < points.parameters.size(); ++j) {
         const double value = basis_(j, points.C[i]);
-        response.stress[i] += points.parameters[j] * value;
+        if (!response.stress.empty()) response.stress[i] += points.parameters[j] * value;
         if (!response.stress_dp.empty()) response.stress_dp[6 * j * n + i] = value;
       }
     }

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/overrides.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "calibration/fakes.hpp"
+
+namespace tunica {
+namespace {
+
+using calibration::Overrides;
+using ::testing::HasSubstr;
+
+/// An experiment that says everything itself.
+experiment::Experiment stated_experiment() {
+  experiment::Experiment stated;
+  stated.seed = 5;
+  stated.analysis.profiles = {"c"};
+  stated.analysis.bootstrap_draws = 60;
+  stated.input_json =
+      R"({"seed": 5, "analysis": {"profiles": ["c"], "bootstrap": {"draws": 60}}, "keep_evaluations": "all"})";
+  return stated;
+}
+
+nlohmann::json documented(const experiment::Experiment& experiment) {
+  return nlohmann::json::parse(experiment.input_json);
+}
+
+/// What the file says, with one of its values replaced.
+nlohmann::json stated_but(const char* pointer, const nlohmann::json& value) {
+  auto expected = documented(stated_experiment());
+  expected[nlohmann::json::json_pointer(pointer)] = value;
+  return expected;
+}
+
+TEST(Overrides, LeaveTheFileAsItWasWhereNothingIsAsked) {
+  auto experiment = stated_experiment();
+  calibration::apply({}, experiment);
+  EXPECT_EQ(experiment.input_json, stated_experiment().input_json) << "not even written anew";
+  EXPECT_EQ(experiment.seed, 5u);
+}
+
+TEST(Overrides, PutAnotherSeedInTheFilesPlace) {
+  auto experiment = stated_experiment();
+  calibration::apply({.seed = 0}, experiment);
+  EXPECT_EQ(experiment.seed, 0u);
+  EXPECT_EQ(documented(experiment), stated_but("/seed", 0)) << "and leave the rest";
+  EXPECT_EQ(experiment.analysis.profiles, std::vector<std::string>{"c"});
+  EXPECT_EQ(experiment.analysis.bootstrap_draws, 60u);
+  EXPECT_EQ(experiment.kept_evaluations, experiment::KeptEvaluations::all);
+}
+
+TEST(Overrides, NameTheProfilesOrAskForAll) {
+  auto experiment = stated_experiment();
+  calibration::apply({.profiles = {"a", "b"}}, experiment);
+  EXPECT_EQ(experiment.analysis.profiles, (std::vector<std::string>{"a", "b"}));
+  EXPECT_FALSE(experiment.analysis.all_profiles);
+  EXPECT_EQ(documented(experiment), stated_but("/analysis/profiles", {"a", "b"}));
+
+  calibration::apply({.profiles = {"all"}}, experiment);
+  EXPECT_TRUE(experiment.analysis.all_profiles);
+  EXPECT_TRUE(experiment.analysis.profiles.empty());
+  EXPECT_EQ(documented(experiment), stated_but("/analysis/profiles", "all"));
+
+  calibration::apply({.profiles = {"a"}}, experiment);
+  EXPECT_FALSE(experiment.analysis.all_profiles) << "some in place of all";
+  EXPECT_EQ(experiment.analysis.profiles, std::vector<std::string>{"a"});
+}
+
+TEST(Overrides, AskForABootstrapOfAsManyDrawsAsTheFileCould) {
+  auto experiment = stated_experiment();
+  for (const std::uint64_t draws : {std::uint64_t{40}, std::uint64_t{200}, std::uint64_t{1000000}}) {
+    calibration::apply({.bootstrap_draws = draws}, experiment);
+    EXPECT_EQ(experiment.analysis.bootstrap_draws, draws);
+    EXPECT_EQ(documented(experiment), stated_but("/analysis/bootstrap/draws", draws));
+  }
+  for (const std::uint64_t draws : {std::uint64_t{0}, std::uint64_t{39}, std::uint64_t{1000001}}) {
+    EXPECT_THAT(fakes::message_of([&] { calibration::apply({.bootstrap_draws = draws}, experiment); }),
+                HasSubstr("expected a number from 40 to 1000000"))
+        << draws;
+    EXPECT_EQ(experiment.analysis.bootstrap_draws, 1000000u) << "a refused number changes nothing";
+  }
+}
+
+TEST(Overrides, SayWhichEvaluationsAreKept) {
+  auto experiment = stated_experiment();
+  calibration::apply({.keep_evaluations = "improvements"}, experiment);
+  EXPECT_EQ(experiment.kept_evaluations, experiment::KeptEvaluations::improvements);
+  EXPECT_EQ(documented(experiment), stated_but("/keep_evaluations", "improvements"));
+  calibration::apply({.keep_evaluations = "all"}, experiment);
+  EXPECT_EQ(experiment.kept_evaluations, experiment::KeptEvaluations::all);
+  EXPECT_THAT(fakes::message_of([&] { calibration::apply({.keep_evaluations = "best"}, experiment); }),
+              HasSubstr("found 'best'; expected all or improvements"));
+}
+
+TEST(Overrides, WriteTheFileOnceMoreAsItIsWritten) {
+  auto experiment = stated_experiment();
+  experiment.input_json = R"({"name": "x", "seed": 5})";
+  calibration::apply({.seed = 6}, experiment);
+  EXPECT_EQ(experiment.input_json, "{\n  \"name\": \"x\",\n  \"seed\": 6\n}\n")
+      << "keys in their order, two spaces a level, a line end";
+}
+
+}  // namespace
+}  // namespace tunica
