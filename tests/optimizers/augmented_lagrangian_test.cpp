@@ -81,6 +81,60 @@ TEST(AugmentedLagrangian, ConvergesAtOnceWhereNoConstraintIsActive) {
   EXPECT_EQ(lagrangian.multipliers()[0], 0);
 }
 
+TEST(AugmentedLagrangian, LeavesThePenaltyOutUntilTheObjectiveAloneHasLedOutOfTheFeasibleRegion) {
+  FunctionProblem problem(one_dimension(), {});
+  AugmentedLagrangian lagrangian(problem, AugmentedLagrangian::First::objective_alone);
+  const double optimum = 0.5;  // y = 1/2, where f = 0 and c = 1
+  double objective = 1;
+  std::vector<double> r(2), jacobian(2);
+  ASSERT_TRUE(lagrangian.linearise({&optimum, 1}, objective, r, jacobian).ok());
+  EXPECT_EQ(objective, 0) << "no penalty yet";
+  EXPECT_EQ(r[1], 0);
+  EXPECT_EQ(jacobian[1], 0);
+  EXPECT_EQ(lagrangian.best().violation, 1) << "though it is known that the point is not feasible";
+  EXPECT_EQ(lagrangian.update(), Progress::going_on);
+  EXPECT_EQ(lagrangian.multipliers()[0], 0);
+  ASSERT_TRUE(lagrangian.linearise({&optimum, 1}, objective, r, jacobian).ok());
+  EXPECT_GT(objective, 0);
+  EXPECT_GT(r[1], 0);
+  EXPECT_LT(jacobian[1], 0);
+  Progress progress = Progress::going_on;
+  for (int rounds = 0; rounds < 20 && progress == Progress::going_on; ++rounds) {
+    minimise_exactly(lagrangian);
+    progress = lagrangian.update();
+  }
+  EXPECT_EQ(progress, Progress::converged);
+  EXPECT_NEAR(lagrangian.multipliers()[0], 2, 1e-4);
+  EXPECT_NEAR(lagrangian.best().objective, 1, 2e-6);
+}
+
+TEST(AugmentedLagrangian, BeginsThePenaltyWithATenthOfWhatTheFirstPointSaid) {
+  FunctionProblem problem(one_dimension(), {});
+  AugmentedLagrangian lagrangian(problem, AugmentedLagrangian::First::objective_alone);
+  const double start = 1, optimum = 0.5;  // y = 3: f = 6.25, feasible: 10 f / max(1, ½ Σ max(0, c)²) = 62.5
+  double value = 0;
+  ASSERT_TRUE(lagrangian.evaluate({&start, 1}, value).ok());
+  ASSERT_TRUE(lagrangian.evaluate({&optimum, 1}, value).ok());
+  ASSERT_EQ(lagrangian.update(), Progress::going_on);
+  EXPECT_NEAR(lagrangian.penalty(), 6.25, 1e-12);
+  minimise_exactly(lagrangian);
+  ASSERT_EQ(lagrangian.update(), Progress::going_on);
+  EXPECT_NEAR(lagrangian.penalty(), 6.25, 1e-12) << "the first minimisation with it changes no more than λ";
+}
+
+TEST(AugmentedLagrangian, IsDoneWithTheObjectiveAloneWhereItsOptimumIsFeasible) {
+  FunctionProblem problem(rosenbrock_in_disc(), {});
+  AugmentedLagrangian lagrangian(problem, AugmentedLagrangian::First::objective_alone);
+  const std::vector<double> outside = {0.95, 0.95}, inside = {0.6, 0.55};
+  double value = 0, plain = 0;
+  ASSERT_TRUE(lagrangian.evaluate(outside, value).ok());
+  ASSERT_EQ(problem.evaluate(outside, plain).kind(), Status::Kind::infeasible);
+  EXPECT_EQ(value, plain) << "not feasible, and not penalised";
+  ASSERT_TRUE(lagrangian.evaluate(inside, value).ok());
+  EXPECT_EQ(lagrangian.update(), Progress::converged);
+  EXPECT_EQ(lagrangian.best().x, inside);
+}
+
 TEST(AugmentedLagrangian, SaysWhenTheConstraintsCannotBeMet) {
   FunctionProblem problem(nothing_feasible(), {});
   AugmentedLagrangian lagrangian(problem);

@@ -241,7 +241,7 @@ bool exact(const Settings& settings, int round) {
 
 Descent descend(Problem& problem, std::span<const double> x, int max_iterations, const Settings& settings) {
   if (problem.constraint_count() == 0) return descend_in_box(problem, x, max_iterations, settings);
-  AugmentedLagrangian lagrangian(problem);
+  AugmentedLagrangian lagrangian(problem, AugmentedLagrangian::First::objective_alone);
   Descent descent{.x = {x.begin(), x.end()}};
   max_iterations *= 5;  // a descent is several minimisations then
   for (int round = 0; max_iterations > 0; ++round) {

@@ -21,6 +21,11 @@ namespace tunica {
 /// tightened by half of Problem::constraint_tolerance, so that the end is feasible and not on the edge. The first
 /// evaluation sets ρ, so that penalty and objective are comparable.
 ///
+/// Where no constraint is active at the optimum, the objective alone leads there, past points that are not feasible:
+/// First::objective_alone tries that before the first update(). From 100 random starts on the strips of the lamb aorta, a
+/// descent of gho, whose optimum is stable, takes 78 evaluations instead of 144. One of hgo, whose optimum is not, takes
+/// 134 instead of 135 for h = 1 and 128 instead of 117 for h = 0.7.
+///
 /// Status: every point that can be evaluated is `ok` here, feasible or not; best() knows the difference. Threads: not
 /// thread-safe, as every Problem. Cost: one constraints() an evaluation. Ownership: the problem must outlive it.
 ///
@@ -41,11 +46,14 @@ class AugmentedLagrangian : public Problem {
     infeasible,  ///< the penalty has grown to its limit and some constraint is still broken
     nothing      ///< no point could be evaluated since the last update
   };
+  /// What is minimised before the first update().
+  enum class First { penalised, objective_alone };
   static constexpr double margin = 0.5 * constraint_tolerance;  ///< by which constraints are tightened
 
   /// Nothing is evaluated yet; all multipliers are 0.
-  explicit AugmentedLagrangian(Problem& problem)
+  explicit AugmentedLagrangian(Problem& problem, First first = First::penalised)
       : problem_(problem),
+        first_(first),
         blocks_(problem.blocks().begin(), problem.blocks().end()),
         n_(problem.dimension()),
         m_(problem.residual_count()),
@@ -64,10 +72,18 @@ class AugmentedLagrangian : public Problem {
 
   /// λ ← max(0, λ + ρ c) at the lowest point; ρ ← 10 ρ where infeasibility and complementarity, max |max(c, −λ/ρ)|,
   /// have not come down to the half. After the first minimisation ρ is set anew: a random start says little about f.
+  /// After one of the objective alone, ρ begins with a tenth of what it was set to: f is nearly 0 then, and says less.
   Progress update() {
     if (lowest_ == std::numeric_limits<double>::infinity()) return Progress::nothing;
     lowest_ = std::numeric_limits<double>::infinity();
     if (problem_.constraints(point_.x, c_, {}).kind() == Status::Kind::failed) return Progress::nothing;
+    if (first_ == First::objective_alone) {
+      if (*std::ranges::max_element(c_) + margin <= 0) return Progress::converged;
+      first_ = First::penalised;
+      penalty_ = std::max(0.1 * penalty_, least_penalty);
+      measure_ = std::numeric_limits<double>::max();
+      return Progress::going_on;
+    }
     double measure = 0;
     for (std::size_t i = 0; i < c_.size(); ++i) {
       const double value = c_[i] + margin;
@@ -111,7 +127,7 @@ class AugmentedLagrangian : public Problem {
   /// Each child begins with the multipliers and the penalty there are; point() and best() hear nothing of it.
   std::size_t for_each_start(std::size_t count, const std::function<void(std::size_t, Problem&)>& body) override {
     return problem_.for_each_start(count, [&](std::size_t k, Problem& child) {
-      AugmentedLagrangian lagrangian(child);
+      AugmentedLagrangian lagrangian(child, first_);
       lagrangian.multipliers_ = multipliers_;
       lagrangian.penalty_ = penalty_;
       body(k, lagrangian);
@@ -142,7 +158,8 @@ class AugmentedLagrangian : public Problem {
     if (penalty_ == 0) penalty_ = initial_penalty(objective);
     const double f = objective, scale = std::sqrt(0.5 * penalty_);
     for (std::size_t i = 0; i < c_.size(); ++i) {
-      const double r = scale * std::max(0.0, c_[i] + margin + multipliers_[i] / penalty_);
+      const double r =
+          first_ == First::objective_alone ? 0 : scale * std::max(0.0, c_[i] + margin + multipliers_[i] / penalty_);
       objective += r * r;
       if (!residuals.empty()) residuals[i] = r;
       for (std::size_t j = 0; j < n_ && !jacobian.empty(); ++j) {
@@ -165,6 +182,7 @@ class AugmentedLagrangian : public Problem {
   }
 
   Problem& problem_;
+  First first_;
   std::vector<ResidualBlock> blocks_;
   std::size_t n_, m_;
   std::vector<double> c_, c_jacobian_, multipliers_;
