@@ -77,7 +77,8 @@ class Sum : public Model {
 
 }  // namespace
 
-MadeUpTerms::MadeUpTerms(const std::vector<double>& levels, std::map<std::string, MadeUpLaw> laws)
+MadeUpTerms::MadeUpTerms(const std::vector<double>& levels, std::map<std::string, MadeUpLaw> laws,
+                         const std::vector<double>& back)
     : Bench("composed"), laws_(std::move(laws)) {
   laws_["linear"].effect = [](std::size_t, double) { return 1; };
   plugins::Catalogue::Registration stage;
@@ -91,17 +92,24 @@ MadeUpTerms::MadeUpTerms(const std::vector<double>& levels, std::map<std::string
     x.push_back(static_cast<double>(i));
     y.push_back(levels[i / rows_of_block]);
   }
+  for (std::size_t i = back.size() * rows_of_block; i-- > 0;) {
+    x.push_back(static_cast<double>(i));
+    y.push_back(back[i / rows_of_block]);
+  }
   add_test("a", x, y).data.noise = {{"y", {.absolute = 1}}};
   run.objective = experiment::ObjectiveType::least_squares;
   experiment = discovery::with_first_term(std::move(experiment), "m");
   evidence.experiment = experiment;
   evidence.run = run;
   evidence.base = std::make_shared<const assembly::Assembly>(experiment, run, shelf);
+  evidence.noise = {{"a", "y", "kPa", diagnosis::NoiseSource::Kind::stated, {.absolute = 1}}};
+  evidence.curves = diagnosis::curves_of(*evidence.base, evidence.noise);
   evidence.fit.free = {1};
+  evidence.fit.at_bound = {false};
   (void)diagnosis::whitened(*evidence.base, evidence.fit.free, *evidence.base->evaluator().make_workspace(),
                             evidence.fit.residuals, &evidence.fit.jacobian);
   evidence.fit.chi2 = evidence.fit.residuals.squaredNorm();
-  subject = std::make_unique<const discovery::Subject>(discovery::Subject{experiment, run, "m", true, shelf});
+  subject = std::make_shared<const discovery::Subject>(discovery::Subject{experiment, run, "m", true, shelf});
   fitter = std::make_unique<const discovery::Fitter>(*subject, evidence);
   forget();
 }
@@ -149,6 +157,19 @@ discovery::KindPointer MadeUpTerms::power(const std::string& name, bool negative
   one.shapes = {negative ? discovery::Shape{"alpha", -10, -0.2, Scale::linear, {-3}}
                          : discovery::Shape{"alpha", 0.2, 10, Scale::linear, {3}}};
   return std::make_shared<const discovery::Kind>(std::move(one));
+}
+
+discovery::SetFit MadeUpTerms::at(const std::vector<discovery::KindPointer>& kinds,
+                                  const std::vector<double>& free) const {
+  discovery::SetFit one{kinds, std::make_shared<const discovery::BoundSet>(*subject, kinds), {}, 0};
+  const assembly::Assembly& assembly = one.set->assembly();
+  one.fit.status =
+      diagnosis::whitened(assembly, free, *assembly.evaluator().make_workspace(), one.fit.residuals, &one.fit.jacobian);
+  one.fit.free = free;
+  one.fit.chi2 = one.fit.residuals.squaredNorm();
+  one.fit.at_bound.assign(free.size(), false);
+  one.log_evidence = fitter->log_evidence(one);
+  return one;
 }
 
 std::map<std::vector<std::string>, int> MadeUpTerms::made() const {

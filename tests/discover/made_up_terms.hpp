@@ -24,20 +24,25 @@ struct MadeUpLaw {
 /// Laws of different blocks do not know of each other, so that |r|² falls by what each takes.
 class MadeUpTerms : public fakes::Bench {
  public:
-  /// `laws` by name, those of powers of the stretches under the name of their parameter.
-  MadeUpTerms(const std::vector<double>& levels, std::map<std::string, MadeUpLaw> laws);
+  /// `laws` by name, those of powers of the stretches under the name of their parameter. `back`: the levels of as many
+  /// rows more, measured on the way back.
+  MadeUpTerms(const std::vector<double>& levels, std::map<std::string, MadeUpLaw> laws,
+              const std::vector<double>& back = {});
 
   /// A kind of an invariant of its own unless it is named, with the law of that name.
   [[nodiscard]] discovery::KindPointer kind(const std::string& name, const std::string& law, double log_prior = 0,
                                             const std::string& invariant = "I1", const std::string& family = "") const;
   /// A power of the stretches; exponents begin at −3 where its amplitude is negative, else at 3.
   [[nodiscard]] discovery::KindPointer power(const std::string& name, bool negative, double log_prior = 0) const;
+  /// The set of these kinds at these free parameters, with residuals and Jacobian there.
+  [[nodiscard]] discovery::SetFit at(const std::vector<discovery::KindPointer>& kinds,
+                                     const std::vector<double>& free) const;
   /// How often an energy of these terms was made, by their names.
   [[nodiscard]] std::map<std::vector<std::string>, int> made() const;
   void forget() const;
 
   diagnosis::Evidence evidence;
-  std::unique_ptr<const discovery::Subject> subject;
+  std::shared_ptr<const discovery::Subject> subject;
   std::unique_ptr<const discovery::Fitter> fitter;
 
  private:
