@@ -156,6 +156,8 @@ void MadeUpCauses::close() {
 void MadeUpCauses::calibrate(const Draws& draws) {
   const Hypotheses& hypotheses = analysis.hypotheses;
   const Shapes none{Eigen::MatrixXd(draws.residuals.rows(), 0), {}};
+  analysis.alarm.draws = draws;
+  analysis.alarm.shapes = none;
   analysis.alarm.detector = std::make_shared<const Detector>(hypotheses.projection, hypotheses.directions,
                                                              hypotheses.candidates.size(), none, draws);
 }
