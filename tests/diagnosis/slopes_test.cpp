@@ -10,6 +10,7 @@
 namespace tunica::diagnosis {
 namespace {
 
+using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Side = MechanismFactory::Side;
 
@@ -111,6 +112,93 @@ TEST(Slopes, OfAnEvenEffectAreThoseByTheSquare) {
                          .slopes();
   ASSERT_THAT(found, SizeIs(1));
   expect_slope(found[0], 3, Side::even, 1e-6);
+}
+
+// 3d + 4d² over a step h is 3 + 4h.
+TEST(Slopes, AreOverAThousandthOfAPlausibleAmplitudeWhereTheyHaveToBeQuick) {
+  const auto parabola = [](double d) { return 3 * d + 4 * d * d; };
+  for (const bool above : {true, false}) {
+    const auto range = [above](MechanismFactory& factory) {
+      factory.plausible_max = factory.null + (above ? 100 : 1);
+      factory.plausible_min = factory.null - (above ? 1 : 100);
+    };
+    const auto found = OneMechanism(Side::both, parabola, false, 1, range).slopes(true);
+    expect_slope(found.at(0), 3.4, Side::both, 1e-6);
+  }
+  const auto near_only = OneMechanism(
+                             Side::both, [&](double d) { return d > 0.007 ? NAN : parabola(d); }, false)
+                             .slopes(true);
+  expect_slope(near_only.at(0), 3 + 4 * 0.005, Side::both, 1e-6);  // a hundredth of that is the first within reach
+}
+
+// With 0.1d + 0.12d³ half a step and a whole one give 0.1 − 0.06h².
+TEST(Slopes, AreOverWhatChangesResidualsByATenthOfTheirNoise) {
+  const auto cubic = [](double d) { return 0.1 * d + 0.12 * d * d * d; };
+  const double first = 0.5, h = first * 0.1 / (cubic(first) * shape.norm());
+  ASSERT_LT(h, first);
+  const auto found = OneMechanism(Side::both, cubic, false).slopes();
+  expect_slope(found.at(0), 0.1 - 0.06 * h * h, Side::both, 1e-6);
+}
+
+TEST(Slopes, AreOverASmallerStepWhereThatPlaceCannotBeEvaluated) {
+  const double aimed_at = 0.1 / (3 * shape.norm());
+  const auto found = OneMechanism(
+                         Side::both, [=](double d) { return std::abs(d / aimed_at - 1) < 0.01 ? NAN : 3 * d; }, false)
+                         .slopes();
+  expect_slope(found.at(0), 3, Side::both, 1e-6);
+}
+
+TEST(Slopes, AreNotLookedForNearerThanRoundingAllows) {
+  const auto odd = OneMechanism(
+                       Side::both, [](double d) { return std::abs(d) > 1e-9 ? NAN : 3 * d; }, false)
+                       .slopes();
+  EXPECT_EQ(odd.at(0).signature.size(), 0);
+  EXPECT_THAT(OneMechanism(
+                  Side::even, [](double d) { return std::abs(d) > 1e-4 ? NAN : 3 * d * d; }, true)
+                  .slopes(),
+              IsEmpty());
+}
+
+TEST(Slopes, OfAnEvenEffectAreGoodToAMillionthOrLookedForNearer) {
+  // What goes with the sixth power makes two millionths over a twenty-fifth of the plausible amplitude.
+  const auto smooth = OneMechanism(
+                          Side::even, [](double d) { return 3 * d * d * (1 + 1.25e-11 * std::pow(d, 4)); }, true)
+                          .slopes();
+  expect_slope(smooth.at(0), 3, Side::even, 3e-6 * shape.norm());
+  for (const double reach : {0.5, 0.0021}) {
+    const auto near = OneMechanism(
+                          Side::even, [=](double d) { return std::abs(d) > reach ? NAN : 3 * d * d; }, true)
+                          .slopes();
+    ASSERT_THAT(near, SizeIs(1)) << reach;
+    expect_slope(near[0], 3, Side::even, 1e-4);
+  }
+}
+
+TEST(Slopes, HaveNoKinkWhereASideCannotBeEvaluated) {
+  // Plausible amplitudes so large that no step is short enough.
+  const auto wide = [](MechanismFactory& factory) {
+    factory.plausible_min = -1e6;
+    factory.plausible_max = 1e6;
+  };
+  for (const auto& [up, down] : {std::pair{true, false}, {false, true}, {true, true}}) {
+    const OneMechanism bed(
+        Side::both, [up = up, down = down](double d) { return (up && d > 4e-4) || (down && d < -4e-4) ? NAN : 3 * d; },
+        true, 1, wide);
+    const auto found = bed.slopes(false, "tilt");
+    ASSERT_THAT(found, SizeIs(1)) << up << down;
+    expect_slope(found[0], 3, Side::both, 1e-6);
+  }
+}
+
+TEST(Slopes, HaveNoKinkWhereTheSidesDifferByAHundredth) {
+  const auto found = OneMechanism(
+                         Side::both, [](double d) { return d > 0 ? 100 * d : 99 * d; }, true)
+                         .slopes(false, "tilt");
+  EXPECT_THAT(found, SizeIs(1));
+  const auto kinked = OneMechanism(
+                          Side::both, [](double d) { return d > 0 ? 100 * d : 94 * d; }, true)
+                          .slopes(false, "tilt");
+  EXPECT_THAT(kinked, SizeIs(2));
 }
 
 }  // namespace
