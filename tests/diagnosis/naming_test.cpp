@@ -159,7 +159,7 @@ TEST(Naming, IsNotPossibleWhereNothingCanBeFitted) {
 }
 
 // A sum of exp(gain/2), and ln 2 for one side. "m2" is of the specimen.
-TEST(Ranking, HasTheProbabilityOfEveryMechanismAsTheOnlyOne) {
+TEST(RankingOfMechanisms, HasTheProbabilityOfEveryMechanismAsTheOnlyOne) {
   Contested causes({4, 5, 4.5});
   causes.add(Contested::in_row(0));
   MadeUp one_sided = Contested::in_row(1);
@@ -184,7 +184,7 @@ TEST(Ranking, HasTheProbabilityOfEveryMechanismAsTheOnlyOne) {
   EXPECT_EQ(ranking[1].group, CauseGroup::material);
 }
 
-TEST(Ranking, HasNoGainOfWhatIsTooFarBehindToBeFitted) {
+TEST(RankingOfMechanisms, HasNoGainOfWhatIsTooFarBehindToBeFitted) {
   Contested causes({10, 9, 9, 9, 1});
   causes.request.quick = true;
   const std::vector<RankedMechanism> ranking = causes.with_rows(5).settled().named().ranking;

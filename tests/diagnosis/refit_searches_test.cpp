@@ -22,6 +22,7 @@ using ::testing::FieldsAre;
 using ::testing::Ge;
 using ::testing::IsEmpty;
 using ::testing::Le;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr double refused = -1;  ///< in place of the |r|² that is left
@@ -166,9 +167,9 @@ TEST(SecondSearch, IsForWhatTheBaseFitDroveToABoundAlone) {
   Listed causes({1000});
   const Refit before = causes.ended(20, 0.1, 0, 5);
   causes.again(before);
-  EXPECT_THAT(causes.points, testing::Not(IsEmpty()));
+  EXPECT_THAT(causes.points, Not(IsEmpty()));
   causes.again(before, 20);
-  EXPECT_THAT(causes.points, testing::Not(IsEmpty()));
+  EXPECT_THAT(causes.points, Not(IsEmpty()));
   causes.again(before, 20.5);
   EXPECT_THAT(causes.points, IsEmpty()) << "it is below what is enough";
   causes.analysis.evidence.fit.at_bound = {false, false};
