@@ -49,8 +49,6 @@ std::vector<double> answers(const Model& model, const std::vector<double>& param
 
 class AddedTerm : public ::testing::TestWithParam<Added> {};
 
-}  // namespace
-
 TEST_P(AddedTerm, IsTheSumWithTheBase) {
   const Added& added = GetParam();
   const auto& mechanism = catalogue().mechanisms().at("added_term");
@@ -109,4 +107,5 @@ TEST(AddedTermDescription, HasAnAmplitudeThatMayBeNothing) {
 
 INSTANTIATE_TEST_SUITE_P(AllTerms, AddedTerm, ::testing::ValuesIn(all()), words);
 
+}  // namespace
 }  // namespace tunica::testing

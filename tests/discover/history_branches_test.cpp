@@ -148,7 +148,8 @@ struct Sheet {
 };
 
 /// Of a neo-Hookean sheet of 30 kPa.
-PathsOf sheets(const std::vector<Sheet>& all) {
+/// `held_first`: the axial stretch is the other one, so that what varies stands second.
+PathsOf sheets(const std::vector<Sheet>& all, bool held_first = false) {
   return PathsOf([&](Measured& measured) {
     nlohmann::json& experiment = measured.experiment;
     experiment["models"] = {{"gho", {{"type", "neo_hooke"}}}};
@@ -156,7 +157,8 @@ PathsOf sheets(const std::vector<Sheet>& all) {
     for (const Sheet& sheet : all) {
       std::string text = "stretch_axial [1],stretch_circumferential [1],stress_axial [kPa],time [s]\n";
       for (int i = 0; i < 10; ++i) {
-        const double a = 1.05 + 0.05 * i, b = sheet.other(i);
+        double a = 1.05 + 0.05 * i, b = sheet.other(i);
+        if (held_first) std::swap(a, b);
         text += fmt::format("{},{},{},{}\n", a, b, 30 * (a * a - 1 / (a * a * b * b)), i);
       }
       measured.folder.write(sheet.name + ".csv", text);
@@ -183,6 +185,16 @@ TEST(TestsThatAreAlike, HoldTheSameOtherStretch) {
   EXPECT_EQ(sheets({{"a", rising}, {"b", rising}}).with(opening).p_value, 1) << "strains that differ row by row";
   EXPECT_LT(sheets({{"a", held(1.1)}, {"b", held(1.1)}, {"c", rising}}).with(opening).p_value, 1e-4)
       << "whatever a third test does";
+}
+
+/// Of the stretches of a sheet the one that varies is the path, wherever it stands.
+TEST(TestsThatAreAlike, FollowTheStretchThatVaries) {
+  const auto held = [](double at) { return [at](int) { return at; }; };
+  const auto apart = [](const std::string& test, std::size_t, double) { return test == "a" ? 5. : -5.; };
+  const double along_the_first = sheets({{"a", held(1.1)}, {"b", held(1.1)}}).with(apart).p_value;
+  EXPECT_LT(along_the_first, 1e-4);
+  EXPECT_EQ(sheets({{"a", held(1.1)}, {"b", held(1.1)}}, true).with(apart).p_value, along_the_first);
+  EXPECT_EQ(sheets({{"a", held(1.1)}, {"b", held(1.2)}}, true).with(apart).p_value, 1) << "another strain";
 }
 
 /// Two tests of one channel whose residuals are far apart, and what the experiment says of them besides.

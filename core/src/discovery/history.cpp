@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,15 +27,15 @@ struct Branch {
   bool rises = true;
 };
 
-/// The branches of a curve; a change of direction by less than a twentieth of the range is none.
-std::vector<Branch> branches_of(const Curve& curve) {
-  const auto [low, high] = std::minmax_element(curve.abscissa.begin(), curve.abscissa.end());
+/// The branches of a curve along its path; a change of direction by less than a twentieth of the range is none.
+std::vector<Branch> branches_of(const Curve& curve, const std::vector<double>& path) {
+  const auto [low, high] = std::minmax_element(path.begin(), path.end());
   const double turn = 0.05 * (*high - *low);
   std::vector<Branch> all{{&curve, {}, {}, true}};
-  double extreme = curve.abscissa.front();
+  double extreme = path.front();
   bool known = false;
-  for (std::size_t i = 0; i < curve.abscissa.size(); ++i) {
-    const double x = curve.abscissa[i];
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double x = path[i];
     Branch* now = &all.back();
     if (!known && std::abs(x - extreme) > turn) {
       now->rises = x > extreme;
@@ -53,26 +54,46 @@ std::vector<Branch> branches_of(const Curve& curve) {
   return all;
 }
 
-/// The abscissae of a curve beside its own, but for time.
-std::vector<std::pair<std::string, std::vector<double>>> other_abscissae(const diagnosis::Evidence& evidence,
-                                                                         const Curve& curve) {
-  std::vector<std::pair<std::string, std::vector<double>>> others;
-  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels)
-    if (view.test == curve.test && view.observable == curve.channel)
-      for (const auto& [name, values] : view.other_abscissae)
-        if (!name.starts_with("time")) others.emplace_back(name, values);
-  return others;
+/// An abscissa over the fitted rows of a curve.
+struct Course {
+  std::string name;
+  std::vector<double> values;
+  [[nodiscard]] bool held() const {
+    return std::all_of(values.begin(), values.end(), [this](double x) { return x == values.front(); });
+  }
+};
+
+/// The abscissae of a curve, but for time.
+std::vector<Course> courses_of(const diagnosis::Evidence& evidence, const Curve& curve) {
+  std::vector<Course> all;
+  const auto add = [&all](const std::string& name, std::vector<double> values) {
+    if (!name.starts_with("time")) all.push_back({name, std::move(values)});
+  };
+  for (const assembly::MeasuredChannel& view : evidence.base->layout().channels) {
+    if (view.test != curve.test || view.observable != curve.channel) continue;
+    add(fmt::format("{} [{}]", view.abscissa_name, view.abscissa_unit), curve.abscissa);
+    for (const auto& [name, values] : view.other_abscissae) {
+      std::vector<double> fitted;
+      for (const std::size_t row : curve.rows) fitted.push_back(values[row]);
+      add(name, std::move(fitted));
+    }
+  }
+  return all;
 }
 
-/// A second abscissa that varies within the curve makes rows at one value of the first different strains.
-bool has_one_abscissa(const diagnosis::Evidence& evidence, const Curve& curve) {
-  for (const auto& [name, values] : other_abscissae(evidence, curve))
-    if (std::any_of(values.begin(), values.end(), [&v = values](double x) { return x != v.front(); })) return false;
-  return true;
+/// The one that varies. None where two do: rows at one value of the first are then different strains.
+std::optional<Course> path_of(const std::vector<Course>& courses) {
+  std::optional<Course> path;
+  for (const Course& course : courses) {
+    if (course.held()) continue;
+    if (path) return std::nullopt;
+    path = course;
+  }
+  return path;
 }
 
-/// Everything about a test that an energy sees, beside the abscissa: what two tests have to share.
-std::string sight_of(const diagnosis::Evidence& evidence, const Curve& curve) {
+/// Everything about a test that an energy sees, beside the path: what two tests have to share.
+std::string sight_of(const diagnosis::Evidence& evidence, const Curve& curve, const std::vector<Course>& courses) {
   const experiment::TestEntry& test = evidence.experiment.test(curve.test);
   std::string sight = test.type + "|" + curve.channel;
   for (const auto& [name, value] : test.options.values())
@@ -80,8 +101,8 @@ std::string sight_of(const diagnosis::Evidence& evidence, const Curve& curve) {
   for (const auto& [name, setting] : test.parameters)
     sight += fmt::format("|{}={}", name, setting.fixed.value_or(setting.initial.value_or(0)));
   // A second stretch that is held is part of the strain.
-  for (const auto& [name, values] : other_abscissae(evidence, curve))
-    if (!values.empty()) sight += fmt::format("|{}={:.6g}", name, values.front());
+  for (const Course& course : courses)
+    sight += course.held() ? fmt::format("|{}={:.6g}", course.name, course.values.front()) : "|" + course.name;
   for (const experiment::LayerEntry& layer : test.layers) sight += "|" + layer.model;
   return sight;
 }
@@ -109,10 +130,13 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 PathDependence path_dependence(const diagnosis::Evidence& evidence, const diagnosis::Fit& fit) {
   std::map<std::string, std::vector<Branch>> alike;
-  for (const Curve& curve : evidence.curves)
-    if (curve.count > 2 && has_one_abscissa(evidence, curve))
-      for (Branch& branch : branches_of(curve))
-        if (branch.rows.size() > 3) alike[sight_of(evidence, curve)].push_back(std::move(branch));
+  for (const Curve& curve : evidence.curves) {
+    const std::vector<Course> courses = courses_of(evidence, curve);
+    const std::optional<Course> path = path_of(courses);
+    if (!path) continue;
+    for (Branch& branch : branches_of(curve, path->values))
+      if (branch.rows.size() > 3) alike[sight_of(evidence, curve, courses)].push_back(std::move(branch));
+  }
   const Eigen::VectorXd& r = fit.residuals;
   PathDependence found;
   Eigen::Index freedom = 0;
