@@ -338,7 +338,8 @@ TEST(DetectorOfDraws, WeighsResidualsByTheNoiseThatTheyHaveEstimated) {
   EXPECT_EQ(one.test(row(3, -0.5), Eigen::VectorXd::Constant(rows, 4)).by_candidate[0], 1);
 }
 
-// e^B is the mean over two candidates: at B, 2 e^B − 1 is left for the one that shows, of which a place has a share.
+// e^B is the mean over two candidates, 1 for one that says nothing: a place with the share s has T with
+// 2 e^B = 2 − s + s e^{T/2}.
 // The smallest p of 128 draws are 2/128 e^−0.1, 2/128, 3/128 …: at 5 % the seventh has to be reached, for which B is
 // above that of the draw with the eighth.
 TEST(DetectorOfDraws, KnowsTheScoreThatRaisesTheAlarm) {
@@ -354,22 +355,22 @@ TEST(DetectorOfDraws, KnowsTheScoreThatRaisesTheAlarm) {
   };
   for (const auto& [share, of_row] : {std::pair{1.0, 0.0}, std::pair{0.3, 0.2}}) {
     const Detector detector = with_shares(share, of_row, ladder(128));
-    EXPECT_NEAR(detector.threshold(1, 0.05), 2 * std::log(2 * std::expm1(B_at(12.0, share, of_row)) / share), 1e-4);
-    EXPECT_NEAR(detector.threshold(1, 0.2), 2 * std::log(2 * std::expm1(B_at(10.1, share, of_row)) / share), 1e-4);
-    EXPECT_NEAR(detector.threshold(0, 0.05), 2 * std::log(2 * std::expm1(B_at(12.0, share, of_row)) / 0.001), 1e-4)
+    EXPECT_NEAR(detector.threshold(1, 0.05), 2 * std::log1p(2 * std::expm1(B_at(12.0, share, of_row)) / share), 1e-4);
+    EXPECT_NEAR(detector.threshold(1, 0.2), 2 * std::log1p(2 * std::expm1(B_at(10.1, share, of_row)) / share), 1e-4);
+    EXPECT_NEAR(detector.threshold(0, 0.05), 2 * std::log1p(2 * std::expm1(B_at(12.0, share, of_row)) / 0.001), 1e-4)
         << "of the other";
   }
 }
 
-// B of the ladder from 0 to 1.27. What a place with a thousandth of the prior has to show is 2 ln (1000 (e^B − 1)).
+// B of the ladder from 0 to 1.27. What a place with a thousandth of the prior has to show is 2 ln (1 + 1000 (e^B − 1)).
 TEST(DetectorOfDraws, KnowsThatASmallScoreIsEnoughWhereDrawsAreSmall) {
   const Draws draws = draws_of(
       128, [](Eigen::Index i, Eigen::Index b) { return i == 0 ? std::sqrt(0.02 * static_cast<double>(b)) : 0; });
   const Detector detector({}, {along(row(0), 0), along(row(1), 0, Side::both, 0.001)}, 1, no_shapes(), draws);
   const double B = std::log(std::exp(0.94) + 0.001);
-  EXPECT_NEAR(detector.threshold(0, 0.25), 2 * std::log(1000 * std::expm1(B)), 1e-3);
+  EXPECT_NEAR(detector.threshold(0, 0.25), 2 * std::log1p(1000 * std::expm1(B)), 1e-3);
   const Detector still({}, {along(row(0), 0)}, 1, no_shapes(), draws_of(100, [](auto, auto) { return 0; }));
-  EXPECT_EQ(still.threshold(0, 0.05), 0) << "where nothing shows, anything does";
+  EXPECT_NEAR(still.threshold(0, 0.05), 0, 1e-12) << "where nothing shows, anything does";
 }
 
 // One draw of a hundred is far beyond the others: no p below a millionth is asked for.
@@ -378,7 +379,7 @@ TEST(DetectorOfDraws, AsksForNoLessThanAMillionth) {
     return i != 0 ? 0 : b == 99 ? 10 : std::sqrt(0.02 * static_cast<double>(b));
   });
   const Detector detector({}, {along(row(0), 0)}, 1, no_shapes(), draws);
-  EXPECT_NEAR(detector.threshold(0, 0.001), 2 * std::log(std::expm1(0.98 + std::log(0.02 / 1e-6))), 1e-4);
+  EXPECT_NEAR(detector.threshold(0, 0.001), 2 * (0.98 + std::log(0.02 / 1e-6)), 1e-4);
 }
 
 }  // namespace

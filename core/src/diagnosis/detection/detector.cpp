@@ -210,7 +210,8 @@ double Detector::threshold(std::size_t candidate, double alpha) const {
   double share = 1;
   for (const Direction& direction : directions_)
     if (direction.candidate == candidate && !direction.row) share = std::min(share, direction.share);
-  return 2 * std::log(std::max(1.0, static_cast<double>(visible_) * std::expm1(high) / share));
+  // e^B is the mean over visible candidates, each of which has 1 where it says nothing: V e^B = V − s + s e^{T/2}.
+  return 2 * std::log1p(static_cast<double>(visible_) * std::expm1(high) / share);
 }
 
 }  // namespace tunica::diagnosis
