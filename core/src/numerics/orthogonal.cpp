@@ -14,7 +14,14 @@ Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& A, std::optional<double
 Eigen::VectorXd least_squares_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double least) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
   qr.setThreshold(least);
-  return qr.solve(b);
+  // A P = Q R: P⁻¹ x = (R₁⁻¹ (Qᵀ b)₁, 0) with as many rows as the rank. Eigen's own solve() knows no threshold.
+  const Eigen::Index rank = qr.rank();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(A.cols());
+  x.head(rank) = qr.matrixQR()
+                     .topLeftCorner(rank, rank)
+                     .triangularView<Eigen::Upper>()
+                     .solve((qr.householderQ().transpose() * b).head(rank));
+  return qr.colsPermutation() * x;
 }
 
 Eigen::VectorXd shortest_least_squares_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
