@@ -32,7 +32,7 @@ class Specimens {
           std::make_unique<MadeUpTerms>(levels[s],
                                         std::map<std::string, trial::MadeUpLaw>{
                                             {"a", in_blocks({0})}, {"b", in_blocks({1})}, {"wide", in_blocks({0, 1})}},
-                                        back.empty() ? Levels{} : back[s]));
+                                        trial::Measuring{.back = back.empty() ? Levels{} : back[s]}));
       fitters.push_back(one.fitter.get());
       kinds.push_back({one.kind("a", "a"), one.kind("b", "b"), one.kind("wide", "wide", 0, "I1", "a")});
       SpecimenOutcome outcome{"S" + std::to_string(s + 1), {}, one.subject};
