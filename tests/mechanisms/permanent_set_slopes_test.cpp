@@ -50,6 +50,27 @@ TEST_P(PermanentSetSlopes, ByItsOwnStretchAreThoseOfThePrediction) {
   }
 }
 
+/// Where a strip begins at its first length there is no set yet: its slope there is that of a strip that is pushed.
+TEST_P(PermanentSetSlopes, AtTheFirstLengthAreThoseOfAPush) {
+  const auto smooth = make_model("neo_hooke");  // fibres would begin there
+  const auto answer = [&](const Values& stretches, double set) {
+    Values values(2 * stretches.size()), slopes(values.size());
+    const Status status = strip(stretches)->predict({*smooth, Values{30}, Values{0, set}}, {values, {}, slopes, {}});
+    EXPECT_TRUE(status.ok()) << status.reason();
+    return std::pair{values, slopes};
+  };
+  for (const double set : {0.0, s}) {
+    constexpr double h = 1e-6;
+    const auto [values, slopes] = answer({1, 1.2, 1.1}, set);
+    const auto [below, unused] = answer({1 - h, 1.2, 1.1}, set);
+    for (const std::size_t entry : {0, 3}) {
+      const double difference = (values[entry] - below[entry]) / h;
+      EXPECT_GT(std::abs(difference), 0.1);
+      EXPECT_NEAR(slopes[entry], difference, 1e-4 * std::abs(difference)) << "set " << set << ", " << entry;
+    }
+  }
+}
+
 TEST_P(PermanentSetSlopes, DoNotDependOnWhatElseIsWanted) {
   const std::size_t size = 2 * loop.size(), columns = set_s.size() + 2;
   for (const double set : {0.0, s}) {

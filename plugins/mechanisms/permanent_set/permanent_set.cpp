@@ -138,9 +138,9 @@ class PermanentSetTest final : public DecoratedTest {
       }
       all[i] *= factor;
       if (i / size != abscissa_) continue;
-      const double by_measured = row.taut          ? (1 - measured[i % n] * grows / row.rest) / row.rest
-                                 : row.felt == 1.0 ? 0
-                                                   : 1;
+      // Slack after a stretch, nothing is felt. At the first length itself, never stretched, it is the slope of a push.
+      const bool slack = row.grown > 0 && row.felt == 1.0;
+      const double by_measured = row.taut ? (1 - measured[i % n] * grows / row.rest) / row.rest : slack ? 0 : 1;
       all[i] = all[i] * by_measured + a * grows / row.rest * factor * inner.values[i % size];
     }
   }
