@@ -5,12 +5,11 @@
 
 #include <gmock/gmock.h>
 
-#include "discover/made_up_terms.hpp"
+#include "discover/six_blocks.hpp"
 #include "discovery/common/common_discovery.hpp"
 #include "discovery/common/common_rivals.hpp"
 #include "discovery/preparation.hpp"
 #include "discovery/search.hpp"
-#include "tunica/error.hpp"
 
 namespace tunica::discovery::common_search_test {
 namespace {
@@ -23,34 +22,20 @@ using ::testing::IsEmpty;
 using ::testing::Pair;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
+using trial::levels_with;
+using trial::levels_with_fibres;
 using trial::MadeUpTerms;
 using trial::Measuring;
-using trial::over_blocks;
+using trial::six_blocks;
+using trial::six_blocks_with_fibres;
 
 using Levels = std::vector<double>;
-
-/// Over six blocks: a base that is alike in all of them, two laws of I1, an error of the rig, and a mechanism that is
-/// nearly the second law.
-std::map<std::string, trial::MadeUpLaw> laws() {
-  return {{"base", over_blocks({1, 1, 1, 1, 1, 1})},
-          {"linear", over_blocks({1, 2, 3, 4, 5, 6})},
-          {"quadratic", over_blocks({0, 1, 0, 3, 0, 9})},
-          {"rig", over_blocks({1, -1, 1, -1, 1, -1})},
-          {"stiffer", over_blocks({0, 1, 0, 3, 0, 8})}};
-}
-
-/// Ten and so many times the second law.
-Levels with_second(double amplitude) {
-  Levels levels;
-  for (const double law : {0, 1, 0, 3, 0, 9}) levels.push_back(10 + amplitude * law);
-  return levels;
-}
 
 class Tissue {
  public:
   /// One specimen for each list of levels, with noise of 1 that is seeded by their number, from 2.
   explicit Tissue(const std::vector<Levels>& levels, double sd = 1,
-                  const std::map<std::string, trial::MadeUpLaw>& of = laws(), bool two_channels = false) {
+                  const std::map<std::string, trial::MadeUpLaw>& of = six_blocks(), bool two_channels = false) {
     for (const Levels& one : levels) {
       specimens.push_back(std::make_unique<MadeUpTerms>(
           one, of, Measuring{.two_channels = two_channels, .sd = sd, .seed = specimens.size() + 2}));
@@ -88,7 +73,7 @@ double together(const std::vector<SpecimenOutcome>& specimens) {
 }
 
 TEST(CommonSearch, GoesThroughAllSpecimens) {
-  const Tissue tissue({with_second(2), with_second(3), with_second(1)});
+  const Tissue tissue({levels_with(2), levels_with(3), levels_with(1)});
   std::vector<std::pair<std::string, double>> said;
   const auto found =
       discover_together(tissue.members, tissue.request, tissue.specimens.front()->shelf,
@@ -138,7 +123,7 @@ TEST(CommonSearch, GoesThroughAllSpecimens) {
 }
 
 TEST(CommonSearch, EndsWhereNoAlarmIsRaised) {
-  const Tissue tissue({with_second(0), with_second(0)});
+  const Tissue tissue({levels_with(0), levels_with(0)});
   std::vector<std::string> said;
   const auto found = discover_together(tissue.members, tissue.request, tissue.specimens.front()->shelf,
                                        [&](const std::string& stage, double) { said.push_back(stage); });
@@ -157,18 +142,18 @@ TEST(CommonSearch, EndsWhereNoAlarmIsRaised) {
     EXPECT_EQ(one.chi2_before, one.analysis.evidence.fit.chi2);
     EXPECT_EQ(one.chi2_after, one.chi2_before);
   }
-  Tissue sensitive({with_second(0), with_second(0)});
+  Tissue sensitive({levels_with(0), levels_with(0)});
   sensitive.request.alpha = found.p_before;
   EXPECT_TRUE(sensitive.discover().specimens.front().subject) << "an alarm at its level is one";
 }
 
 TEST(CommonSearch, HasNoDoubtOfDataWithoutNoise) {
-  EXPECT_EQ(Tissue({with_second(0), with_second(0)}, 0).discover().p_before, 1);
+  EXPECT_EQ(Tissue({levels_with(0), levels_with(0)}, 0).discover().p_before, 1);
 }
 
 /// However little it says: the noise of this seed has p = 0.94.
 TEST(CommonSearch, OfOneSpecimenHasItsAlarm) {
-  Tissue tissue(std::vector<Levels>(4, with_second(0)));
+  Tissue tissue(std::vector<Levels>(4, levels_with(0)));
   tissue.members.erase(tissue.members.begin(), tissue.members.end() - 1);
   const auto found = tissue.discover();
   ASSERT_THAT(found.specimens, SizeIs(1));
@@ -185,7 +170,7 @@ TEST(CommonSearch, CountsRestsThatAreNotNoise) {
 
 /// Alarms that say nothing alone may say something together.
 TEST(CommonSearch, AddsUpWhatAlarmsSay) {
-  const auto found = Tissue({with_second(0.12), with_second(0.12), with_second(0.12), with_second(0.12)}).discover();
+  const auto found = Tissue({levels_with(0.12), levels_with(0.12), levels_with(0.12), levels_with(0.12)}).discover();
   EXPECT_NEAR(found.p_before, together(found.specimens), 1e-9);
   for (const SpecimenOutcome& one : found.specimens) EXPECT_LT(found.p_before, one.analysis.alarm.p());
 }
@@ -207,11 +192,11 @@ TEST(CommonSearch, MakesAWholeEnergyWithoutAnAlarm) {
 /// A row that stands apart is left out beside a base, and is the terms' own business from nothing.
 TEST(CommonSearch, LeavesOutGrossRowsBesideABase) {
   for (const bool from_nothing : {false, true}) {
-    Tissue tissue({with_second(2), with_second(2)});
+    Tissue tissue({levels_with(2), levels_with(2)});
     std::vector<double> x, y;
     for (int i = 10; i < 70; ++i) {
       x.push_back(i);
-      y.push_back(with_second(2)[static_cast<std::size_t>(i / 10 - 1)] + 0.5 * std::sin(2.3 * i * i) +
+      y.push_back(levels_with(2)[static_cast<std::size_t>(i / 10 - 1)] + 0.5 * std::sin(2.3 * i * i) +
                   (i == 35 ? 60 : 0));
     }
     tissue.specimens[0]->run.tests.clear();
@@ -229,7 +214,7 @@ TEST(CommonSearch, LeavesOutGrossRowsBesideABase) {
 
 /// What cannot be read, and what cannot be fitted.
 TEST(CommonSearch, LeavesSpecimensOutWithTheirReason) {
-  Tissue tissue({with_second(2), with_second(2), with_second(2), {10, 10, 10, 10}});
+  Tissue tissue({levels_with(2), levels_with(2), levels_with(2), {10, 10, 10, 10}});
   tissue.members[1].experiment.tests.front().data.columns = {{"x", "x"}, {"y", "no such column"}};
   fakes::set_behaviour([](double, std::span<double> values, Status& status) {
     if (values.size() == 40) status = Status::failed("it tears");
@@ -251,7 +236,7 @@ TEST(CommonSearch, LeavesSpecimensOutWithTheirReason) {
 }
 
 TEST(CommonSearch, AsksForAModelAndForSpecimens) {
-  Tissue tissue({with_second(0)});
+  Tissue tissue({levels_with(0)});
   tissue.members.clear();
   EXPECT_THAT(fakes::message_of([&] { (void)tissue.discover(); }), HasSubstr("no specimen to search in"));
   tissue.request.model.clear();
@@ -260,7 +245,7 @@ TEST(CommonSearch, AsksForAModelAndForSpecimens) {
 
 /// One warning of a kind, of the first specimen that has it.
 TEST(CommonSearch, GathersWarnings) {
-  Tissue tissue({with_second(0), with_second(0), with_second(0)});
+  Tissue tissue({levels_with(0), levels_with(0), levels_with(0)});
   const auto silent = [&](std::size_t s) { tissue.members[s].experiment.tests.front().data.noise.clear(); };
   silent(1);
   const auto one = tissue.discover().warnings;
@@ -277,9 +262,9 @@ TEST(CommonSearch, GathersWarnings) {
 /// Noise that nobody states is asked once more of what the terms leave.
 TEST(CommonSearch, EstimatesNoiseOnceMore) {
   for (const std::size_t open : {0U, 1U}) {
-    auto without_mechanisms = laws();
+    auto without_mechanisms = six_blocks();
     without_mechanisms.erase("stiffer");
-    Tissue tissue({with_second(2), with_second(2)}, 1, without_mechanisms);
+    Tissue tissue({levels_with(2), levels_with(2)}, 1, without_mechanisms);
     tissue.members[open].experiment.tests.front().data.noise.clear();
     const diagnosis::Request of_analysis = analysis_request(tissue.request);
     const diagnosis::Progress silent;
@@ -300,10 +285,8 @@ TEST(CommonSearch, EstimatesNoiseOnceMore) {
 /// Of a law and it beside another law of its invariant, which is little likelier, the law.
 TEST(CommonSearch, PutsTheSimplestFirst) {
   for (const double first_law : {0.29, 0.4}) {
-    std::vector<Levels> levels(2, with_second(2));
-    for (Levels& one : levels)
-      for (std::size_t block = 0; block < 6; ++block) one[block] += first_law * static_cast<double>(block + 1);
-    const std::vector<Alternative> all = Tissue(levels, 0).discover().judgement.all;
+    const std::vector<Alternative> all =
+        Tissue(std::vector<Levels>(2, levels_with(2, first_law)), 0).discover().judgement.all;
     const bool simplest = names_of(all.at(0).kinds).size() == 1;
     EXPECT_EQ(simplest, first_law < 0.3);
     if (simplest) {
@@ -312,31 +295,9 @@ TEST(CommonSearch, PutsTheSimplestFirst) {
   }
 }
 
-/// What fibres along the test would add to laws of I1.
-std::map<std::string, trial::MadeUpLaw> with_fibres() {
-  auto all = laws();
-  all["linear"] = over_blocks({1, 2, 3, 4, 5, 6});
-  all["quadratic"] = over_blocks({0, 0, 0, 1, 0, 0});
-  all["circumferential quadratic"] = over_blocks({0, 2, 0, 0, 1, 0});
-  all["diagonal quadratic"] = {[](std::size_t, double) { return 0.0; }, "theta"};
-  return all;
-}
-
-/// 3 times the first law, and so many times that of fibres.
-Levels with_fibre_of(double amplitude, double jagged = 0) {
-  Levels levels;
-  for (int block = 0; block < 6; ++block)
-    levels.push_back(3 * (block + 1) +
-                     amplitude * (block == 1   ? 2
-                                  : block == 4 ? 1
-                                               : 0) +
-                     (block % 2 == 0 ? jagged : -jagged));
-  return levels;
-}
-
 struct FibreSearch : Tissue {
   explicit FibreSearch(const std::vector<Levels>& levels, bool two_channels = true)
-      : Tissue(levels, 0, with_fibres(), two_channels) {
+      : Tissue(levels, 0, six_blocks_with_fibres(), two_channels) {
     request.from_nothing = true;
     request.invariants.clear();
   }
@@ -349,24 +310,25 @@ bool has_fibres(const CommonDiscovery& found) {
 
 /// Where an isotropic energy leaves more than noise, and the tests show two directions.
 TEST(CommonSearch, TriesFibresWhereTheyMayBe) {
-  const auto found = FibreSearch({with_fibre_of(5), with_fibre_of(4)}).discover();
+  const auto found = FibreSearch({levels_with_fibres(5), levels_with_fibres(4)}).discover();
   ASSERT_TRUE(found.best);
   EXPECT_THAT(names_of(found.best->kinds), ElementsAre("I1_linear", "fibre_circumferential_quadratic"));
-  EXPECT_FALSE(has_fibres(FibreSearch({with_fibre_of(5), with_fibre_of(4)}, false).discover())) << "one direction";
-  FibreSearch beside({with_fibre_of(5), with_fibre_of(4)});
+  EXPECT_FALSE(has_fibres(FibreSearch({levels_with_fibres(5), levels_with_fibres(4)}, false).discover()))
+      << "one direction";
+  FibreSearch beside({levels_with_fibres(5), levels_with_fibres(4)});
   beside.request.from_nothing = false;
   EXPECT_FALSE(has_fibres(beside.discover())) << "beside a base that has no directions";
 }
 
 /// They would be likelier, by what they take of the noise.
 TEST(CommonSearch, TriesNoFibresWhereNothingIsLeft) {
-  const auto found = FibreSearch({with_fibre_of(0.45), with_fibre_of(0.45)}).discover();
+  const auto found = FibreSearch({levels_with_fibres(0.45), levels_with_fibres(0.45)}).discover();
   EXPECT_GT(found.chi2_after, 20);
   EXPECT_FALSE(has_fibres(found));
   // One of two specimens may have a rest that is not noise: 1 − 0.95².
   for (const std::size_t odd : {0U, 1U}) {
-    std::vector<Levels> levels(2, with_fibre_of(0));
-    levels[odd] = with_fibre_of(3);
+    std::vector<Levels> levels(2, levels_with_fibres(0));
+    levels[odd] = levels_with_fibres(3);
     const auto one = FibreSearch(levels).discover();
     EXPECT_NEAR(one.p_after, 0.0975, 1e-9);
     EXPECT_FALSE(has_fibres(one));
@@ -374,7 +336,7 @@ TEST(CommonSearch, TriesNoFibresWhereNothingIsLeft) {
 }
 
 TEST(CommonSearch, LeavesFibresThatDoNotHelp) {
-  const auto found = FibreSearch({with_fibre_of(0, 2), with_fibre_of(0, 2)}).discover();
+  const auto found = FibreSearch({levels_with_fibres(0, 2), levels_with_fibres(0, 2)}).discover();
   ASSERT_TRUE(found.best);
   EXPECT_LT(found.p_after, 0.01);
   EXPECT_FALSE(has_fibres(found));

@@ -129,21 +129,21 @@ class Off : public Test {
   TestDescription description_;
 };
 
-std::string amplitude_of(const std::string& law) {
-  if (law == "spline") return "slope";
+std::string amplitude_of(const std::string& law, bool fibres) {
+  if (law == "spline") return fibres ? "c_1" : "slope";
   return law == "quadratic" || law == "cubic" ? "k" : "mu";
 }
 
 /// The parameters of a term, behind those that there are.
-Placed declare(const MadeUpLaw& law, const std::string& law_name, bool power, std::size_t knots,
+Placed declare(const MadeUpLaw& law, const std::string& law_name, const std::string& invariant, std::size_t knots,
                const std::string& prefix, std::vector<Parameter>& parameters) {
-  const Placed term{&law, parameters.size(), law_name == "spline" ? knots : law.heights.size()};
+  const bool power = invariant == "stretches", fibres = invariant == "fibre", curve = law_name == "spline";
+  const Placed term{&law, parameters.size(), !curve ? law.heights.size() : fibres ? knots - 1 : knots};
   const auto add = [&](const std::string& own, double initial, double min, double max) {
     parameters.push_back({prefix + own, "kPa", initial, min, max, Scale::linear, "", ""});
   };
-  add(amplitude_of(law_name), 1, power ? -1e4 : 0, 1e4);
-  for (std::size_t h = 0; h < term.heights; ++h)
-    add("c_" + std::to_string(h + (law_name == "spline" ? 1 : 2)), 1, 0, 1e4);
+  add(amplitude_of(law_name, fibres), 1, power ? -1e4 : 0, 1e4);
+  for (std::size_t h = 0; h < term.heights; ++h) add("c_" + std::to_string(h + (curve && !fibres ? 1 : 2)), 1, 0, 1e4);
   if (!law.shape.empty()) add(law.shape, 1, -100, 100);
   return term;
 }
@@ -209,8 +209,8 @@ void MadeUpTerms::register_all() {
     added.options.push_back(Option::text(option, "", "Of the term."));
   const auto declared = [this](const Options& options, std::vector<Parameter>& parameters) {
     const std::string &invariant = options.text("invariant"), &law = options.text("law");
-    return declare(law_of(invariant, invariant == "fibre" ? options.text("family") : "", law), law,
-                   invariant == "stretches", json::parse(options.text("knots")).size(), "", parameters);
+    return declare(law_of(invariant, invariant == "fibre" ? options.text("family") : "", law), law, invariant,
+                   json::parse(options.text("knots")).size(), "", parameters);
   };
   added.parameters_of = [declared](const Options& options) {
     std::vector<Parameter> parameters;
@@ -260,7 +260,7 @@ std::unique_ptr<Model> MadeUpTerms::make(const Options& options) const {
   for (const json& term : json::parse(options.text("terms"))) {
     const std::string name = names.emplace_back(term["name"]), invariant = term["invariant"],
                       law = term.value("law", ""), family = term.value("family", "");
-    terms.push_back(declare(law_of(invariant, family, law), law, invariant == "stretches",
+    terms.push_back(declare(law_of(invariant, family, law), law, invariant,
                             term.contains("knots") ? term["knots"].size() : 0, name + "_", description.parameters));
   }
   {
