@@ -102,6 +102,8 @@ TEST_F(EvidenceOfASet, IsThatOfTheMisfitWithoutParameters) {
   EXPECT_NEAR(rubber.fitter.log_evidence(fit), -40 - 1.5, 1e-12);
   fit.set.reset();
   EXPECT_NEAR(rubber.fitter.log_evidence(fit), -40 - 1.5, 1e-12);
+  fit.fit.jacobian.setOnes(75, 2);
+  EXPECT_NEAR(rubber.fitter.log_evidence(fit), -40 - 1.5, 1e-12) << "columns of no set are of no parameter";
 }
 
 /// A parameter that is searched for by its value has the width of its box.

@@ -118,6 +118,45 @@ TEST(LargestAmplitudeOfFibres, BesideABaseIsWithoutAnyOfThem) {
   EXPECT_NEAR(fibres->largest, 20 * rubber.measured() / least, 1e-7 * fibres->largest);
 }
 
+TEST(LargestAmplitudeOfFibres, FromNothingIsWithNextToNoneOfThem) {
+  ToFit what;
+  what.from_nothing = true;
+  const FittedRubber rubber(what);
+  const KindPointer fibres = rubber.kind("fibre_diagonal_quadratic");
+  double least = INFINITY;
+  for (const auto& shapes : combinations(*fibres)) {
+    std::vector<double> free{rubber.evidence.fit.free.front(), 1e-3};
+    free.insert(free.end(), shapes.begin(), shapes.end());
+    const std::vector<KindPointer> kinds{rubber.kind("I1_linear"), fibres};
+    const auto amplitude = static_cast<Eigen::Index>(BoundSet(rubber.subject, kinds).terms()[1].amplitude);
+    ASSERT_EQ(amplitude, 1);
+    least = std::min(least, rubber.at(kinds, free).fit.jacobian.col(1).norm());
+  }
+  EXPECT_NEAR(fibres->largest, 20 * rubber.measured() / least, 1e-8 * fibres->largest);
+}
+
+/// Beside fibres, for which it matters what there is of a term already.
+TEST(LargestAmplitude, OfANegativeOneIsWithNextToNoneOfIt) {
+  const FittedRubber rubber({.with = [](nlohmann::json& experiment) {
+    experiment["models"]["rubber"] = {{"type", "gho"},
+                                      {"parameters",
+                                       {{"mu", {{"initial", 10}}},
+                                        {"k1", {{"fixed", 0.2}}},
+                                        {"k2", {{"fixed", 0.1}}},
+                                        {"kappa", {{"fixed", 0}}},
+                                        {"theta", {{"fixed", 40}}}}}};
+  }});
+  const KindPointer falling = rubber.kind("stretches_falling");
+  double least = INFINITY;
+  for (const auto& shapes : combinations(*falling)) {
+    std::vector<double> free{rubber.evidence.fit.free.front(), -1e-4};
+    free.insert(free.end(), shapes.begin(), shapes.end());
+    least = std::min(least, rubber.at({falling}, free).fit.jacobian.col(1).norm());
+  }
+  ASSERT_GT(falling->largest, -5000) << "which is the most of all";
+  EXPECT_NEAR(falling->largest, -20 * rubber.measured() / least, -1e-10 * falling->largest);
+}
+
 /// Terms that are all linear in their parameters move each other to where the fit ends.
 TEST(Growth, IsExactInOneStepBesideTermsThatAreAlike) {
   const FittedRubber rubber({.hide = both(hidden("I2", "linear", {{"mu", 40}}), hidden("I2", "quadratic", {{"k", 3}})),
@@ -144,9 +183,8 @@ TEST(Growth, TellsWhatIsNearlyTheSameApart) {
   across -= signature * (signature.dot(across) / signature.squaredNorm());
   across *= signature.norm() / across.norm();
   from.fit.jacobian.col(0) = signature + 1e-8 * across;
-  from.fit.residuals = -100 * across / across.norm();  // and 100² is what the difference can take away
-  if (rubber.fitter.grown(from, second, -INFINITY)) return;
-  from.fit.residuals *= -1;
+  // The term without what the base does points against `across`; 100² is what that much less of it takes away.
+  from.fit.residuals = 100 * across / across.norm();
   EXPECT_TRUE(rubber.fitter.grown(from, second, -INFINITY));
 }
 
@@ -183,6 +221,16 @@ TEST(Growth, IsNoneWhereNoStartCanBeEvaluated) {
   EXPECT_FALSE(terms.fitter->grown(terms.fitter->root(), terms.law(), -INFINITY));
 }
 
+/// The unit of an amplitude does not matter: here 5 · 10⁹ of it make 50 kPa.
+TEST(Growth, IsByTermsOfAnyUnit) {
+  const MadeUpTerms terms({50, 0}, {{"tiny", trial::over_blocks({1e-8})}});
+  Kind tiny = *terms.kind("tiny", "tiny");
+  tiny.largest = 1e10;
+  const auto grown = terms.fitter->grown(terms.fitter->root(), std::make_shared<const Kind>(tiny), -INFINITY);
+  ASSERT_TRUE(grown);
+  EXPECT_NEAR(grown->fit.free[0], 5e9, 1e3);
+}
+
 /// From nothing there is no fit that knows where parameters of the tests are: they begin where they are declared to.
 TEST(Growth, FromNothingBeginsWithTheInitialValuesOfTests) {
   MadeUpTerms terms({50, 0}, {{"own", trial::in_blocks({0})}});
@@ -197,6 +245,62 @@ TEST(Growth, FromNothingBeginsWithTheInitialValuesOfTests) {
   const auto grown = fitter.grown(fitter.root(), terms.kind("own", "own"), -INFINITY);
   ASSERT_TRUE(grown);
   EXPECT_NEAR(grown->chi2(), 0, 1e-3);
+}
+
+/// A law that adds amplitude · e^(steep − s) to the rows of block 1, where nothing was measured: every step of a fit
+/// takes most of it away, and as much of what is left then. It begins with an amplitude of 1 at s = 0.
+struct SlowDescent : MadeUpTerms {
+  explicit SlowDescent(double steep, double unexplained = 0)
+      : MadeUpTerms(
+            {0, 0, unexplained, 50},
+            {{"slow", {[=](std::size_t block, double s) { return block == 1 ? std::exp(steep - s) : 0.0; }, "s"}},
+             {"alpha", {[](std::size_t block, double) { return block == 3 ? 1.0 : 0.0; }, "alpha"}},
+             {"linear", trial::in_blocks({3})}}) {}
+  [[nodiscard]] KindPointer law() const {
+    Kind one = *kind("slow", "slow");
+    one.shapes[0].low = -10;
+    one.shapes[0].high = 1000;
+    return std::make_shared<const Kind>(one);
+  }
+  /// Nothing, which misses the data by as much as an amplitude of 1 would add.
+  [[nodiscard]] SetFit root() const {
+    SetFit from = fitter->root();
+    from.fit.residuals = -at({law()}, {1, 0}).fit.jacobian.col(0);
+    from.fit.chi2 = INFINITY;
+    from.log_evidence = 0;
+    return from;
+  }
+  /// Evaluations of a fit of which that |r|² is wanted.
+  [[nodiscard]] std::size_t evaluations(double wanted) const {
+    const BoundSet set(*subject, {law()});
+    const auto workspace = set.assembly().evaluator().make_workspace();
+    return diagnosis::least_squares(set.assembly(), diagnosis::all_variables(set.assembly()), std::vector{1.0, 0.0},
+                                    *workspace, 60, {.wanted = wanted, .negligible = diagnosis::says_nothing})
+        .evaluations;
+  }
+};
+
+TEST(FitOfASet, MayTakeSixtyEvaluations) {
+  const SlowDescent terms(90);
+  const auto grown = terms.fitter->grown(terms.root(), terms.law(), -INFINITY);
+  ASSERT_TRUE(grown);
+  EXPECT_EQ(grown->fit.evaluations, 60U);
+  const SetFit from = terms.at({terms.power("power", false), terms.law()}, {10, 3, 1, 0});
+  const auto exchanged = terms.fitter->with_linear(from, 0, terms.kind("linear", "linear"));
+  ASSERT_TRUE(exchanged);
+  EXPECT_EQ(exchanged->fit.evaluations, 60U);
+}
+
+/// An evidence that is to come to `worth` needs a |r|² of no more than −2 worth.
+TEST(FitOfASet, EndsWhereItCannotComeToWhatItIsWorth) {
+  const SlowDescent terms(9, 1000);
+  const double unexplained = 10 * (1000 * 1000 + 50 * 50);  // by this law
+  const double wanted = 0.9 * unexplained;
+  const auto grown = terms.fitter->grown(terms.root(), terms.law(), -wanted / 2);
+  ASSERT_TRUE(grown);
+  EXPECT_EQ(grown->fit.evaluations, terms.evaluations(wanted));
+  for (const double other : {0.0, wanted / 2, 1.5 * wanted})
+    EXPECT_NE(terms.evaluations(wanted), terms.evaluations(other)) << other << " would end elsewhere";
 }
 
 }  // namespace
