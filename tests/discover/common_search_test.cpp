@@ -212,7 +212,7 @@ TEST(CommonSearch, LeavesOutGrossRowsBesideABase) {
   }
 }
 
-/// What cannot be read, and what cannot be fitted.
+/// What cannot be read, what cannot be fitted, and what nothing was measured of.
 TEST(CommonSearch, LeavesSpecimensOutWithTheirReason) {
   Tissue tissue({levels_with(2), levels_with(2), levels_with(2), {10, 10, 10, 10}});
   tissue.members[1].experiment.tests.front().data.columns = {{"x", "x"}, {"y", "no such column"}};
@@ -228,6 +228,12 @@ TEST(CommonSearch, LeavesSpecimensOutWithTheirReason) {
   EXPECT_THAT(found.left_out[0].reason, HasSubstr("no such column"));
   EXPECT_EQ(found.left_out[1].id, "S4");
   EXPECT_THAT(found.left_out[1].reason, HasSubstr("it tears"));
+
+  tissue.members[2].experiment.tests.front().measured = false;
+  const auto without = tissue.discover();
+  ASSERT_THAT(without.left_out, SizeIs(3));
+  EXPECT_EQ(without.left_out[1].id, "S3");
+  EXPECT_THAT(without.left_out[1].reason, HasSubstr("no test has measured values"));
 
   tissue.members.erase(tissue.members.begin() + 2);
   tissue.members.erase(tissue.members.begin());

@@ -93,10 +93,11 @@ std::vector<Searching> analysed(const std::vector<Member>& members, const Reques
     if (progress)
       progress(fmt::format("specimen {} of {}", k + 1, members.size()),
                0.5 * static_cast<double>(k) / static_cast<double>(members.size()));
-    experiment::Experiment measured = experiment::measured_only(members[k].experiment);
-    if (request.from_nothing) measured = with_first_term(std::move(measured), request.model);
-    Searching one{members[k].id, std::make_unique<experiment::Experiment>(std::move(measured)), {}};
+    experiment::Experiment given = members[k].experiment;
+    if (request.from_nothing) given = with_first_term(std::move(given), request.model);
+    Searching one{members[k].id, nullptr, {}};
     try {
+      one.measured = std::make_unique<experiment::Experiment>(experiment::measured_only(std::move(given)));
       const diagnosis::Inquiry inquiry = inquiry_of(one, of_analysis, catalogue);
       one.analysis = request.from_nothing ? diagnosis::analyse(inquiry, {}) : screened(inquiry);
       specimens.push_back(std::move(one));
