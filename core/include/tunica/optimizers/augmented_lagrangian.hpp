@@ -22,9 +22,9 @@ namespace tunica {
 /// evaluation sets ρ, so that penalty and objective are comparable.
 ///
 /// Where no constraint is active at the optimum, the objective alone leads there, past points that are not feasible:
-/// First::objective_alone tries that before the first update(). From 100 random starts on the strips of the lamb aorta, a
-/// descent of gho, whose optimum is stable, takes 78 evaluations instead of 144. One of hgo, whose optimum is not, takes
-/// 134 instead of 135 for h = 1 and 128 instead of 117 for h = 0.7.
+/// First::objective_alone tries that before the first update(). From 100 random starts on the strips of the lamb aorta,
+/// a descent of gho, whose optimum is stable, takes 78 evaluations instead of 144. One of hgo, whose optimum is not,
+/// takes 134 instead of 135 for h = 1 and 128 instead of 117 for h = 0.7.
 ///
 /// Status: every point that can be evaluated is `ok` here, feasible or not; best() knows the difference. Threads: not
 /// thread-safe, as every Problem. Cost: one constraints() an evaluation. Ownership: the problem must outlive it.
