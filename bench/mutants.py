@@ -26,7 +26,7 @@ from mutation import building, report, trials  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["core/src/calibration", "core/src/diagnosis", "core/src/discovery", "plugins/models", "plugins/mechanisms"]
 PROGRAMS = ["test_mechanisms", "test_models", "test_diagnosis", "test_discover", "test_calibration", "test_cohort_diagnosis",
-            "test_cli"]  # only the program itself, which test_cli starts, runs core/src/calibration
+            "test_cli"]  # the program itself, which test_cli starts, runs core/src/calibration too
 # What of the rest of the suite looks at these folders without starting a search.
 COMMANDS = r"^(References\.baseline\.|Schema\.CommittedIsWhat|Conformance\.BuiltIn_|Docs\.PagePrintsWhatItShows)"
 
