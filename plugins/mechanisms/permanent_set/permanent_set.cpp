@@ -36,6 +36,9 @@ struct Row {
   bool taut = true;            ///< longer than at rest
   bool leads = false;          ///< Λ is the stretch of this row
   double felt = 1;             ///< by the material
+
+  /// Hanging loose after a stretch: nothing is felt. At its first length, never stretched, a strip is not.
+  [[nodiscard]] bool slack() const { return !taut && grown > 0 && felt == 1; }
 };
 
 std::vector<Row> rows_of(std::span<const double> measured, double s) {
@@ -104,7 +107,7 @@ class PermanentSetTest final : public DecoratedTest {
 
  private:
   [[nodiscard]] bool gone(std::size_t channel, const Row& row) const {
-    return channels_.stress[channel] && !row.taut && row.grown > 0 && row.felt == 1;
+    return channels_.stress[channel] && row.slack();
   }
 
   /// y = p^a v(λ): dy/ds = p^a (v' dλ/ds + a (Λ − 1)/p v), with dλ/ds = −m (Λ − 1)/p² while the strip is taut.
@@ -138,9 +141,7 @@ class PermanentSetTest final : public DecoratedTest {
       }
       all[i] *= factor;
       if (i / size != abscissa_) continue;
-      // Slack after a stretch, nothing is felt. At the first length itself, never stretched, it is the slope of a push.
-      const bool slack = row.grown > 0 && row.felt == 1.0;
-      const double by_measured = row.taut ? (1 - measured[i % n] * grows / row.rest) / row.rest : slack ? 0 : 1;
+      const double by_measured = row.taut ? (1 - measured[i % n] * grows / row.rest) / row.rest : row.slack() ? 0 : 1;
       all[i] = all[i] * by_measured + a * grows / row.rest * factor * inner.values[i % size];
     }
   }
