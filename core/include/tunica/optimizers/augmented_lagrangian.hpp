@@ -78,7 +78,7 @@ class AugmentedLagrangian : public Problem {
     lowest_ = std::numeric_limits<double>::infinity();
     if (problem_.constraints(point_.x, c_, {}).kind() == Status::Kind::failed) return Progress::nothing;
     if (first_ == First::objective_alone) {
-      if (*std::ranges::max_element(c_) + margin <= 0) return Progress::converged;
+      if (std::ranges::all_of(c_, [](double c) { return c + margin <= 0; })) return Progress::converged;
       first_ = First::penalised;
       penalty_ = std::max(0.1 * penalty_, least_penalty);
       measure_ = std::numeric_limits<double>::max();
