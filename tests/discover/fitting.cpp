@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "discover/set_at.hpp"
+
 namespace tunica::trial {
 namespace {
 
@@ -50,14 +52,7 @@ discovery::KindPointer FittedRubber::kind(const std::string& name,
 
 discovery::SetFit FittedRubber::at(const std::vector<discovery::KindPointer>& kinds,
                                    const std::vector<double>& free) const {
-  discovery::SetFit one{kinds, std::make_shared<const discovery::BoundSet>(subject, kinds), {}, 0};
-  const assembly::Assembly& assembly = one.set->assembly();
-  one.fit.status =
-      diagnosis::whitened(assembly, free, *assembly.evaluator().make_workspace(), one.fit.residuals, &one.fit.jacobian);
-  one.fit.free = free;
-  one.fit.chi2 = one.fit.residuals.squaredNorm();
-  one.fit.at_bound.assign(free.size(), false);
-  return one;
+  return set_at(subject, kinds, free);
 }
 
 double FittedRubber::measured() const {

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "discover/set_at.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::trial {
@@ -301,13 +302,7 @@ discovery::KindPointer MadeUpTerms::power(const std::string& name, bool negative
 
 discovery::SetFit MadeUpTerms::at(const std::vector<discovery::KindPointer>& kinds,
                                   const std::vector<double>& free) const {
-  discovery::SetFit one{kinds, std::make_shared<const discovery::BoundSet>(*subject, kinds), {}, 0};
-  const assembly::Assembly& assembly = one.set->assembly();
-  one.fit.status =
-      diagnosis::whitened(assembly, free, *assembly.evaluator().make_workspace(), one.fit.residuals, &one.fit.jacobian);
-  one.fit.free = free;
-  one.fit.chi2 = one.fit.residuals.squaredNorm();
-  one.fit.at_bound.assign(free.size(), false);
+  discovery::SetFit one = set_at(*subject, kinds, free);
   one.log_evidence = fitter->log_evidence(one);
   return one;
 }

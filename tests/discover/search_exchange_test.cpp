@@ -98,16 +98,22 @@ TEST(SearchForSets, TriesEachOnce) {
   EXPECT_EQ(terms.made().size(), 5U + 10 + 10);
 }
 
-/// Four copies of a and of b fill the places that triples grow from. In the best six of what comes of them each term
-/// makes room, and so c and d come together.
-TEST(SearchForSets, MakeRoomInTheBestSix) {
-  const MadeUpTerms terms({level_of(90), level_of(90), level_of(84), level_of(77)}, laws_of_blocks(4));
+/// a1 … a4 and b1 … b4, each less likely than the one before.
+Kinds copies_of_a_and_b(const MadeUpTerms& terms) {
   Kinds kinds;
   const std::vector<double> of_a{0, 0.3, 0.6, 0.9}, of_b{0, 0.33, 0.69, 1.11};
   for (std::size_t k = 0; k < 4; ++k) {
     kinds.push_back(terms.kind("a" + std::to_string(k + 1), "a", -of_a[k]));
     kinds.push_back(terms.kind("b" + std::to_string(k + 1), "b", -of_b[k]));
   }
+  return kinds;
+}
+
+/// Four copies of a and of b fill the places that triples grow from. In the best six of what comes of them each term
+/// makes room, and so c and d come together.
+TEST(SearchForSets, MakeRoomInTheBestSix) {
+  const MadeUpTerms terms({level_of(90), level_of(90), level_of(84), level_of(77)}, laws_of_blocks(4));
+  Kinds kinds = copies_of_a_and_b(terms);
   kinds.push_back(terms.kind("c", "c"));
   kinds.push_back(terms.kind("d", "d"));
   const auto sets = searched(terms, kinds, {3});
@@ -127,12 +133,7 @@ TEST(SearchForSets, MakeRoomInWhatCameOfIt) {
   laws["c"] = over_blocks({0, 0, 1, 2});
   laws["d"] = over_blocks({0, 0, 1, -2});
   const MadeUpTerms terms({level_of(70), level_of(66), level_of(110), 0}, laws);
-  Kinds kinds;
-  const std::vector<double> of_a{0, 0.3, 0.6, 0.9}, of_b{0, 0.33, 0.69, 1.11};
-  for (std::size_t k = 0; k < 4; ++k) {
-    kinds.push_back(terms.kind("a" + std::to_string(k + 1), "a", -of_a[k]));
-    kinds.push_back(terms.kind("b" + std::to_string(k + 1), "b", -of_b[k]));
-  }
+  Kinds kinds = copies_of_a_and_b(terms);
   kinds.push_back(terms.kind("c", "c"));
   kinds.push_back(terms.kind("d", "d", -1));
   const auto sets = searched(terms, kinds, {3});
