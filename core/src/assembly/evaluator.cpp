@@ -13,23 +13,14 @@
 #include "assembly/run_test.hpp"
 #include "assembly/secant.hpp"
 #include "assembly/workspace.hpp"
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::assembly {
 namespace {
 
-/// Position of the first number that is not finite, or the size. 0·v is NaN exactly for those; eight sums side by side
-/// keep the check far below the cost of what it checks.
+/// Position of the first number that is not finite, or the size.
 std::size_t first_not_finite(std::span<const double> values) {
-  constexpr std::size_t lanes = 8;
-  double sums[lanes] = {};
-  std::size_t i = 0;
-  for (; i + lanes <= values.size(); i += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += 0 * values[i + lane];
-  }
-  for (; i < values.size(); ++i) sums[0] += 0 * values[i];
-  double sum = 0;
-  for (const double part : sums) sum += part;
-  if (sum == 0) return values.size();
+  if (detail::all_finite(values.data(), values.size())) return values.size();
   const auto found = std::find_if_not(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   return static_cast<std::size_t>(found - values.begin());
 }
@@ -40,9 +31,18 @@ void write_rows(const ChannelObjective& channel, const RunTest& test, const doub
   const std::size_t count = channel.rows.size();
   const std::size_t* const rows = channel.rows.data();
   const double* const own = channel.own.data();
+  if (count == 0) return;
+  // Mostly all rows of a channel are fitted: then they stand side by side.
+  const bool in_a_row = rows[count - 1] - rows[0] == count - 1;
   for (const auto& [free, slot] : test.columns) {
     const double* const values = by_slot + slot * test.size();
-    for (std::size_t k = 0; k < count; ++k) out[k * n + free] = own[k] * values[rows[k] - test.offset];
+    if (in_a_row) {
+      const double* __restrict const from = values + (rows[0] - test.offset);
+      double* __restrict const to = out + free;
+      for (std::size_t k = 0; k < count; ++k) to[k * n] = own[k] * from[k];
+    } else {
+      for (std::size_t k = 0; k < count; ++k) out[k * n + free] = own[k] * values[rows[k] - test.offset];
+    }
     if (channel.previous.empty()) continue;
     for (std::size_t k = 1; k < count; ++k) {
       out[k * n + free] -= channel.previous[k] * values[rows[k - 1] - test.offset];

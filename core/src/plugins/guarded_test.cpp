@@ -12,6 +12,7 @@
 #include "plugins/guarded.hpp"
 #include "plugins/unwritten.hpp"
 #include "plugins/usual_arithmetic.hpp"
+#include "tunica/detail/vector_math.hpp"
 
 namespace tunica::plugins {
 
@@ -64,7 +65,9 @@ Status GuardedTest::predict(const TestInput& input, const TestOutput& output) co
   if (size > 0) mark_ends(output.jacobian, size);
   Status status = made("predict", input, [&] { return test_->predict(input, output); });
   if (!status.ok() || size == 0) return status;
-  const bool values = std::none_of(output.values.begin(), output.values.end(), is_unwritten);
+  // A mark is no number: where all are finite none is left.
+  const bool values = detail::all_finite(output.values.data(), size) ||
+                      std::none_of(output.values.begin(), output.values.end(), is_unwritten);
   if (values && !has_marked_ends(output.jacobian, size)) return status;
   return Status::failed(
       fmt::format("plugin '{}' returned ok without writing the {}; expected every number of it. "
