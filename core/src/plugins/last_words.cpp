@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +20,7 @@
 
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
+#include "plugins/signal_stack.hpp"
 
 namespace tunica::plugins {
 
@@ -65,17 +65,8 @@ void on_exit_in_plugin() {
   if (enter_exit_in_plugin("called exit()")) ::_exit(fell);
 }
 
-/// A stack for the handlers of this thread, so that an overflow of its own can be told.
-void give_signal_stack() {
-  constexpr std::size_t size = 64 * 1024;
-  static thread_local std::unique_ptr<std::byte[]> memory;
-  if (memory) return;
-  memory = std::make_unique<std::byte[]>(size);
-  stack_t stack = {};
-  stack.ss_sp = memory.get();
-  stack.ss_size = size;
-  ::sigaltstack(&stack, nullptr);
-}
+/// So that an overflow of a thread's own stack can be told.
+void give_signal_stack() { [[maybe_unused]] static thread_local const SignalStack stack; }
 
 using Seconds = std::chrono::duration<double>;
 
