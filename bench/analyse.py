@@ -108,7 +108,8 @@ def valgrind(step):
         checked += 1
         before = len(step.text())
         code = step.run("valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no",
-                        f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica", "--allow-world-writable-plugins", "plugin", "check", plugin)
+                        f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica", "--allow-world-writable-plugins", "plugin", "check", plugin,
+                        "--time-limit", 7200)
         # Properties run in processes of their own, whose exit code only the program sees; findings begin with ==PID==.
         if code or re.search(r"^==\d+== ", step.text()[before:], re.M):
             wrong.append(plugin.stem)

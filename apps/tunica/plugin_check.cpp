@@ -34,6 +34,7 @@ struct Asked {
   std::string file, experiment;
   std::uint64_t seed = conformance::CheckSettings().seed;
   std::vector<std::string> only;
+  double time_limit = conformance::CheckSettings().time_limit;
   bool as_json = false;
 };
 
@@ -137,7 +138,7 @@ int check_plugin(const GlobalOptions& global, const Asked& asked) {
         fmt::format("{}: the plugin '{}' registers nothing; add a factory to the registry in "
                     "TUNICA_PLUGIN",
                     asked.file, plugin));
-  conformance::CheckSettings settings{.seed = asked.seed, .only = asked.only};
+  conformance::CheckSettings settings{.seed = asked.seed, .only = asked.only, .time_limit = asked.time_limit};
   std::optional<experiment::Experiment> experiment;
   if (!asked.experiment.empty()) {
     experiment = experiment::read_experiment(asked.experiment, bench.catalogue);
@@ -188,6 +189,9 @@ void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action) {
       ->type_name("NAME");
   verb->add_option("--experiment", asked->experiment, "Check tests and their mechanisms as they stand in this file")
       ->type_name("EXP");
+  verb->add_option("--time-limit", asked->time_limit, "Seconds that one property may take; 120 unless given")
+      ->check(CLI::Range(1e-6, 86400.0))
+      ->type_name("S");
   verb->add_flag("--json", asked->as_json, "Print the verdicts as JSON");
   verb->footer(
       "Examples:\n  tunica plugin check build/my_model.so\n  tunica plugin check build/my_model.so --only "

@@ -250,6 +250,13 @@ TEST(PluginCheck, RefusesANameThatNothingAnswersTo) {
   EXPECT_THAT(ended.err, HasSubstr("tangent_has_its_symmetries"));
 }
 
+TEST(PluginCheck, StopsWhatTakesLongerThanTheTimeLimit) {
+  const auto ended = check(wrong("wrong_energy"), {"--only", "tangent_has_its_symmetries", "--time-limit", "1e-6"});
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("no end after 1e-06 s"));
+  EXPECT_EQ(check(wrong("wrong_energy"), {"--time-limit", "0"}).code, 2);
+}
+
 TEST(PluginCheck, AnswersTheSameForTheSameSeed) {
   const auto one = check(wrong("wrong_energy"), {"--seed", "7", "--only", "stress_is_the_gradient_of_the_energy"}),
              two = check(wrong("wrong_energy"), {"--seed", "7", "--only", "stress_is_the_gradient_of_the_energy"});

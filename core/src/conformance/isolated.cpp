@@ -113,7 +113,8 @@ Verdict isolated(const std::function<Verdict()>& check, double seconds) {
   if (!answered) ::kill(process, SIGKILL);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  if (!answered) return broken("", fmt::format("no end after {:g} s: it was stopped", seconds));
+  if (!answered)
+    return broken("", fmt::format("no end after {:g} s: it was stopped; --time-limit gives it longer", seconds));
   if (WIFSIGNALED(status))
     return broken(
         "", fmt::format("the process was ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status))));
