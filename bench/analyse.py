@@ -14,8 +14,9 @@ tidy      clang-tidy over core, plugins and apps
 cppcheck  cppcheck over the same
 fuzz      every fuzz target with libFuzzer for --seconds
 
-The suite is here every test that is a program of the build. Scripts are left out: they build, install and read sources,
-start other tools, or measure and damage the program from outside, and see nothing more under a sanitizer.
+The suite is here every test that is a program of the build, and the scripts that work with the program as a user does
+(cohorts, rig files, shards, servers). Other scripts are left out: they build, install and read sources, start other
+tools, or measure and damage the program from outside, and see nothing more under a sanitizer.
 
 Logs: build/analysis/NAME.log. The exit code is 1 where a check has found something."""
 import argparse
@@ -62,12 +63,17 @@ class Step:
         return self.log.read_text(errors="replace")
 
 
+USERS = re.compile(r"(Cohort|Discover|Rig|Serve|Shards)\.")  # scripts that work with the program
+
+
 def programs_of(build, wanted):
-    """Numbers of the tests whose command is a program of the build, as ctest -I reads them from a file."""
+    """Numbers of the tests that run programs of the build, as ctest -I reads them from a file."""
     shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE)
     tests = json.loads(shown.stdout)["tests"]
-    return [number for number, test in enumerate(tests, 1)
-            if str(build) in test.get("command", [""])[0] and re.search(wanted or "", test["name"])]
+    def run(test):
+        return str(build) in test.get("command", [""])[0] or USERS.match(test["name"])
+
+    return [number for number, test in enumerate(tests, 1) if run(test) and re.search(wanted or "", test["name"])]
 
 
 def suite(step, preset):
