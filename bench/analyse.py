@@ -70,6 +70,7 @@ def programs_of(build, wanted):
     """Numbers of the tests that run programs of the build, as ctest -I reads them from a file."""
     shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, stdout=subprocess.PIPE)
     tests = json.loads(shown.stdout)["tests"]
+
     def run(test):
         return str(build) in test.get("command", [""])[0] or USERS.match(test["name"])
 

@@ -189,7 +189,8 @@ void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action) {
       ->type_name("NAME");
   verb->add_option("--experiment", asked->experiment, "Check tests and their mechanisms as they stand in this file")
       ->type_name("EXP");
-  verb->add_option("--time-limit", asked->time_limit, "Seconds that one property may take; 120 unless given")
+  verb->add_option("--time-limit", asked->time_limit,
+                   fmt::format("Seconds that one property may take; {:g} unless given", asked->time_limit))
       ->check(CLI::Range(1e-6, 86400.0))
       ->type_name("S");
   verb->add_flag("--json", asked->as_json, "Print the verdicts as JSON");
