@@ -39,6 +39,7 @@ void write_rows(const ChannelObjective& channel, const RunTest& test, const doub
     if (in_a_row) {
       const double* __restrict const from = values + (rows[0] - test.offset);
       double* __restrict const to = out + free;
+#pragma GCC unroll 4
       for (std::size_t k = 0; k < count; ++k) to[k * n] = own[k] * from[k];
     } else {
       for (std::size_t k = 0; k < count; ++k) out[k * n + free] = own[k] * values[rows[k] - test.offset];
@@ -133,6 +134,7 @@ Status Evaluator::predict_test(const RunTest& test, std::span<const double> at, 
   for (const auto& [into, from] : test.sums) {
     for (std::size_t i = 0; i < size; ++i) by_slot[into * size + i] += by_slot[from * size + i];
   }
+  if (detail::all_finite(by_slot.data(), by_slot.size())) return {};
   // Derivatives by held parameters are nobody's business: only those that count are checked.
   for (const auto& [index, slot] : test.columns) {
     const auto column = by_slot.subspan(slot * size, size);

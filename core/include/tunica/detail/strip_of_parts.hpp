@@ -58,6 +58,7 @@ class StripOfParts {
       s.by_ly[i] = k3 * c3;
       s.by_ll[i] = k1 * c1 + k3 * c3;
     }
+    if (parameters && curved_count_ <= 1 && strip_.lateral_dp.empty()) return differentiate_along(s, by_p, lanes);
     for (std::size_t k = 0; k < count_; ++k) add_derivatives(s, parts_[k].part, parameters, by_p, lanes);
   }
 
@@ -102,7 +103,8 @@ class StripOfParts {
       return;
     }
     const double anywhere = 0;
-    part.respond(strip_.parameters, {{&anywhere, 1}, {}, {&p.slope, 1}, {}, {}, {}});
+    const std::size_t responses = strip_.stress_dp.empty() ? 0 : p.description->response_parameters.size();
+    part.respond(strip_.parameters, {{&anywhere, 1}, {}, {&p.slope, 1}, {}, {}, {p.slope_dp.data(), responses}});
     p.slope *= p.x.weight;
     linear_[0] += p.slope * p.x.a1;
     linear_[1] += p.slope * p.x.a2;
@@ -122,13 +124,7 @@ class StripOfParts {
                                               StripByParameters& by_p, std::size_t lanes) const {
     if (p.is_linear && !parameters) return;
     const auto& responses = p.description->response_parameters;
-    const auto& moving = p.description->invariant_parameters;
-    std::array<Invariant, max_part_parameters> derivatives;
     alignas(64) std::array<double, chunk * max_part_parameters> first_dp;
-    if (parameters && !moving.empty()) {
-      Invariant again;
-      p.part->invariant(strip_.parameters, again, {derivatives.data(), moving.size()});
-    }
     strip_invariant(s, p.x, lanes);
     respond(s, p, lanes, {}, {first_dp.data(), parameters ? responses.size() * lanes : 0});
     StripSlopes slopes;
@@ -136,10 +132,55 @@ class StripOfParts {
     if (!parameters) return;
     for (std::size_t j = 0; j < responses.size(); ++j)
       by_p.add_response(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
-    for (std::size_t j = 0; j < moving.size(); ++j) {
-      const Structure d = structure_derivative(p.invariant, derivatives[j], p.direction, 1);
-      by_p.add_invariant(s, slopes, d, strip_.loaded == 1, moving[j], lanes);
+    for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
+      by_p.add_invariant(s, slopes, d, strip_.loaded == 1, parameter, lanes);
+    });
+  }
+
+  /// What parameters make of the stress and of y together, a row a parameter: no other part bends.
+  [[gnu::always_inline]] void differentiate_along(StripLanes& s, StripByParameters& by_p, std::size_t lanes) const {
+    const bool axial = strip_.loaded == 1;
+    if (curved_count_ == 1) {
+      const StripPart& p = parts_[curved_[0]].part;
+      const auto& responses = p.description->response_parameters;
+      alignas(64) std::array<double, chunk * max_part_parameters> first_dp;
+      StripSlopes slopes;
+      strip_invariant(s, p.x, lanes);
+      respond(s, p, lanes, {}, {first_dp.data(), responses.size() * lanes});
+      begin_derivatives(s, p, slopes, lanes);
+      by_p.follow_path(s, lanes);
+      by_p.turn_slopes(slopes, lanes);
+      for (std::size_t j = 0; j < responses.size(); ++j)
+        by_p.add_response_along(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
+      for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
+        by_p.add_invariant_along(s, slopes, d, axial, parameter, lanes);
+      });
+    } else {
+      by_p.follow_path(s, lanes);
     }
+    for (std::size_t k = 0; k < count_; ++k) {
+      const StripPart& p = parts_[k].part;
+      if (!p.is_linear) continue;
+      const auto& responses = p.description->response_parameters;
+      const Structure a = structure(p.invariant, p.direction);
+      for (std::size_t j = 0; j < responses.size(); ++j)
+        by_p.add_slope_along(s, p.x.weight * p.slope_dp[j], a, axial, responses[j], lanes);
+      for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
+        by_p.add_slope_along(s, p.slope, d, axial, parameter, lanes);
+      });
+    }
+  }
+
+  /// Calls act(parameter, derivatives of the invariant's coefficients) for each parameter of the invariant.
+  template <class Act>
+  [[gnu::always_inline]] void for_moving(const StripPart& p, const Act& act) const {
+    const auto& moving = p.description->invariant_parameters;
+    if (moving.empty()) return;
+    std::array<Invariant, max_part_parameters> derivatives;
+    Invariant again;
+    p.part->invariant(strip_.parameters, again, {derivatives.data(), moving.size()});
+    for (std::size_t j = 0; j < moving.size(); ++j)
+      act(moving[j], structure_derivative(p.invariant, derivatives[j], p.direction, 1));
   }
 
   const StripPath& strip_;
