@@ -88,22 +88,11 @@ TEST(JointEnergies, SolveTheFreeStripsOfTheirParts) {
 // Where nobody asks for y by parameters, one pass along the path does for two by its coordinates.
 TEST(JointEnergies, DifferentiateTheStressOfFreeStripsAlone) {
   const JointEnergy<Joint> joint;
-  constexpr std::size_t n = 40;
   for (const std::size_t loaded : {0, 1})
     for (const auto level : levels()) {
       const OnLevel here(level);
-      const Rows all = along_strip(joint, n, loaded);
-      std::vector<double> stretch(n), stress(n), stress_dp(count * n);
-      for (std::size_t i = 0; i < n; ++i) stretch[i] = 0.9 + 0.6 * static_cast<double>(i) / n;
-      StripPath path{.loaded = loaded, .parameters = parameters, .stretch = stretch, .stress = stress};
-      path.stress_dp = stress_dp;
-      const free_strip::Start start(stretch);
-      start.set(path);
-      Status status;
-      ASSERT_TRUE(joint.solve_strip(path, status));
-      ASSERT_TRUE(status.ok()) << status.reason();
-      EXPECT_TRUE(same_bits(stress, all[0])) << name(level);
-      EXPECT_LT(difference(stress_dp, all[2]), 1e-13) << name(level);
+      const Rows all = along_strip(joint, 40, loaded);
+      EXPECT_LT(difference(all[6], all[2]), 1e-13) << name(level);
     }
 }
 

@@ -82,7 +82,13 @@ inline std::unique_ptr<EnergyPart> fibres(EnergyPart::Active active) {
       EnergyPart::Description{"fibres", EnergyPart::Role::fibre, active, true, {kappa, theta}, {k1, k2}, false});
 }
 
-/// A matrix and fibres; the same with a part of I2 and a second family; a matrix alone.
+/// Fibres whose law is linear, so that they bend nowhere while their invariant moves with the parameters.
+inline std::unique_ptr<EnergyPart> straight_fibres() {
+  return std::make_unique<LawPart<laws::Linear, Dispersed, count>>(EnergyPart::Description{
+      "straight", EnergyPart::Role::fibre, EnergyPart::Active::always, true, {kappa, theta}, {k1}, true});
+}
+
+/// A matrix and fibres; the same with a part of I2 and a second family; a matrix alone, and with linear fibres.
 inline std::vector<std::unique_ptr<Hyperelastic>> models() {
   using Active = EnergyPart::Active;
   std::vector<std::unique_ptr<Hyperelastic>> all;
@@ -94,6 +100,11 @@ inline std::vector<std::unique_ptr<Hyperelastic>> models() {
       energy_parts(isotropic::neo_hookean<count>(mu), fibres(Active::argument_positive),
                    isotropic::part<laws::Exponential, isotropic::SecondInvariant, count>("second", {k1, k2}))));
   all.push_back(std::make_unique<Hyperelastic>(five_parameters(), energy_parts(isotropic::neo_hookean<count>(mu))));
+  all.push_back(std::make_unique<Hyperelastic>(five_parameters(),
+                                               energy_parts(isotropic::neo_hookean<count>(mu), straight_fibres())));
+  all.push_back(std::make_unique<Hyperelastic>(
+      five_parameters(),
+      energy_parts(straight_fibres(), isotropic::neo_hookean<count>(mu), fibres(Active::argument_positive))));
   return all;
 }
 
@@ -120,13 +131,13 @@ inline Rows on_tensors(const Model& model, std::size_t n) {
   return rows;
 }
 
-/// σ, y, their derivatives by parameters and along the path.
+/// σ, y, their derivatives by parameters and along the path; those of σ by parameters again, as they are found where
+/// nobody asks for y's.
 inline Rows along_strip(const Model& model, std::size_t n, std::size_t loaded, double reach = 0.6) {
   std::vector<double> stretch(n);
   for (std::size_t i = 0; i < n; ++i) stretch[i] = 0.9 + reach * static_cast<double>(i) / static_cast<double>(n);
-  Rows rows(6, std::vector<double>(n));
-  rows[2].resize(count * n);
-  rows[3].resize(count * n);
+  Rows rows(7, std::vector<double>(n));
+  for (const std::size_t k : {2, 3, 6}) rows[k].resize(count * n);
   StripPath path{.loaded = loaded, .parameters = parameters, .stretch = stretch, .stress = rows[0]};
   path.lateral = rows[1];
   path.stress_dp = rows[2];
@@ -136,6 +147,10 @@ inline Rows along_strip(const Model& model, std::size_t n, std::size_t loaded, d
   const free_strip::Start start(stretch);
   start.set(path);
   Status status;
+  EXPECT_TRUE(model.solve_strip(path, status));
+  EXPECT_TRUE(status.ok()) << status.reason();
+  path.stress_dp = rows[6];
+  path.lateral_dp = {};
   EXPECT_TRUE(model.solve_strip(path, status));
   EXPECT_TRUE(status.ok()) << status.reason();
   return rows;

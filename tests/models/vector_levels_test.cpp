@@ -142,6 +142,7 @@ TEST(FreeStrips, ModelsFindWhatTestsFind) {
       EXPECT_LT(difference(rows[3], y_dp), 1e-11);
       EXPECT_LT(difference(rows[4], stress_by_l), 1e-11);
       EXPECT_LT(difference(rows[5], lateral_by_l), 1e-11);
+      EXPECT_LT(difference(rows[6], stress_dp), 1e-11);
     }
   }
 }

@@ -45,7 +45,7 @@ struct StripByParameters {
   StripByParameters() {}
   alignas(64) std::array<StripLanes::Row, max_model_parameters> y, l;
   std::bitset<max_model_parameters> written;
-  bool along_path = false;  ///< l holds ½ W_lp − f W_yp instead, and y nothing
+  bool along_path = false;              ///< l holds ½ W_lp − f W_yp instead, and y nothing
   alignas(64) StripLanes::Row follows;  ///< f = ½ W_ly/W_yy, where this is along the path
 
   /// Adds w ∂ψ'/∂p to a parameter of the response.

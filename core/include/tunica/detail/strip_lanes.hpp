@@ -47,7 +47,7 @@ struct StripPart {
   Invariant invariant;
   Direction direction;
   StripInvariant x;
-  double slope;    ///< w ψ' of a linear part
+  double slope;                                      ///< w ψ' of a linear part
   std::array<double, max_part_parameters> slope_dp;  ///< ∂ψ'/∂p of a linear part, by the parameters of its response
   bool is_linear;  ///< ψ'' = 0, x linear in C: adds a constant to the derivatives of W by c
 };

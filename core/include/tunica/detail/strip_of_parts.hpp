@@ -132,9 +132,10 @@ class StripOfParts {
     if (!parameters) return;
     for (std::size_t j = 0; j < responses.size(); ++j)
       by_p.add_response(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
-    for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
-      by_p.add_invariant(s, slopes, d, strip_.loaded == 1, parameter, lanes);
-    });
+    for_moving(
+        p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
+          by_p.add_invariant(s, slopes, d, strip_.loaded == 1, parameter, lanes);
+        });
   }
 
   /// What parameters make of the stress and of y together, a row a parameter: no other part bends.
@@ -152,9 +153,9 @@ class StripOfParts {
       by_p.turn_slopes(slopes, lanes);
       for (std::size_t j = 0; j < responses.size(); ++j)
         by_p.add_response_along(s, slopes, first_dp.data() + j * lanes, responses[j], lanes);
-      for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
-        by_p.add_invariant_along(s, slopes, d, axial, parameter, lanes);
-      });
+      for_moving(
+          p, [&](std::size_t parameter, const Structure& d)
+                 __attribute__((always_inline)) { by_p.add_invariant_along(s, slopes, d, axial, parameter, lanes); });
     } else {
       by_p.follow_path(s, lanes);
     }
@@ -165,9 +166,9 @@ class StripOfParts {
       const Structure a = structure(p.invariant, p.direction);
       for (std::size_t j = 0; j < responses.size(); ++j)
         by_p.add_slope_along(s, p.x.weight * p.slope_dp[j], a, axial, responses[j], lanes);
-      for_moving(p, [&](std::size_t parameter, const Structure& d) __attribute__((always_inline)) {
-        by_p.add_slope_along(s, p.slope, d, axial, parameter, lanes);
-      });
+      for_moving(
+          p, [&](std::size_t parameter, const Structure& d)
+                 __attribute__((always_inline)) { by_p.add_slope_along(s, p.slope, d, axial, parameter, lanes); });
     }
   }
 
