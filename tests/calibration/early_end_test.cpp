@@ -56,7 +56,9 @@ TEST(EarlyEnd, TheLowestAreAlwaysAmongTheSimulated) {
       under_way.erase(ended);
     }
     const auto left = early.left();
-    if (threads == 1) EXPECT_EQ(early.needless(), 0u);
+    if (threads == 1) {
+      EXPECT_EQ(early.needless(), 0u);
+    }
     for (std::size_t k = 0; k < left.size(); ++k) {
       EXPECT_EQ(std::isnan(known[left[k]]), k >= early.needless());
       known[left[k]] = bounds[left[k]];
@@ -76,11 +78,12 @@ TEST(EarlyEnd, TheLowestAreAlwaysAmongTheSimulated) {
     simulated += count - left.size();
     // Ranks of the lowest as if all were simulated; of equals the first comes first.
     const auto ranks = [&](const std::vector<double>& values) {
-      std::vector<std::size_t> order(count);
-      for (std::size_t k = 0; k < count; ++k) order[k] = k;
-      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-      order.resize(std::min(best, count));
-      return order;
+      std::vector<std::size_t> by_value(count);
+      std::iota(by_value.begin(), by_value.end(), std::size_t{0});
+      std::stable_sort(by_value.begin(), by_value.end(),
+                       [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+      by_value.resize(std::min(best, count));
+      return by_value;
     };
     EXPECT_EQ(ranks(known), ranks(objectives));
   }
@@ -134,7 +137,7 @@ class EarlyEndOfEvaluations : public testing::Test {
       for (std::size_t k = 0; k < batch; ++k)
         if (statuses[k].ok()) order.push_back(k);
       std::stable_sort(order.begin(), order.end(),
-                       [&](std::size_t a, std::size_t b) { return objectives[a] < objectives[b]; });
+                       [&](std::size_t one, std::size_t other) { return objectives[one] < objectives[other]; });
       order.resize(std::min(best, order.size()));
       outcome.ranks.push_back(order);
     }

@@ -236,14 +236,14 @@ TEST_F(Summary, SaysWhatToMeasureNext) {
 /// Only amplitudes that are large: beyond three tenths of what is plausible.
 TEST_F(Summary, SaysWhatCouldHide) {
   const auto one = [](const char* id, double detectable, double null, bool one_sided, const char* unit = "kPa") {
-    Detectable found;
-    found.id = id;
-    found.unit = unit;
-    found.detectable = detectable;
-    found.null = null;
-    found.one_sided = one_sided;
-    found.reach = 1;
-    return found;
+    Detectable large;
+    large.id = id;
+    large.unit = unit;
+    large.detectable = detectable;
+    large.null = null;
+    large.one_sided = one_sided;
+    large.reach = 1;
+    return large;
   };
   EXPECT_EQ(line("May hide"), "");
   auto& all = found.prospects.detectable;

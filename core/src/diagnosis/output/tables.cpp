@@ -97,8 +97,8 @@ std::string residual_table(const Evidence& evidence, const assembly::Assembly* e
       // A gross row is all but silent in the fit, and here it is as far off as it is.
       const auto& gross = view.noise->gross;
       const bool silent = std::find(gross.begin(), gross.end(), row) != gross.end();
-      const auto residual = [&](const std::vector<double>& values, const Fit& fit) {
-        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -fit.residuals[i];
+      const auto residual = [&](const std::vector<double>& values, const Fit& of) {
+        return silent ? (view.measured[row] - values[view.offset + row]) / sd[k] : -of.residuals[i];
       };
       text += fmt::format(
           "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
