@@ -8,7 +8,8 @@
 
 asan      the suite under AddressSanitizer and UndefinedBehaviorSanitizer
 coverage  the share of lines of core and plugins that step asan has run, by gcov; its build counts them
-tsan      the suite under ThreadSanitizer; what TBB does inside is not instrumented and is left out (cmake/tsan.supp)
+tsan      the suite under ThreadSanitizer; its loops run on threads of the standard library, since TBB, as Debian builds
+          it, hides from the sanitizer how it hands work over (cmake/loops_on_threads.hpp)
 valgrind  every plugin of the release build under `tunica plugin check` in valgrind
 tidy      clang-tidy over core, plugins and apps
 cppcheck  cppcheck over the same

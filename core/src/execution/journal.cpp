@@ -165,21 +165,23 @@ void Journal::finish(std::span<const std::size_t> tasks) {
 /// A crash between copying a part and removing it leaves rows twice; recovery knows them by their id.
 void Journal::advance() {
   const std::lock_guard turn(turn_);
-  std::vector<std::filesystem::path> merged;
-  const std::lock_guard file(main_file_);
   if (failed()) return;
   keep_failure([&] {
+    std::vector<std::filesystem::path> merged;
     while (head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
       const std::size_t next = head_ + 1;
       const std::lock_guard order(sinks_[next]->order);
       const auto part = part_file(directory_, next);
       sinks_[next]->part.close();
       if (std::filesystem::exists(part)) {
-        main_.append(read_text(part));
+        const std::string rows = read_text(part);
+        const std::lock_guard file(main_file_);
+        main_.append(rows);
         merged.push_back(part);
       }
       head_ = next;
     }
+    const std::lock_guard file(main_file_);
     main_.sync();
     for (const auto& part : merged) std::filesystem::remove(part);
   });

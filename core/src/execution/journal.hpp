@@ -98,7 +98,7 @@ class Journal {
   std::vector<Task> tasks_;
   std::vector<std::unique_ptr<Sink>> sinks_;
   std::mutex turn_;       ///< of advance()
-  std::mutex main_file_;  ///< of `main_`; taken after the order of the head's sink, and before that of the next one
+  std::mutex main_file_;  ///< of `main_`; taken after the order of a sink
   AppendFile main_;
   std::atomic<std::size_t> head_ = 0;  ///< becomes a task under the order of that task's sink
   mutable std::mutex words_;           ///< of `failure_`
