@@ -106,22 +106,28 @@ def coverage(step):
     return code == 0 and bool(lines), f"{lines[-1][0]} % of {lines[-1][2]} lines" if lines else "no figure"
 
 
+def valgrind_one(plugin):
+    """Whether valgrind finds something in a plugin. Properties run in processes of their own, whose exit code only the
+    program sees; findings begin with ==PID==."""
+    log = LOGS / f"valgrind-{plugin.stem}.log"
+    command = ["valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no",
+               f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica",
+               "--allow-world-writable-plugins", "plugin", "check", plugin, "--time-limit", 7200]
+    with open(log, "w") as file:
+        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT).returncode
+    return code != 0 or re.search(r"^==\d+== ", log.read_text(errors="replace"), re.M) is not None
+
+
 def valgrind(step):
     if not step.build("release", "product"):
         return False, "does not build"
-    wrong, checked = [], 0
-    for plugin in sorted((ROOT / "build/release/lib").rglob("tunica/plugins/*.so")):
-        if step.options.tests and not re.search(step.options.tests, plugin.stem):
-            continue
-        checked += 1
-        before = len(step.text())
-        code = step.run("valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no",
-                        f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica", "--allow-world-writable-plugins", "plugin", "check", plugin,
-                        "--time-limit", 7200)
-        # Properties run in processes of their own, whose exit code only the program sees; findings begin with ==PID==.
-        if code or re.search(r"^==\d+== ", step.text()[before:], re.M):
-            wrong.append(plugin.stem)
-    return not wrong and checked > 0, f"{checked} plugins, {len(wrong)} with findings" + "".join(f" {one}" for one in wrong)
+    plugins = [plugin for plugin in sorted((ROOT / "build/release/lib").rglob("tunica/plugins/*.so"))
+               if not step.options.tests or re.search(step.options.tests, plugin.stem)]
+    with concurrent.futures.ThreadPoolExecutor(step.options.jobs) as pool:
+        wrong = [plugin.stem for plugin, found in zip(plugins, pool.map(valgrind_one, plugins)) if found]
+    with open(step.log, "a") as log:
+        log.writelines(f"{plugin.stem}: {'FOUND' if plugin.stem in wrong else 'clean'}\n" for plugin in plugins)
+    return not wrong and bool(plugins), f"{len(plugins)} plugins, {len(wrong)} with findings" + "".join(f" {one}" for one in wrong)
 
 
 def tidy(step):

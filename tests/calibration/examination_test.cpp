@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/examination.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -37,7 +38,7 @@ struct Examining : trial::Laboratory {
     return entry;
   }
 
-  int calls = 0;
+  std::atomic<int> calls = 0;  ///< some are concurrent
 };
 
 /// Keeps the processor busy, which is more exact than sleeping.
