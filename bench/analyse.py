@@ -10,7 +10,7 @@ asan      the suite under AddressSanitizer and UndefinedBehaviorSanitizer
 coverage  the share of lines of core and plugins that step asan has run, by gcov; its build counts them
 tsan      the suite under ThreadSanitizer; its loops run on threads of the standard library, since TBB, as Debian builds
           it, hides from the sanitizer how it hands work over (cmake/loops_on_threads.hpp)
-valgrind  every plugin of the release build under `tunica plugin check` in valgrind
+valgrind  every plugin of the release build under `tunica plugin check` in valgrind; logs: valgrind-PLUGIN.log
 tidy      clang-tidy over core, plugins and apps
 cppcheck  cppcheck over the same
 fuzz      every fuzz target with libFuzzer for --seconds
@@ -126,7 +126,7 @@ def valgrind(step):
     with concurrent.futures.ThreadPoolExecutor(step.options.jobs) as pool:
         wrong = [plugin.stem for plugin, found in zip(plugins, pool.map(valgrind_one, plugins)) if found]
     with open(step.log, "a") as log:
-        log.writelines(f"{plugin.stem}: {'FOUND' if plugin.stem in wrong else 'clean'}\n" for plugin in plugins)
+        log.writelines(f"{'FOUND' if plugin.stem in wrong else 'clean'}  valgrind-{plugin.stem}.log\n" for plugin in plugins)
     return not wrong and bool(plugins), f"{len(plugins)} plugins, {len(wrong)} with findings" + "".join(f" {one}" for one in wrong)
 
 

@@ -12,8 +12,11 @@
 #include <vector>
 
 /// What this project uses of TBB, on threads of the standard library: for builds under ThreadSanitizer alone. Debian's
-/// TBB is not instrumented. How it hands work from thread to thread is not seen there, and whoever suppresses the false
-/// alarms of that suppresses every true one inside a loop with them.
+/// TBB is not instrumented, so the sanitizer cannot see how it hands work over. To suppress those false alarms would
+/// hide real races.
+///
+/// Nothing here orders one pass of a loop before another: only the begin and the end of a thread do. Else a race would
+/// show only between passes that overlap in time.
 namespace tbb {
 
 /// The threads that loops begin beside their own; nested loops share them.
@@ -26,33 +29,30 @@ class Crew {
   void limit(std::size_t threads) {
     const std::lock_guard lock(mutex_);
     limits_.insert(threads);
+    limit_.store(std::max<std::size_t>(*limits_.begin(), 1), std::memory_order_relaxed);
   }
   void unlimit(std::size_t threads) {
     const std::lock_guard lock(mutex_);
     limits_.erase(limits_.find(threads));
+    limit_.store(limits_.empty() ? otherwise : std::max<std::size_t>(*limits_.begin(), 1), std::memory_order_relaxed);
   }
-  [[nodiscard]] std::size_t limit() {
-    constexpr std::size_t otherwise = 4;  // more than two cores find more
-    const std::lock_guard lock(mutex_);
-    return limits_.empty() ? otherwise : std::max<std::size_t>(*limits_.begin(), 1);
-  }
-  /// Up to so many; whoever takes them gives them back.
+  [[nodiscard]] std::size_t limit() const { return limit_.load(std::memory_order_relaxed); }
+  /// `wanted` threads, or as many as are left. Whoever takes them gives them back.
   std::size_t take(std::size_t wanted) {
     const std::size_t most = limit() - 1;
-    const std::lock_guard lock(mutex_);
-    const std::size_t taken = std::min(wanted, most - std::min(most, busy_));
-    busy_ += taken;
+    std::size_t busy = busy_.load(std::memory_order_relaxed), taken = 0;
+    do {
+      taken = std::min(wanted, most - std::min(most, busy));
+    } while (!busy_.compare_exchange_weak(busy, busy + taken, std::memory_order_relaxed));
     return taken;
   }
-  void give_back(std::size_t threads) {
-    const std::lock_guard lock(mutex_);
-    busy_ -= threads;
-  }
+  void give_back(std::size_t threads) { busy_.fetch_sub(threads, std::memory_order_relaxed); }
 
  private:
+  static constexpr std::size_t otherwise = 4;  ///< more than two cores find more
   std::mutex mutex_;
   std::multiset<std::size_t> limits_;
-  std::size_t busy_ = 0;
+  std::atomic<std::size_t> limit_ = otherwise, busy_ = 0;
 };
 
 class global_control {
@@ -115,12 +115,13 @@ void parallel_for(Index first, Index last, const Body& body, simple_partitioner 
   std::exception_ptr problem;
   std::mutex mutex;
   const auto work = [&] {
-    for (Index k = next++; k < last && !failed; k = next++) {
+    const auto take = [&] { return next.fetch_add(1, std::memory_order_relaxed); };
+    for (Index k = take(); k < last && !failed.load(std::memory_order_relaxed); k = take()) {
       try {
         body(k);
       } catch (...) {
         const std::lock_guard lock(mutex);
-        if (!failed.exchange(true)) problem = std::current_exception();
+        if (!failed.exchange(true, std::memory_order_relaxed)) problem = std::current_exception();
       }
     }
   };

@@ -150,7 +150,7 @@ inline Rows along_strip(const Model& model, std::size_t n, std::size_t loaded, d
   EXPECT_TRUE(model.solve_strip(path, status));
   EXPECT_TRUE(status.ok()) << status.reason();
   path.stress_dp = rows[6];
-  path.lateral_dp = {};
+  path.stress = path.lateral = path.lateral_dp = path.stress_by_l = path.lateral_by_l = {};
   EXPECT_TRUE(model.solve_strip(path, status));
   EXPECT_TRUE(status.ok()) << status.reason();
   return rows;

@@ -113,8 +113,8 @@ struct AxisResponse {
 ///
 /// Threads: every method is const and is called concurrently, so there is no mutable scratch in members. A call is a
 /// trial: it reads the old state and writes the new one, and a second call must give the same bits.
-/// Failure: where the energy overflows or is undefined, write non-finite numbers at that point; the test turns them
-/// into a status. Return a status other than ok only if no point could be evaluated. Do not throw.
+/// Failure: where the energy overflows or is undefined, write non-finite numbers at that point; the test or the host
+/// turns them into a status. Return a status other than ok only if no point could be evaluated. Do not throw.
 /// Ownership: the model owns what describe() and parts() return, for its whole life. Spans live as long as the call.
 class Model {
  public:

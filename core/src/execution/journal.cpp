@@ -168,7 +168,7 @@ void Journal::advance() {
   if (failed()) return;
   keep_failure([&] {
     std::vector<std::filesystem::path> merged;
-    while (head_ + 1 < sinks_.size() && sinks_[head_]->finished) {
+    while (head_ + 1 < sinks_.size() && sinks_[head_]->finished && !failed()) {
       const std::size_t next = head_ + 1;
       const std::lock_guard order(sinks_[next]->order);
       const auto part = part_file(directory_, next);

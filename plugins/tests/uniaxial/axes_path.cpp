@@ -33,9 +33,9 @@ bool AxesPath::solved_by_model(const Strip& strip, const TestInput& input, const
       status = Status::failed("uniaxial: " + status.reason() + ", at " + row_name(strip, stretch, lost));
     return true;
   }
-  if (all_finite(output.values)) return true;  // of derivatives the caller sees it
+  if (all_finite(output.values)) return true;  // the host checks derivatives
   std::size_t bad = 0;
-  while (!output.values.empty() && bad + 1 < n && std::isfinite(output.values[bad])) ++bad;
+  while (bad + 1 < n && std::isfinite(output.values[bad])) ++bad;
   status = Status::failed("uniaxial: the stress overflows at " + row_name(strip, stretch, bad));
   return true;
 }

@@ -46,7 +46,7 @@ struct StripByParameters {
   alignas(64) std::array<StripLanes::Row, max_model_parameters> y, l;
   std::bitset<max_model_parameters> written;
   bool along_path = false;              ///< l holds ½ W_lp − f W_yp instead, and y nothing
-  alignas(64) StripLanes::Row follows;  ///< f = ½ W_ly/W_yy, where this is along the path
+  alignas(64) StripLanes::Row follows;  ///< f = ½ W_ly/W_yy; set by follow_path()
 
   /// Adds w ∂ψ'/∂p to a parameter of the response.
   [[gnu::always_inline]] void add_response(const StripLanes& s, const StripSlopes& slopes, const double* first_dp,

@@ -138,7 +138,7 @@ class StripOfParts {
         });
   }
 
-  /// What parameters make of the stress and of y together, a row a parameter: no other part bends.
+  /// How parameters change the stress, y following along: one row for each parameter. At most one part is curved.
   [[gnu::always_inline]] void differentiate_along(StripLanes& s, StripByParameters& by_p, std::size_t lanes) const {
     const bool axial = strip_.loaded == 1;
     if (curved_count_ == 1) {
