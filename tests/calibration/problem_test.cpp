@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <thread>
@@ -21,6 +22,7 @@ using fakes::Line;
 using fakes::Recording;
 using search::CalibrationProblem;
 using testing::HasSubstr;
+using namespace std::chrono_literals;
 
 /// y = 1 + x measured; the objective at (a, b, c) has its zero at (1, 1, 0).
 class ProblemOnALine : public testing::Test {
@@ -121,6 +123,57 @@ TEST_F(ProblemOnALine, StopsOnTheClockAndOnRequest) {
   pressed = true;
   EXPECT_TRUE(problem.should_stop());
   EXPECT_EQ(problem.stop_reason(), search::StopReason::interrupted);
+}
+
+/// A batch that ends before its last point: what is known of it is counted, in order, and the rest is refused.
+void expect_a_part(const CalibrationProblem& problem, const Recording& recording, const std::vector<Status>& statuses) {
+  const std::size_t known = problem.evaluations();
+  ASSERT_LT(known, statuses.size());
+  EXPECT_EQ(recording.lines.size(), known);
+  for (std::size_t k = 0; k < statuses.size(); ++k) EXPECT_EQ(statuses[k].ok(), k < known) << k;
+  EXPECT_THAT(statuses.back().reason(), HasSubstr("stopped"));
+}
+
+TEST_F(ProblemOnALine, EndsABatchWhereItsTimeIsUp) {
+  const Assembly assembly = bench_.assemble();
+  fakes::set_behaviour([](double, std::span<double>, Status&) { std::this_thread::sleep_for(20ms); });
+  const std::vector<double> xs(60, 0.5);
+  for (const std::size_t threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Recording recording;
+    auto s = settings();
+    s.record = recording.recorder();
+    s.stop.max_time = 0.1;
+    CalibrationProblem problem(assembly, s);
+    std::vector<double> objectives(20);
+    std::vector<Status> statuses(20);
+    problem.evaluate_batch(xs, objectives, statuses);
+    expect_a_part(problem, recording, statuses);
+    EXPECT_LE(problem.evaluations(), 5 * threads) << "none begins after its time";
+    EXPECT_EQ(problem.stop_reason(), search::StopReason::max_time);
+  }
+}
+
+TEST_F(ProblemOnALine, EndsABatchWhereAPersonDoes) {
+  const Assembly assembly = bench_.assemble();
+  std::atomic<int> calls = 0;
+  fakes::set_behaviour([&](double, std::span<double>, Status&) { ++calls; });
+  const std::vector<double> xs(60, 0.5);
+  for (const std::size_t threads : {1, 2}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    calls = 0;
+    Recording recording;
+    auto s = settings();
+    s.record = recording.recorder();
+    s.interrupted = [&] { return calls >= 7; };
+    CalibrationProblem problem(assembly, s);
+    std::vector<double> objectives(20);
+    std::vector<Status> statuses(20);
+    problem.evaluate_batch(xs, objectives, statuses);
+    expect_a_part(problem, recording, statuses);
+    EXPECT_LE(problem.evaluations(), 7 + threads);
+    EXPECT_EQ(problem.stop_reason(), search::StopReason::interrupted);
+  }
 }
 
 TEST_F(ProblemOnALine, LinearisesInTheUnitBox) {

@@ -20,9 +20,10 @@ void Evaluations::grow(std::size_t count, bool jacobian, std::size_t parameter_c
   resize(size() + count, parameter_count, test_count);
 }
 
-void Evaluations::drop_call(std::size_t parameter_count, std::size_t test_count) {
-  resize(calls.back().first, parameter_count, test_count);
-  calls.pop_back();
+void Evaluations::cut_call(std::size_t size, std::size_t parameter_count, std::size_t test_count) {
+  calls.back().size = size;
+  resize(calls.back().first + size, parameter_count, test_count);
+  if (size == 0) calls.pop_back();
 }
 
 Extent Evaluations::extent(std::size_t slot, std::size_t test_count) const {

@@ -182,14 +182,24 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   return status;
 }
 
-bool Oracle::broken_off(std::size_t replayed) {
+bool Oracle::is_over() const {
+  const auto& settings = shared_.settings;
+  return (settings.interrupted && settings.interrupted()) ||
+         (settings.stop.max_time && shared_.watch.seconds() >= *settings.stop.max_time);
+}
+
+std::size_t Oracle::keep(std::size_t replayed, std::size_t known) {
+  const Evaluations::Call call = made.calls.back();
   const auto& interrupted = shared_.settings.interrupted;
-  if (!interrupted || !interrupted()) return false;
-  const auto fresh = made.statuses.begin() + static_cast<std::ptrdiff_t>(made.calls.back().first + replayed);
-  if (std::none_of(fresh, made.statuses.end(), [](const Status& s) { return s.kind() == Status::Kind::failed; }))
-    return false;
-  made.drop_call(shared_.parameters, shared_.tests);
-  return should_stop();
+  if (interrupted && interrupted()) {
+    const auto begin = made.statuses.begin() + static_cast<std::ptrdiff_t>(call.first);
+    const auto broken_off =
+        std::find_if(begin + static_cast<std::ptrdiff_t>(replayed), begin + static_cast<std::ptrdiff_t>(known),
+                     [](const Status& status) { return status.kind() == Status::Kind::failed; });
+    known = static_cast<std::size_t>(broken_off - begin);
+  }
+  if (known < call.size) made.cut_call(known, shared_.parameters, shared_.tests);
+  return known;
 }
 
 void Oracle::count(std::span<const double> xs, const Evaluations::Call& call) {
@@ -209,29 +219,36 @@ Status Oracle::evaluate(std::span<const double> x, double& objective) {
   return status;
 }
 
-void Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
-                            bool bound_only) {
+std::size_t Oracle::evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
+                                   bool bound_only) {
   const std::size_t n = shared_.parameters, count = points.size();
   // Cheap points come several at a time, so that a thread is worth calling.
   const std::size_t least = bound_only || !shared_.assembly.layout().has_costly_tests ? 4 : 1;
   const std::size_t workers = workers_for((count + least - 1) / least);
   // Each worker takes half of its share of what is left, down to one point, so that all end within one evaluation
   // (guided self-scheduling: C. D. Polychronopoulos, D. J. Kuck, IEEE Trans. Comput. 36 (1987) 1425).
-  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> next = 0, end = count;
   const auto work = [&] {
     std::size_t from = next.load(std::memory_order_relaxed);
-    if (from >= count) return;
+    if (from >= end) return;
     const WorkspacePool::Loan workspace(shared_.pool);
-    while (from < count) {
+    while (from < end) {
       const std::size_t to = from + std::max<std::size_t>(1, (count - from) / (2 * workers));
       if (!next.compare_exchange_weak(from, to, std::memory_order_relaxed)) continue;
-      for (std::size_t k = from; k < to; ++k)
+      for (std::size_t k = from; k < std::min(to, end.load(std::memory_order_relaxed)); ++k) {
+        if (is_over()) {
+          for (std::size_t last = end; k < last && !end.compare_exchange_weak(last, k);) {
+          }
+          return;
+        }
         made.statuses[first + points[k]] =
             evaluate_at(xs.subspan(points[k] * n, n), first + points[k], {}, {}, *workspace, bound_only);
+      }
       from = next.load(std::memory_order_relaxed);
     }
   };
   on_workers(workers, work);
+  return end;
 }
 
 /// In the order of their lower bounds, until the rest cannot be among the lowest.
@@ -239,7 +256,9 @@ void Oracle::simulate_early(std::span<const double> xs, const Evaluations::Call&
   const std::size_t n = shared_.parameters;
   on_workers(workers_for(early_.size()), [&] {
     const WorkspacePool::Loan workspace(shared_.pool);
-    while (const auto taken = early_.take()) {
+    while (!is_over()) {
+      const auto taken = early_.take();
+      if (!taken) return;
       const std::size_t slot = call.first + taken->point;
       if (taken->point >= replayed)
         made.statuses[slot] = evaluate_at(xs.subspan(taken->point * n, n), slot, {}, {}, *workspace);
@@ -249,7 +268,7 @@ void Oracle::simulate_early(std::span<const double> xs, const Evaluations::Call&
   });
 }
 
-void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed) {
+std::size_t Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed) {
   const Evaluations::Call call = made.calls.back();
   points_.resize(call.size - replayed);
   std::iota(points_.begin(), points_.end(), replayed);
@@ -258,10 +277,7 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
   const bool early = settings.end_early && settings.skip_costly && best < call.size &&
                      shared_.assembly.layout().has_costly_tests && settings.max_failure_rate >= 1 &&
                      settings.on_failure == experiment::OnFailure::penalise;
-  if (!early) {
-    evaluate_slots(xs, call.first, points_, false);
-    return;
-  }
+  if (!early) return replayed + evaluate_slots(xs, call.first, points_, false);
   // Of replayed points too the bound is made again, as the order of work depends on it.
   const auto first = static_cast<std::ptrdiff_t>(call.first), known = static_cast<std::ptrdiff_t>(replayed);
   const auto tests = static_cast<std::ptrdiff_t>(shared_.tests);
@@ -271,17 +287,26 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
   const std::vector<Status> statuses(made.statuses.begin() + first, made.statuses.begin() + first + known);
   points_.resize(call.size);
   std::iota(points_.begin(), points_.end(), std::size_t{0});
-  evaluate_slots(xs, call.first, points_, true);
+  const std::size_t bounded = evaluate_slots(xs, call.first, points_, true);
+  // Which points are simulated follows from the bounds of all, and from all that was simulated.
+  const auto broken_off = [&](bool incomplete) {
+    if (!settings.interrupted || !settings.interrupted()) return false;
+    const auto fresh = made.statuses.begin() + first + known;
+    return incomplete || std::any_of(fresh, made.statuses.end(),
+                                     [](const Status& status) { return status.kind() == Status::Kind::failed; });
+  };
+  if (broken_off(bounded < call.size)) return replayed;
   const std::vector<double> bounds(made.objectives.begin() + first, made.objectives.end());
   const std::vector<double> costs(made.per_test.begin() + first * tests, made.per_test.end());
   early_.clear();
-  for (std::size_t k = 0; k < call.size; ++k)
+  for (std::size_t k = 0; k < bounded; ++k)
     if (made.statuses[call.first + k].ok()) early_.add(k, made.objectives[call.first + k]);
   std::copy(objectives.begin(), objectives.end(), made.objectives.begin() + first);
   std::copy(per_test.begin(), per_test.end(), made.per_test.begin() + first * tests);
   std::copy(statuses.begin(), statuses.end(), made.statuses.begin() + first);
   early_.begin(best);
   simulate_early(xs, call, replayed);
+  if (broken_off(early_.take().has_value())) return replayed;
   const auto left = early_.left();
   for (const std::size_t k : left) made.ended_early[call.first + k] = 1;
   for (const std::size_t k : left.first(early_.needless())) {  // what is written of them is their bound
@@ -291,6 +316,7 @@ void Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best, std::
     std::copy_n(costs.begin() + static_cast<std::ptrdiff_t>(k) * tests, tests,
                 made.per_test.begin() + (first + static_cast<std::ptrdiff_t>(k)) * tests);
   }
+  return std::max(bounded, replayed);
 }
 
 void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::span<double> objectives,
@@ -302,13 +328,13 @@ void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::sp
   if (!should_stop()) {
     count = static_cast<std::size_t>(std::min<std::uint64_t>(asked, ledger.budget()));
     made.grow(count, false, n, shared_.tests);
-    const Evaluations::Call call = made.calls.back();
+    Evaluations::Call call = made.calls.back();
     std::size_t replayed = 0;
     while (replayed < count && replay(xs.subspan(replayed * n, n), call.first + replayed)) ++replayed;
-    if (replayed < count) evaluate_lowest(xs, best, replayed);
-    if (replayed < count && broken_off(replayed)) {
-      std::fill(statuses.begin(), statuses.end(), refusal());
-      return;
+    if (replayed < count) {
+      call.size = keep(replayed, evaluate_lowest(xs, best, replayed));
+      if (call.size < count) static_cast<void>(should_stop());
+      count = call.size;
     }
     const double now = replayed < count ? shared_.watch.seconds() : 0;
     std::fill(made.seconds.begin() + static_cast<std::ptrdiff_t>(call.first + replayed), made.seconds.end(), now);
@@ -338,7 +364,10 @@ Status Oracle::linearise(std::span<const double> x, double& objective, std::span
   shared_.assembly.evaluator().remember(&secant_, *workspace);
   made.statuses[slot] = evaluate_at(x, slot, residuals, jacobian, *workspace);  // residuals are not in the journal
   shared_.assembly.evaluator().remember(nullptr, *workspace);
-  if (!replayed && broken_off(0)) return refusal();
+  if (!replayed && keep(0, 1) == 0) {
+    static_cast<void>(should_stop());
+    return refusal();
+  }
   const Status& status = made.statuses[slot];
   if (replayed && status.kind() != status_before.kind()) {
     contradict(slot,

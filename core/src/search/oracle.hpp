@@ -101,8 +101,8 @@ struct Evaluations {
 
   [[nodiscard]] std::size_t size() const { return objectives.size(); }
   void grow(std::size_t count, bool jacobian, std::size_t parameter_count, std::size_t test_count);
-  /// Takes the last call back.
-  void drop_call(std::size_t parameter_count, std::size_t test_count);
+  /// Shortens the last call; to nothing, it is taken back.
+  void cut_call(std::size_t size, std::size_t parameter_count, std::size_t test_count);
   void clear();
   /// To so many slots; calls stay.
   void resize(std::size_t slots, std::size_t parameter_count, std::size_t test_count);
@@ -141,17 +141,21 @@ class Oracle {
  private:
   Status evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
                      std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only = false);
-  /// Evaluates the slots side by side.
-  void evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
-                      bool bound_only);
+  /// Evaluates the slots side by side; returns of how many of the points, in order, nothing was begun when time was up.
+  std::size_t evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
+                             bool bound_only);
   /// Simulates what early_ asks for; the first `replayed` points of the batch the journal knows.
   void simulate_early(std::span<const double> xs, const Evaluations::Call& call, std::size_t replayed);
-  /// Evaluates what the journal does not know of a batch, the first `replayed` points of which it does.
-  void evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed);
+  /// Evaluates what the journal does not know of a batch, the first `replayed` points of which it does. Returns how
+  /// many points of the batch, in order, are known then: fewer than all where time was up, or a person ended the work.
+  std::size_t evaluate_lowest(std::span<const double> xs, std::size_t best, std::size_t replayed);
   /// Takes evaluation `slot` from the journal; false when it has none. Notes a contradiction.
   bool replay(std::span<const double> x, std::size_t slot);
-  /// Whether the last call failed because a person ended the work. It is taken back then: resuming asks for it again.
-  bool broken_off(std::size_t replayed);
+  /// Whether a batch ends before its next evaluation.
+  [[nodiscard]] bool is_over() const;
+  /// Of the first `known` points of the last call those before one that failed because a person ended the work. What
+  /// comes behind is taken back: resuming asks for it again.
+  std::size_t keep(std::size_t replayed, std::size_t known);
   void count(std::span<const double> xs, const Evaluations::Call& call);
   void contradict(std::size_t slot, std::string what);
 
