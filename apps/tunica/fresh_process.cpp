@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,15 +38,23 @@ Answer ask_fresh_process(const std::vector<std::string>& arguments) {
     answer.problem = fmt::format("it could not be started: {}", std::strerror(error));
     return answer;
   }
-  std::array<char, 4096> buffer;
-  for (;;) {
-    const ssize_t count = ::read(pipe[0], buffer.data(), buffer.size());
-    if (count > 0) answer.out.append(buffer.data(), static_cast<std::size_t>(count));
-    if (count == 0 || (count < 0 && errno != EINTR)) break;
+  // Until the end of the pipe, or of the process: another one that a plugin has begun may hold the pipe for ever.
+  int status = 0;
+  bool ended = false;
+  for (std::array<char, 4096> buffer;;) {
+    pollfd wanted{pipe[0], POLLIN, 0};
+    if (::poll(&wanted, 1, ended ? 0 : 100) > 0) {
+      const ssize_t count = ::read(pipe[0], buffer.data(), buffer.size());
+      if (count > 0) answer.out.append(buffer.data(), static_cast<std::size_t>(count));
+      if (count == 0 || (count < 0 && errno != EINTR)) break;
+    } else if (ended) {
+      break;
+    } else {
+      ended = ::waitpid(child, &status, WNOHANG) == child;
+    }
   }
   ::close(pipe[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (!ended && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status)) answer.problem = fmt::format("it was ended by signal {}", WTERMSIG(status));
   if (WIFEXITED(status) && WEXITSTATUS(status) > 1)  // 1: it answered, with bad news

@@ -26,7 +26,7 @@ void say(const char* word, const char* colour, const std::string& text) {
   const bool colours = text::Terminal::of(STDERR_FILENO).colours;
   const std::string shown = colours ? fmt::format("{}{}{}", colour, word, plain) : word;
   // What stands in files is quoted, and must not reach the terminal as commands to it.
-  text::aside("{}: {}\n", shown, text::message(text));
+  text::aside_raw(fmt::format("{}: {}\n", shown, text::message(text)));
 }
 
 /// "tunica plugin new" for what was being parsed when it went wrong.

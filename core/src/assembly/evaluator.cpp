@@ -13,10 +13,17 @@
 #include "assembly/run_test.hpp"
 #include "assembly/secant.hpp"
 #include "assembly/workspace.hpp"
+#include "text/escaped.hpp"
 #include "tunica/detail/vector_math.hpp"
 
 namespace tunica::assembly {
 namespace {
+
+/// What a plugin says of a failure, which is kept for every evaluation.
+std::string bounded(const std::string& reason) {
+  constexpr std::size_t longest = 2000;  // bytes
+  return reason.size() <= longest ? reason : text::excerpt(reason, longest);
+}
 
 /// Position of the first number that is not finite, or the size.
 std::size_t first_not_finite(std::span<const double> values) {
@@ -110,7 +117,7 @@ TestInput Evaluator::input(const RunTest& test, std::span<const double> at, Work
 Status Evaluator::call(const RunTest& test, std::span<const double> at, std::span<double> values,
                        std::span<double> jacobian, Workspace& workspace) const {
   if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok())
-    return Status::failed(fmt::format("test '{}': {}", test.name, status.reason()));
+    return Status::failed(fmt::format("test '{}': {}", test.name, bounded(status.reason())));
   if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
     return Status::failed(
         fmt::format("test '{}': the prediction is {} in {}", test.name, values[bad], place(test, bad)));

@@ -2,6 +2,7 @@
 #include "execution/recovery.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -43,6 +44,9 @@ namespace {
 /// in `aside`: it may be all that tells what happened to the disk.
 std::string read_lines(const std::filesystem::path& file, const std::filesystem::path& aside,
                        const std::function<bool(const std::string&, std::size_t)>& use) {
+  if (std::error_code unknown; std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file))
+    throw InputError(
+        fmt::format("{}: this is not a regular file; remove it, or start anew with another -o", file.string()));
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError(

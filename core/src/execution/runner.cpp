@@ -25,6 +25,7 @@
 #include "execution/realisation.hpp"
 #include "execution/recovery.hpp"
 #include "execution/thinning.hpp"
+#include "text/escaped.hpp"
 
 namespace tunica::execution {
 
@@ -41,9 +42,10 @@ class LogFile : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    spdlog::memory_buf_t text;
-    formatter_->format(message, text);
-    file_.append({text.data(), text.size()});
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    const std::string_view text(line.data(), line.size());  // with the end of the line
+    file_.append(text::escaped(text.substr(0, text.size() - 1)) + "\n");
   }
   void flush_() override {}
 

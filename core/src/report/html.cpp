@@ -8,6 +8,8 @@
 #include <nettle/base64.h>
 #include <nettle/sha2.h>
 
+#include "text/escaped.hpp"
+
 namespace tunica::report {
 
 namespace {
@@ -22,7 +24,7 @@ std::string valid_utf8(std::string_view text) {
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : valid_utf8(text)) switch (c) {
+  for (const char c : text::escaped(valid_utf8(text), "\n\t\r")) switch (c) {
       case '&':
         result += "&amp;";
         break;

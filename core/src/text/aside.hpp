@@ -2,18 +2,23 @@
 #pragma once
 
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "text/escaped.hpp"
+
 namespace tunica::text {
 
-/// Prints on stderr. Where it cannot be written, because a disk is full or nobody listens, the words are lost and
-/// nothing else: work does not end for want of a progress line.
+/// Prints on stderr, codes for the terminal too. Where it cannot be written, because a disk is full or nobody listens,
+/// the words are lost and nothing else: work does not end for want of a progress line.
+inline void aside_raw(std::string_view words) { std::fwrite(words.data(), 1, words.size(), stderr); }
+
+/// The same, escaped: names and paths of others may be among the words.
 template <class... Values>
 void aside(fmt::format_string<Values...> form, Values&&... values) {
-  const std::string words = fmt::format(form, std::forward<Values>(values)...);
-  std::fwrite(words.data(), 1, words.size(), stderr);
+  aside_raw(escaped(fmt::format(form, std::forward<Values>(values)...), "\n"));
 }
 
 }  // namespace tunica::text

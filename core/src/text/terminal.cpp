@@ -48,12 +48,12 @@ void StatusLine::draw(const std::string& line, double share) const {
     text = fmt::format("[{}{}{}{}] {}", terminal_.colours ? "\033[36m" : "", std::string(marks, '#'),
                        std::string(length - marks, '.'), terminal_.colours ? "\033[0m" : "", text);
   }
-  aside("\r{}\033[K", text);
+  aside_raw(fmt::format("\r{}\033[K", text));
   std::fflush(stderr);
 }
 
 void StatusLine::clear() const {
-  aside("\r\033[K");
+  aside_raw("\r\033[K");
   std::fflush(stderr);
 }
 
