@@ -376,8 +376,9 @@ Bench::Bench(std::string model_type) {
 
 Bench::~Bench() {
   std::filesystem::remove_all(folder_);
-  set_behaviour({});
-  set_stand_in("rough_curve");
+  // Only what was changed: benches may end side by side.
+  if (behaviour) set_behaviour({});
+  if (stand_in != "rough_curve") set_stand_in("rough_curve");
 }
 
 experiment::ParameterSetting& Bench::parameter(const std::string& name) {
