@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -49,7 +50,29 @@ int overflow(int depth) {
 void* volatile last_taken = nullptr;
 void take(std::size_t bytes) { last_taken = std::memset(std::malloc(bytes), 1, bytes); }
 
+/// A process that keeps every pipe open, for a minute at most.
+void leave_a_process() {
+  if (::fork() != 0) return;
+  ::alarm(60);
+  for (;;) ::pause();
+}
+void hang() {
+  for (;;) ::pause();
+}
+void fall() { ::raise(SIGSEGV); }
+
+/// Once in every process.
+void leave_behind(const std::string& how) {
+  static std::once_flag left;
+  std::call_once(left, [&how] {
+    if (how == "leaves_a_process") leave_a_process();
+    if (how == "hangs_at_exit") static_cast<void>(std::atexit(hang));
+    if (how == "falls_at_exit") static_cast<void>(std::atexit(fall));
+  });
+}
+
 void misbehave(const std::string& how) {
+  leave_behind(how);
   if (how == "throws") throw std::runtime_error("a bad day");
   if (how == "throws_42") throw 42;
   if (how == "prints") std::printf("plugins may not print\n"), std::fflush(stdout);

@@ -195,6 +195,20 @@ def max_time_holds_for_what_hangs():
     expect_others_as_ever(folder, "late")
 
 
+def what_is_left_for_the_end_of_the_process_disturbs_nothing():
+    for how in ("leaves_a_process", "hangs_at_exit", "falls_at_exit"):
+        folder, tunica = laboratory(f"end_{how}", how)
+        shell = Program("/bin/sh", folder)
+        shell.words = ["/bin/sh", "-c"]  # a process that is left behind would keep a pipe of ours open, too
+        begin = time.monotonic()
+        shell(f"{' '.join(tunica.words)} run experiment.json -o results --quiet > said 2>&1")
+        expect(time.monotonic() - begin < 30, f"{how}: half a minute for a fit of milliseconds")
+        bad, _ = outcome(folder)
+        certificate = bad["best"]["certificate"]
+        expect(certificate["verdict_code"] == "confirmed", f"{how}: {certificate}")
+        expect_others_as_ever(folder, how)
+
+
 def two_signals_end_what_hangs():
     for first, second in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
         folder, tunica = laboratory(f"signals_{first}_{second}", "loops")
@@ -242,6 +256,7 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluati
            a_plugin_that_changes_the_arithmetic_changes_no_number,
            resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
            what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
+           what_is_left_for_the_end_of_the_process_disturbs_nothing,
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
            a_full_disk_at_the_other_end_is_told_and_harms_nothing]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
