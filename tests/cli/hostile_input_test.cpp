@@ -113,6 +113,16 @@ TEST(HostileInput, JsonIsValidAndHarmlessWhateverTheNames) {
   EXPECT_EQ(bench.result("out")["name"], "a\u202eb\u009b\033c") << "files hold the name as it is";
 }
 
+TEST(HostileInput, TheLogAndTheReportActOnNobody) {
+  trial::Bench bench;
+  bench.experiment["name"] = "a\u202eb\u009b\033c\n2026-01-01 00:00:00.000 info: forged";
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "o\033[31mut"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  expect_harmless(ended.err);
+  for (const char* file : {"run.log", "report.html"}) expect_harmless(bench.text(std::string("o\033[31mut/") + file));
+  EXPECT_THAT(bench.text("o\033[31mut/run.log"), Not(HasSubstr("\n2026-01-01")));
+}
+
 TEST(HostileInput, SpecialFilesNeverMakeItWait) {
   trial::Bench bench;
   ASSERT_EQ(::mkfifo(bench.path("pipe").c_str(), 0600), 0);
@@ -128,6 +138,13 @@ TEST(HostileInput, SpecialFilesNeverMakeItWait) {
     EXPECT_EQ(ended.code, 2);
     EXPECT_THAT(ended.err, HasSubstr("pipe: this is not a regular file"));
   }
+  bench.experiment["tests"]["circ"]["data"]["file"] = "circ.csv";
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
+  std::filesystem::remove(bench.path("out/evaluations.csv"));
+  ASSERT_EQ(::mkfifo(bench.path("out/evaluations.csv").c_str(), 0600), 0);
+  const auto resumed = bench.tunica({"run", "experiment.json", "-o", "out", "--resume"});
+  EXPECT_EQ(resumed.code, 2);
+  EXPECT_THAT(resumed.err, HasSubstr("evaluations.csv: this is not a regular file"));
 }
 
 TEST(HostileInput, AFolderWhoseNameIsNotUtf8) {
