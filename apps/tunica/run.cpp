@@ -74,8 +74,8 @@ std::string resume_command(const GlobalOptions& global, const RunOptions& option
 }
 
 void say_interrupted(const GlobalOptions& global, const RunOptions& options, const std::filesystem::path& directory) {
-  text::aside("{}interrupted; everything so far is saved. Go on with\n  {}\n",
-              !global.quiet && text::Terminal::of(STDERR_FILENO).redraws ? "\r\033[K" : "",
+  if (!global.quiet && text::Terminal::of(STDERR_FILENO).redraws) text::aside_raw("\r\033[K");
+  text::aside("interrupted; everything so far is saved. Go on with\n  {}\n",
               resume_command(global, options, directory));
 }
 

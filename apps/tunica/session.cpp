@@ -58,6 +58,11 @@ std::vector<std::string> plugin_words(const GlobalOptions& global) {
   std::vector<std::string> words;
   for (const std::string& path : global.plugin_paths) words.insert(words.end(), {"--plugin-path", path});
   if (global.allow_world_writable_plugins) words.emplace_back("--allow-world-writable-plugins");
+  const GlobalOptions usual;
+  if (global.call_limit != usual.call_limit)
+    words.insert(words.end(), {"--call-limit", fmt::format("{}", global.call_limit)});
+  if (global.memory_limit != usual.memory_limit)
+    words.insert(words.end(), {"--memory-limit", fmt::format("{}", global.memory_limit)});
   return words;
 }
 

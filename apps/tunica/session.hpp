@@ -22,7 +22,7 @@ struct GlobalOptions {
   bool quiet = false;       ///< nothing on stderr but errors
 };
 
-/// The options by which another process, or a command that is printed, finds the same plugins.
+/// The options by which another process, or a command that is printed, finds the same plugins under the same limits.
 std::vector<std::string> plugin_words(const GlobalOptions& global);
 
 /// Something the user named needs a plugin that was refused. Exit code 3.

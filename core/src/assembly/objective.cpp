@@ -14,6 +14,13 @@ void scale_residuals(ChannelObjective& fitted, experiment::ObjectiveType objecti
                      const NoiseModel* noise, const std::string& where) {
   using experiment::ObjectiveType;
   const std::size_t n = fitted.rows.size();
+  constexpr double largest = 1e100;  // squares of what is larger overflow in sums
+  for (const double value : fitted.measured)
+    if (!(std::abs(value) <= largest))
+      throw InputError(
+          fmt::format("{}: a row measures {}, and numbers beyond {} cannot be squared; check the unit of "
+                      "the column, or leave the row out with \"rows\"",
+                      where, value, largest));
   fitted.block.weight = weight;
   fitted.block.loss = ResidualBlock::Loss::quadratic;
   fitted.previous.clear();
