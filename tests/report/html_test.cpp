@@ -11,9 +11,10 @@ TEST(Escaping, LeavesNoCharacterThatActsInHtml) {
   EXPECT_EQ(escaped("λ3 … ΔAICc"), "λ3 … ΔAICc");
 }
 
-TEST(Escaping, ReplacesWhatIsNoUtf8AndControlCharacters) {
+TEST(Escaping, ReplacesWhatIsNoUtf8AndShowsWhatActsOnTheReader) {
   EXPECT_EQ(escaped("a\xff"), "a\xEF\xBF\xBD");
-  EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)), "a b ");
+  EXPECT_EQ(escaped(std::string("a\0b\x1b", 4)), "a\\x00b\\x1b");
+  EXPECT_EQ(escaped("a\u202eb"), "a\\u202eb");
   EXPECT_EQ(escaped("a\nb"), "a\nb");
 }
 

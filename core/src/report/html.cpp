@@ -24,7 +24,7 @@ std::string valid_utf8(std::string_view text) {
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text::escaped(valid_utf8(text), "\n\t\r")) switch (c) {
+  for (const char c : text::escaped(valid_utf8(text), "\n\t")) switch (c) {
       case '&':
         result += "&amp;";
         break;
@@ -41,7 +41,7 @@ std::string escaped(std::string_view text) {
         result += "&#39;";
         break;
       default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+        result += c;
     }
   return result;
 }

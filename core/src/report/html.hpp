@@ -10,7 +10,7 @@
 namespace tunica::report {
 
 /// Text for HTML, inside elements and inside quoted attributes. What is no UTF-8 becomes U+FFFD; control characters
-/// that HTML forbids become spaces.
+/// and marks of direction become visible.
 std::string escaped(std::string_view text);
 
 /// JSON for a <script type="application/json"> element: `<`, `>` and `&` as \u escapes, so that no tag or comment can
