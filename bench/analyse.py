@@ -107,15 +107,15 @@ def coverage(step):
 
 
 def valgrind_one(plugin):
-    """Whether valgrind finds something in a plugin. Properties run in processes of their own, whose exit code only the
-    program sees; findings begin with ==PID==."""
+    """Whether valgrind finds something in a plugin: findings begin with ==PID==. Properties that fail say nothing of
+    memory: they run in the suite, and here some come to their limits of time."""
     log = LOGS / f"valgrind-{plugin.stem}.log"
     command = ["valgrind", "--quiet", "--error-exitcode=99", "--leak-check=no",
                f"--suppressions={ROOT}/cmake/valgrind.supp", "build/release/bin/tunica",
                "--allow-world-writable-plugins", "plugin", "check", plugin, "--time-limit", 7200]
     with open(log, "w") as file:
-        code = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT).returncode
-    return code != 0 or re.search(r"^==\d+== ", log.read_text(errors="replace"), re.M) is not None
+        subprocess.run(list(map(str, command)), cwd=ROOT, stdout=file, stderr=subprocess.STDOUT)
+    return re.search(r"^==\d+== ", log.read_text(errors="replace"), re.M) is not None
 
 
 def valgrind(step):
