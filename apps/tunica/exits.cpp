@@ -10,7 +10,7 @@
 extern "C" {
 
 // Made by the linker: where the code of this program begins and ends.
-extern const char __executable_start;
+extern const char __executable_start;  // NOLINT(bugprone-reserved-identifier)
 extern const char etext;
 
 namespace {
@@ -25,8 +25,8 @@ namespace {
 }  // namespace
 
 #pragma GCC visibility push(default)
-[[noreturn]] void _exit(int code) { leave(code, __builtin_return_address(0)); }
-[[noreturn]] void _Exit(int code) noexcept { leave(code, __builtin_return_address(0)); }
+void _exit(int code) { leave(code, __builtin_return_address(0)); }
+void _Exit(int code) noexcept { leave(code, __builtin_return_address(0)); }
 #pragma GCC visibility pop
 
 }  // extern "C"

@@ -78,7 +78,7 @@ void check_length(std::string& answer, const char* option) {
     throw InputError(fmt::format("{} is no length: {}", option, problem.what()));
   }
   if (!(length > 0)) throw InputError(fmt::format("{} {}: it must be greater than zero. Correct it", option, answer));
-  if (answer.find_first_not_of("0123456789.+-eE ") != answer.npos) return;
+  if (answer.find_first_not_of("0123456789.+-eE ") != std::string::npos) return;
   answer += " mm";
   say_wrapped_warning(fmt::format("{}: no unit is given; {} is assumed", option, answer));
 }

@@ -13,6 +13,7 @@ namespace tunica::python {
 namespace {
 
 /// Exceptions of the core become those of the package, whose classes stand in tunica/errors.py.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): as pybind11 calls it
 void translate(std::exception_ptr thrown) {
   const auto raise = [](const char* name, const char* message) {
     const auto type = py::module_::import("tunica.errors").attr(name);

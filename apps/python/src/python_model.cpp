@@ -89,8 +89,8 @@ Status AddedPythonEnergy::evaluate(const MaterialPoints& points, const MaterialR
   const auto own_dp = response.stress_dp.subspan(of_base);
   if (points.parameters[own_] == null_ && own_dp.empty()) return {};
   auto energy = like(response.energy), stress = like(response.stress), tangent = like(response.tangent);
-  const Status status = added_->evaluate({points.count, points.C, points.parameters.subspan(own_), {}, {}},
-                                         {energy, stress, tangent, own_dp, {}});
+  Status status = added_->evaluate({points.count, points.C, points.parameters.subspan(own_), {}, {}},
+                                   {energy, stress, tangent, own_dp, {}});
   if (!status.ok() || points.parameters[own_] == null_) return status;
   add(response.energy, energy);
   add(response.stress, stress);
@@ -110,8 +110,8 @@ Status AddedPythonEnergy::evaluate_axes(const AxisPoints& points, const AxisResp
   const auto own_dp = response.gradient_dp.subspan(gradients), own_energy = response.energy_dp.subspan(energies);
   if (points.parameters[own_] == null_ && own_dp.empty() && own_energy.empty()) return {};
   auto energy = like(response.energy), gradient = like(response.gradient), hessian = like(response.hessian);
-  const Status status = added_->evaluate_axes({points.count, points.c, points.parameters.subspan(own_)},
-                                              {energy, gradient, hessian, own_dp, own_energy});
+  Status status = added_->evaluate_axes({points.count, points.c, points.parameters.subspan(own_)},
+                                        {energy, gradient, hessian, own_dp, own_energy});
   if (!status.ok() || points.parameters[own_] == null_) return status;
   add(response.energy, energy);
   add(response.gradient, gradient);

@@ -31,7 +31,7 @@ class SearchOfOptimizer {
 /// the search as a failure of the optimiser, and the best point so far stays.
 class PythonOptimizer final : public Optimizer {
  public:
-  PythonOptimizer(std::string type, Needs needs, Kept object)
+  PythonOptimizer(const std::string& type, Needs needs, Kept object)
       : owner_("optimiser '" + type + "'"), needs_(needs), object_(std::move(object)) {}
   [[nodiscard]] const Needs& needs() const override { return needs_; }
   Outcome minimise(Problem& problem) override;

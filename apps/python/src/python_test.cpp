@@ -32,7 +32,7 @@ Status take(const py::object& answer, std::span<double> into) {
 
 }  // namespace
 
-PythonTest::PythonTest(std::string type, TestDescription description, const TestSetup& setup, Kept object)
+PythonTest::PythonTest(const std::string& type, TestDescription description, const TestSetup& setup, Kept object)
     : owner_("test '" + type + "'"), description_(std::move(description)), object_(std::move(object)) {
   rows_ = setup.rows;
   time_.assign(setup.rows.time.begin(), setup.rows.time.end());
@@ -95,8 +95,8 @@ Status PythonTest::differences(const TestInput& input, std::span<const double> h
     const Parameter& parameter = description_.parameters[j];
     const double h = step_on(std::max(std::abs(own[j]), 0.01 * (parameter.max - parameter.min)));
     const bool above = own[j] + h <= parameter.max;
-    const Status status = difference(moving(own[j]), h, above, own[j] - h >= parameter.min || !above, here,
-                                     column_of(material.size() + j));
+    Status status = difference(moving(own[j]), h, above, own[j] - h >= parameter.min || !above, here,
+                               column_of(material.size() + j));
     if (!status.ok()) return status;
   }
   return {};
@@ -117,7 +117,7 @@ Status PythonTest::by_abscissae(const TestInput& input, std::span<double> deriva
       other.abscissae = all;
       return values(other, into);
     };
-    const Status status =
+    Status status =
         difference(moved, step_on(largest > 0 ? largest : 1), true, true, {}, derivative.subspan(a * size, size));
     if (!status.ok()) return status;
   }
@@ -192,8 +192,8 @@ Status PythonReadings::by_own(const TestInput& input, std::span<const double> va
       own[j] = at;
       return status;
     };
-    const Status status = difference(moved, h, above, at - h >= parameter.min || !above, here,
-                                     jacobian.subspan(j * here.size(), here.size()));
+    Status status = difference(moved, h, above, at - h >= parameter.min || !above, here,
+                               jacobian.subspan(j * here.size(), here.size()));
     if (!status.ok()) return status;
   }
   return {};

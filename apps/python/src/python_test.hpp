@@ -19,7 +19,7 @@ namespace tunica::python {
 /// those of the model. Those by an abscissa move all rows at once, so a row may depend on its own abscissa only.
 class PythonTest final : public Test {
  public:
-  PythonTest(std::string type, TestDescription description, const TestSetup& setup, Kept object);
+  PythonTest(const std::string& type, TestDescription description, const TestSetup& setup, Kept object);
   [[nodiscard]] const TestDescription& describe() const override { return description_; }
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
   Status predict(const TestInput& input, const TestOutput& output) const override;

@@ -242,13 +242,13 @@ std::string export_card(const std::string& result, const std::string& target, co
     throw InputError(fmt::format("subroutine '{}': is there already; name a new file", subroutine));
   std::optional<double> mass;
   if (!density.empty()) mass = cards::density_of(density);
-  const std::string card = cards::write_card(cards::target_of(target), fitted.material,
-                                             {.name = name.empty() ? app::card_name(fitted.name) : name,
-                                              .units = cards::unit_system(units),
-                                              .bulk_ratio = bulk_ratio,
-                                              .density = mass,
-                                              .subroutine = !subroutine.empty(),
-                                              .remarks = fitted.remarks});
+  std::string card = cards::write_card(cards::target_of(target), fitted.material,
+                                       {.name = name.empty() ? app::card_name(fitted.name) : name,
+                                        .units = cards::unit_system(units),
+                                        .bulk_ratio = bulk_ratio,
+                                        .density = mass,
+                                        .subroutine = !subroutine.empty(),
+                                        .remarks = fitted.remarks});
   if (!subroutine.empty()) execution::write_atomically(subroutine, cards::uanisohyper_inv());
   return card;
 }

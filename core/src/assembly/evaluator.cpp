@@ -282,7 +282,7 @@ Status Evaluator::diagnostics(std::size_t number, std::span<const double> free,
   const RunTest& test = tests_.at(number);
   const auto& names = test.test->describe().diagnostics;
   std::vector<double> predictions(test.size()), values(names.size() * test.rows);
-  const Status status = ask(number, free, [&](const Test& asked, const TestInput& input) {
+  Status status = ask(number, free, [&](const Test& asked, const TestInput& input) {
     return asked.predict(input, {predictions, {}, {}, values});
   });
   if (!status.ok()) return status;

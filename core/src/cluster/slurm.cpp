@@ -167,7 +167,8 @@ std::string submit(const Order& order) {
                     order.folder.string()));
   const Ended ended = run_command(words_of(order));
   // "4711", or "4711;cluster"
-  const std::string line = last_line(ended.out), job = line.substr(0, line.find(';'));
+  const std::string line = last_line(ended.out);
+  std::string job = line.substr(0, line.find(';'));
   if (!ended.well() || !number_in(job))
     throw InputError(
         fmt::format("sbatch {}. Give it another --partition, --time or --memory where it names them; it also "

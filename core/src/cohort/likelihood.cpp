@@ -77,7 +77,7 @@ void SpecimenLikelihood::move_to(const Eigen::VectorXd& xi) {
 
 Status SpecimenLikelihood::predict(const Eigen::VectorXd& xi, Eigen::VectorXd& predictions, Eigen::MatrixXd* jacobian) {
   move_to(xi);
-  const Status status = assembly_->evaluator().predict(
+  Status status = assembly_->evaluator().predict(
       free_, predictions_, jacobian ? std::span<double>(jacobian_) : std::span<double>(), *workspace_);
   if (!status.ok()) return status;
   predictions = Eigen::Map<const Eigen::VectorXd>(predictions_.data(), index(predictions_.size()));
@@ -89,7 +89,7 @@ Status SpecimenLikelihood::predict(const Eigen::VectorXd& xi, Eigen::VectorXd& p
 
 Status SpecimenLikelihood::residuals(const Eigen::VectorXd& xi, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian) {
   move_to(xi);
-  const Status status = assembly_->evaluator().predict(
+  Status status = assembly_->evaluator().predict(
       free_, predictions_, jacobian ? std::span<double>(jacobian_) : std::span<double>(), *workspace_);
   if (!status.ok()) return status;
   assembly::whitened_residuals(whitening_, free_, predictions_, jacobian_, residuals_,

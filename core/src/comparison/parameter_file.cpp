@@ -87,7 +87,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   // A run of the model alone has names without it, where this one, with layers of other models, says whose they are.
   const bool several = assembly.models().count() > 1;
   for (const auto& [written, value] : values.items()) {
-    const std::string full = model + '.' + written;
+    const std::string full = fmt::format("{}.{}", model, written);
     const bool prefixed = several && std::find(known.begin(), known.end(), written) == known.end() &&
                           std::find(known.begin(), known.end(), full) != known.end();
     const std::string name = prefixed ? full : written;

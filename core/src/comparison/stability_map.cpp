@@ -68,8 +68,9 @@ std::string stability_map(const assembly::Assembly& assembly, std::span<const do
   std::vector<std::string> rows(points * points);
   tbb::parallel_for(std::size_t{0}, points * points, [&](std::size_t at) {
     std::vector<double> x = unit, p(free.size());
-    x[index[0]] = static_cast<double>(at / points) / static_cast<double>(points - 1);
-    x[index[1]] = static_cast<double>(at % points) / static_cast<double>(points - 1);
+    const std::size_t row = at / points, column = at % points;
+    x[index[0]] = static_cast<double>(row) / static_cast<double>(points - 1);
+    x[index[1]] = static_cast<double>(column) / static_cast<double>(points - 1);
     assembly.box().from_unit(x, p);
     const Strips strips = judge_strips(assembly, p, limit);
     const auto first = [&](std::size_t axis) {

@@ -145,7 +145,7 @@ void add_wrapped(Jobs& jobs, Finding head, const std::vector<PropertyOf<Subject>
         context.settings.time_limit);
     head.with = choices.empty() ? on : fmt::format("{}{}with {}", on, on.empty() ? "" : ", ", words_of(choices));
     if (!able.held()) {
-      add(jobs, head, properties.front().name, [able] { return able; });
+      add(jobs, head, properties.front().name, [able]() -> Verdict { return Verdict(able); });
       if (choices.empty()) return;  // then no choice helps
       continue;
     }

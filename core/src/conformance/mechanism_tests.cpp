@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mechanisms that act on tests.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -70,7 +72,7 @@ Verdict null_is_the_bare_test(const WrappedTest& on, std::uint64_t) {
       if (other.empty() || std::memcmp(one.data(), other.data(), sizeof(double) * other.size()) == 0) return;
       const double scale = scale_of(other);
       for (std::size_t i = 0; i < other.size(); ++i)
-        if (std::memcmp(&one[i], &other[i], sizeof(double)) != 0)
+        if (std::bit_cast<std::uint64_t>(one[i]) != std::bit_cast<std::uint64_t>(other[i]))
           meter.see(std::max(1e-17, std::abs(one[i] - other[i]) / scale), [&] {
             return fmt::format("{} {}: {:.17g} with the mechanism at its null, {:.17g} without", what, i + 1, one[i],
                                other[i]);

@@ -6,17 +6,17 @@
 #include "conformance/handout.hpp"
 
 namespace tunica::conformance {
-Batch Batch::draw(const Model& model, Sampler& sampler, std::size_t count) {
+Batch Batch::draw(const Model& model, Sampler& sampler, std::size_t n) {
   Batch batch;
-  batch.count = count;
-  batch.C.resize(6 * count);
+  batch.count = n;
+  batch.C.resize(6 * n);
   const auto place = [&](std::size_t i, const Tensor& C) {
-    for (std::size_t c = 0; c < 6; ++c) batch.C[c * count + i] = C[c];
+    for (std::size_t c = 0; c < 6; ++c) batch.C[c * n + i] = C[c];
   };
   Point first = sampler.point(model);
   batch.p = first.p;
   place(0, first.C);
-  for (std::size_t i = 1; i < count; ++i) {
+  for (std::size_t i = 1; i < n; ++i) {
     Tensor C = sampler.right_cauchy_green();
     for (int tries = 0; tries < 100 && !evaluate(model, C, batch.p).finite(); ++tries) C = sampler.right_cauchy_green();
     place(i, C);
@@ -24,10 +24,10 @@ Batch Batch::draw(const Model& model, Sampler& sampler, std::size_t count) {
   const std::size_t history = model.describe().history_size;
   if (history == 0) return batch;
   // An old state as the model itself leaves it, after a first step.
-  batch.time_step.assign(count, 0.3);
+  batch.time_step.assign(n, 0.3);
   const std::vector<double> all = answers(model, batch, {false, false, false, false, true});
   batch.state.assign(all.begin(), all.end());
-  for (std::size_t i = 0; i < count; ++i) place(i, sampler.right_cauchy_green());
+  for (std::size_t i = 0; i < n; ++i) place(i, sampler.right_cauchy_green());
   return batch;
 }
 

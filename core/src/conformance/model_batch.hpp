@@ -29,7 +29,7 @@ struct Batch {
   std::vector<double> C, p, time_step, state;
 
   /// Seeded states and parameters at which the model is finite point by point.
-  static Batch draw(const Model& model, Sampler& sampler, std::size_t count);
+  static Batch draw(const Model& model, Sampler& sampler, std::size_t n);
   [[nodiscard]] MaterialPoints points() const { return {count, C, p, time_step, state}; }
   [[nodiscard]] Point point(std::size_t i) const;
 };

@@ -14,7 +14,7 @@ namespace {
 
 /// Differences are good to better than this where they settle; a wrong term in a formula is off by orders more.
 constexpr double derivative_tolerance = 1e-6;
-constexpr double settled = 0.25 * derivative_tolerance;
+constexpr double settled_below = 0.25 * derivative_tolerance;
 constexpr std::size_t settled_states = 20;
 /// First step in C; the last is 1/256 of it.
 constexpr double first_step = 1e-2;
@@ -71,7 +71,7 @@ Verdict stress_is_the_gradient_of_the_energy(const Model& model, std::uint64_t s
       uncertainty[c] = by_tensor(c) * slope[0].uncertainty;
     }
     const double scale = std::max(scale_of(at.stress), scale_of(expected));
-    if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled * scale)) return false;
+    if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled_below * scale)) return false;
     for (std::size_t c = 0; c < 6; ++c)
       meter.see(std::abs(at.stress[c] - expected[c]) / scale, [&] {
         return fmt::format("S_{} = {:.10g}, differences of W give {:.10g},", component[c], at.stress[c], expected[c]) +
@@ -95,7 +95,7 @@ Verdict tangent_is_the_derivative_of_the_stress(const Model& model, std::uint64_
     }
     // A stress that is linear in nothing has no tangent to be relative to; then it is the stress that counts.
     const double scale = std::max({scale_of(at.tangent), scale_of(expected), 1e-2 * scale_of(at.stress)});
-    if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled * scale)) return false;
+    if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled_below * scale)) return false;
     for (std::size_t k = 0; k < 36; ++k)
       meter.see(std::abs(at.tangent[k] - expected[k]) / scale, [&] {
         return fmt::format("2 dS_{}/dC_{} = {:.10g}, differences of S give {:.10g},", component[k / 6],
@@ -151,7 +151,7 @@ Verdict parameter_derivatives_match_differences(const Model& model, std::uint64_
       scales.push_back(scale_of(std::span(at.stress_dp).subspan(6 * j, 6), 1e-6 * scale_of(at.stress) / size));
       for (const Difference& slope : slopes.back()) scales[j] = std::max(scales[j], std::abs(slope.value));
       for (const Difference& slope : slopes.back())
-        if (!(slope.uncertainty <= settled * scales[j])) return false;
+        if (!(slope.uncertainty <= settled_below * scales[j])) return false;
     }
     for (std::size_t j = 0; j < slopes.size(); ++j)
       for (std::size_t c = 0; c < 6; ++c)

@@ -49,7 +49,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
         },
         context.settings.time_limit);
     head.with = "with " + words_of(choices);
-    if (!able.counter_example.empty()) add(jobs, head, choices_property, [able] { return able; });
+    if (!able.counter_example.empty()) add(jobs, head, choices_property, [able]() -> Verdict { return Verdict(able); });
     if (!able.held()) continue;
     seen.insert(choices.begin(), choices.end());
     ++made;

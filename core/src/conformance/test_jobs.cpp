@@ -118,7 +118,7 @@ void add_choices(Jobs& jobs, Finding head, const plugins::Catalogue::Entry<TestF
   const Verdict able =
       isolated([&] { return able_to([&] { choice_cases(entry, base, seed); }); }, context.settings.time_limit);
   constexpr const char* property_name = "every_choice_is_exercised";
-  if (!able.held()) return add(jobs, head, property_name, [able] { return able; });
+  if (!able.held()) return add(jobs, head, property_name, [able]() -> Verdict { return Verdict(able); });
   const auto choices = std::make_shared<const ChoiceCases>(choice_cases(entry, base, seed));
   add(jobs, head, property_name, [choices] { return choices_are_exercised(*choices); });
   for (const TestCase& test_case : choices->cases) {
@@ -151,7 +151,7 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
     const Verdict able =
         isolated([&] { return able_to([&] { synthetic_case(entry, seed); }); }, context.settings.time_limit);
     if (!able.counter_example.empty()) {
-      add(jobs, head, "predictions_are_numbers", [able] { return able; });
+      add(jobs, head, "predictions_are_numbers", [able]() -> Verdict { return Verdict(able); });
       return jobs;
     }
     why = able.skipped;

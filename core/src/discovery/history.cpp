@@ -161,7 +161,7 @@ PathDependence path_dependence(const diagnosis::Evidence& evidence, const diagno
     freedom += of_each.rank() - of_common.rank();
     if (gain <= worst) continue;
     worst = gain;
-    found.branches = std::any_of(branches.begin(), branches.end(), [&](const Branch& one) {
+    found.branches = std::any_of(branches.begin(), branches.end(), [&branches = branches](const Branch& one) {
       return one.curve == branches.front().curve && &one != &branches.front();
     });
     found.where = found.branches ? fmt::format("loading and unloading in the test '{}'", branches.front().curve->test)

@@ -12,11 +12,11 @@
 namespace tunica::experiment {
 namespace {
 
-const std::vector<std::string> keys = {"min", "max", "initial", "fixed", "scale", "share", "prior"};
+const std::vector<std::string> keys_of_parameter = {"min", "max", "initial", "fixed", "scale", "share", "prior"};
 
 ParameterSetting read_setting(const Node& node, const std::string& name, std::string_view unit) {
   const std::string what = fmt::format("parameter '{}'", name);
-  node.allow_only(keys, what);
+  node.allow_only(keys_of_parameter, what);
   ParameterSetting setting;
   setting.pointer = node.pointer();
   const auto value = [&](const std::string& key) -> std::optional<double> {

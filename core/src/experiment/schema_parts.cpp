@@ -37,36 +37,35 @@ Json quantity_schema(std::string_view description) {
 }
 
 Json option_schema(const Option& option) {
-  using Kind = Option::Kind;
   Json schema = Json::object();
   schema["description"] = with_unit(option.doc, option.unit);
   switch (option.kind) {
-    case Kind::flag:
+    case Option::Kind::flag:
       schema["type"] = "boolean";
       break;
-    case Kind::integer:
+    case Option::Kind::integer:
       schema["type"] = "integer";
       break;
-    case Kind::number:
+    case Option::Kind::number:
       schema["type"] = "number";
       break;
-    case Kind::quantity:
+    case Option::Kind::quantity:
       schema = quantity_schema(schema["description"].get<std::string>());
       break;
-    case Kind::choice:
+    case Option::Kind::choice:
       schema["enum"] = option.choices;
       break;
-    case Kind::text:
+    case Option::Kind::text:
       schema["type"] = "string";
       break;
-    case Kind::json:
+    case Option::Kind::json:
       if (const Json own = Json::parse(option.schema, nullptr, false); own.is_object()) schema.update(own);
       break;  // without a schema anything: the plugin reads it
   }
   if (option.min) schema["minimum"] = *option.min;
   if (option.max) schema["maximum"] = *option.max;
   if (option.fallback) {
-    if (option.kind == Kind::json)
+    if (option.kind == Option::Kind::json)
       schema["default"] = Json::parse(std::get<std::string>(*option.fallback), nullptr, false);
     else
       std::visit([&](const auto& value) { schema["default"] = value; }, *option.fallback);

@@ -75,14 +75,13 @@ void add_rig_properties(Json& properties, const std::vector<Observable>& observa
 }
 
 Json columns_schema(const std::vector<Observable>& observables) {
-  using Role = Observable::Role;
   Json properties = Json::object(), needed = Json::array();
   std::vector<std::string> required;
   const std::vector<data::RawName> raw_names = data::raw_names(observables);
   for (const Observable& observable : observables) {
-    const char* role = observable.role == Role::abscissa ? "prescribed"
-                       : observable.role == Role::time   ? "clock"
-                                                         : "measured and fitted";
+    const char* role = observable.role == Observable::Role::abscissa ? "prescribed"
+                       : observable.role == Observable::Role::time   ? "clock"
+                                                                     : "measured and fitted";
     properties[observable.name] =
         column_schema(fmt::format("{} ({})", with_unit(observable.doc, observable.unit), role));
     Json any = Json::array({{{"required", {observable.name}}}});

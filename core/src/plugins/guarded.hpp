@@ -30,7 +30,7 @@ class PluginFailure : public std::runtime_error {
 /// that its object was asked about.
 class MemoryLack : public std::bad_alloc {
  public:
-  explicit MemoryLack(const std::string& words) : words_(words) {}
+  explicit MemoryLack(const std::string& words) : words_(words) {}  // NOLINT(bugprone-throw-keyword-missing): a member
   [[nodiscard]] const char* what() const noexcept override { return words_.what(); }
 
  private:

@@ -181,7 +181,7 @@ Series measured_of(const Folder& folder, const std::string& file, const std::str
   Series data{"measured", "points", -1};
   data.faint = true;
   for (const std::string& specimen : specimens) {
-    const auto fit = folder.table(specimen + "/" + file);
+    const auto fit = folder.table(fmt::format("{}/{}", specimen, file));
     const auto column = fit ? fit->find(channel) : std::nullopt;
     if (!column) continue;
     const auto rows = fit->groups("run").front().second;

@@ -182,7 +182,7 @@ std::vector<ResidualCurve> residual_curves(const Table& table) {
   std::vector<ResidualCurve> curves;
   const std::string abscissa_name = table.find("abscissa_name") ? "abscissa_name" : "value";
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string test = table.text(row, "test"), channel = table.text(row, "channel");
+    const std::string &test = table.text(row, "test"), &channel = table.text(row, "channel");
     auto at = std::find_if(curves.begin(), curves.end(),
                            [&](const auto& curve) { return curve.test == test && curve.channel == channel; });
     if (at == curves.end())

@@ -28,7 +28,7 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
 }
 
 std::string verdict_words(const Json& diagnosis) {
-  const std::string verdict = word(diagnosis, "verdict");
+  std::string verdict = word(diagnosis, "verdict");
   const std::string reasons = text::joined(words(list(diagnosis, "reasons")));
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")

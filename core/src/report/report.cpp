@@ -63,7 +63,7 @@ std::string report(const std::vector<std::filesystem::path>& folders, const std:
 }
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
-  const auto file = folder / "report.html";
+  auto file = folder / "report.html";
   execution::write_atomically(file, report({folder}, folder));
   return file;
 }

@@ -24,7 +24,7 @@ void add_words(Page& page, const Folder& folder) {
   std::vector<std::string> values;
   // A test's imperfections at zero are no news.
   for (const auto& [name, estimate] : member(said, "parameters").items())
-    if (name.find('.') == name.npos || number(estimate, "value") != 0)
+    if (name.find('.') == std::string::npos || number(estimate, "value") != 0)
       values.push_back(fmt::format("{} = {}", name, amount(number(estimate, "value"), word(estimate, "unit"))));
   const std::string source = word(said, "source");
   const double noise = number(said, "noise");

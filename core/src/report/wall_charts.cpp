@@ -56,7 +56,7 @@ std::pair<std::string, std::string> test_and_row(const std::string& file) {
   if (!file.ends_with(end)) return {file, ""};
   const std::string stem = file.substr(0, file.size() - end.size());
   const auto cut = stem.rfind('_');
-  if (cut == stem.npos) return {file, ""};
+  if (cut == std::string::npos) return {file, ""};
   return {stem.substr(0, cut), stem.substr(cut + 1)};
 }
 
@@ -215,7 +215,7 @@ void add_outline(Chart& chart, const Grid& grid) {
 /// "kPa" of "axial_stress [kPa]"; nothing of a number.
 std::string unit_of(const std::string& title) {
   const auto open = title.rfind('[');
-  return open == title.npos ? "" : title.substr(open + 1, title.size() - open - 2);
+  return open == std::string::npos ? "" : title.substr(open + 1, title.size() - open - 2);
 }
 
 void add_fields(Page& page, const Folder& folder, const Wall& wall) {

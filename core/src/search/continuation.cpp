@@ -33,7 +33,7 @@ std::span<const double> GoodPoints::nearest(std::span<const double> x) const {
   return found;
 }
 
-Status continue_to(std::span<const double> good, std::span<const double> failed, Status failure,
+Status continue_to(std::span<const double> good, std::span<const double> failed, const Status& failure,
                    const std::function<Status(std::span<const double>)>& evaluate) {
   std::vector<double> from(good.begin(), good.end()), between(failed.size());
   double step = 0.5;

@@ -29,7 +29,7 @@ class GoodPoints {
 /// return the same at the same point, and retrying them only costs time. Steps are parts of one evaluation and not
 /// counted. `evaluate` returns the status at a point; the result is that of the failed point itself.
 constexpr int continuation_steps = 4;
-Status continue_to(std::span<const double> good, std::span<const double> failed, Status failure,
+Status continue_to(std::span<const double> good, std::span<const double> failed, const Status& failure,
                    const std::function<Status(std::span<const double>)>& evaluate);
 
 }  // namespace tunica::search

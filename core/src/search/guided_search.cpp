@@ -82,7 +82,7 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     if (first.found()) guide_.box().to_unit(first.parameters, centre.x);
   }
   const auto linearise = [&](Linearised& at) {
-    const Status status = costly.linearise(at.x, at.objective, at.residuals, at.jacobian);
+    Status status = costly.linearise(at.x, at.objective, at.residuals, at.jacobian);
     at.violation = status.violation();
     return status;
   };

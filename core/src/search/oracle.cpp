@@ -169,7 +169,7 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   Status status = evaluate(x);
   if (status.kind() == Status::Kind::failed && shared_.settings.on_failure == experiment::OnFailure::retry) {
     if (const auto good = good_.nearest(x); !good.empty()) {
-      status = continue_to(good, x, std::move(status), evaluate);
+      status = continue_to(good, x, status, evaluate);
       shared_.box.from_unit(x, free);
     }
   }

@@ -24,8 +24,8 @@ std::string counted(std::size_t count, std::string_view one, std::string_view ma
 std::string capitalised(std::string text, std::span<const std::string> names) {
   const std::size_t end = std::min(text.find(' '), text.size());
   const std::string_view word = std::string_view(text).substr(0, text.find_last_not_of(",;:.", end - 1) + 1);
-  const bool name =
-      word.find_first_of("_.0123456789") != word.npos || std::find(names.begin(), names.end(), word) != names.end();
+  const bool name = word.find_first_of("_.0123456789") != std::string_view::npos ||
+                    std::find(names.begin(), names.end(), word) != names.end();
   if (!text.empty() && !name) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }

@@ -30,7 +30,7 @@ std::string pad_left(std::string_view text, std::size_t width) {
 }
 
 std::string shortened(std::string_view text, std::size_t width) {
-  const std::string shown = escaped(text);
+  std::string shown = escaped(text);
   if (columns(shown) <= width) return shown;
   if (width == 0) return {};
   std::size_t end = 0, used = 0;
@@ -46,7 +46,7 @@ std::string hanging(std::string_view lead, std::string_view text, std::size_t wi
   constexpr std::size_t short_enough = 20;
   const std::size_t margin = std::min(lead.find_first_not_of(' '), lead.size());
   if (columns(lead) > std::max(width / 2, short_enough) && margin < lead.size() &&
-      text.find_first_not_of(" \n") != text.npos)
+      text.find_first_not_of(" \n") != std::string_view::npos)
     return hanging(lead.substr(0, margin), lead.substr(margin), width) + '\n' + hanging("    ", text, width);
   const std::size_t indent = columns(lead);
   std::string result(lead);

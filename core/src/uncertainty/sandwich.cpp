@@ -118,7 +118,7 @@ Status apply_sandwich(const assembly::Assembly& assembly, std::span<const double
 Status objective_scales(const assembly::Assembly& assembly, std::span<const double> free,
                         const assembly::Whitening& noise, std::span<const double> measured,
                         std::vector<double>& scales) {
-  constexpr double on_bound = 1e-6;
+  constexpr double edge = 1e-6;
   const std::size_t n = free.size();
   scales.assign(n, 1);
   std::vector<double> unit(n);
@@ -133,7 +133,7 @@ Status objective_scales(const assembly::Assembly& assembly, std::span<const doub
     Eigen::Index own = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (i == j) own = static_cast<Eigen::Index>(moving.size());
-      if (i == j || (unit[i] > on_bound && unit[i] < 1 - on_bound)) moving.push_back(static_cast<Eigen::Index>(i));
+      if (i == j || (unit[i] > edge && unit[i] < 1 - edge)) moving.push_back(static_cast<Eigen::Index>(i));
     }
     const Matrix H = all.curvature(moving, moving), M = all.score(moving, moving);
     // Scaled to a diagonal of one, so that no unit decides which direction is seen.

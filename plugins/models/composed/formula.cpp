@@ -12,9 +12,7 @@ namespace {
 
 /// The squared stretch along the family, or what stands for it where fibres scatter.
 std::string fibre_words(const Term& term) {
-  const std::string along = term.family == Family::axial             ? "C_zz"
-                            : term.family == Family::circumferential ? "C_tt"
-                                                                     : "I4";
+  std::string along = term.family == Family::axial ? "C_zz" : term.family == Family::circumferential ? "C_tt" : "I4";
   switch (term.dispersion) {
     case Dispersion::none:
       return along;

@@ -44,7 +44,7 @@ class WithStretches final : public Model {
                                       wanted(scratch.tangent, out.tangent, 36 * m),
                                       wanted(scratch.stress_dp, out.stress_dp, 6 * indices_.size() * m),
                                       {}};
-      const Status status = stretches_->evaluate({m, {scratch.C.data(), 6 * m}, own_span(own), {}, {}}, response);
+      Status status = stretches_->evaluate({m, {scratch.C.data(), 6 * m}, own_span(own), {}, {}}, response);
       if (!status.ok()) return status;
       add(response.energy, 1, 0, n, begin, m, out.energy);
       add(response.stress, 6, 0, n, begin, m, out.stress);
@@ -72,7 +72,7 @@ class WithStretches final : public Model {
                                   wanted(scratch.hessian, out.hessian, 6 * m),
                                   wanted(scratch.gradient_dp, out.gradient_dp, 3 * indices_.size() * m),
                                   wanted(scratch.energy_dp, out.energy_dp, indices_.size() * m)};
-      const Status status = stretches_->evaluate_axes({m, {scratch.c.data(), 3 * m}, own_span(own)}, response);
+      Status status = stretches_->evaluate_axes({m, {scratch.c.data(), 3 * m}, own_span(own)}, response);
       if (!status.ok()) return status;
       add(response.energy, 1, 0, n, begin, m, out.energy);
       add(response.gradient, 3, 0, n, begin, m, out.gradient);

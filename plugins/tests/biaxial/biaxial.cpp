@@ -129,7 +129,7 @@ class Biaxial final : public Test {
       const auto [t, z] = sheet_.channels[k];
       const double *const c = r.c.data(), *const factor = r.factor.data();
       double* const to = out.data() + k * n;
-      detail::vectorised([=] {
+      detail::vectorised([=, t = t, z = z] {
         TUNICA_LANES
         for (std::size_t i = 0; i < n; ++i) {
           const double normal = c[2 * n + i] * S[2 * n + i];

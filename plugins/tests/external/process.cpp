@@ -37,7 +37,7 @@ std::vector<std::string> environment_of(const Command& command) {
       replaced = replaced || (text.substr(0, name.size()) == name && text.substr(name.size(), 1) == "=");
     if (!replaced) variables.emplace_back(text);
   }
-  for (const auto& [name, value] : command.environment) variables.push_back(name + "=" + value);
+  for (const auto& [name, value] : command.environment) variables.push_back(fmt::format("{}={}", name, value));
   return variables;
 }
 

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 fs::path program_file(const std::string& name, const fs::path& folder) {
   const auto runs = [](const fs::path& file) { return fs::is_regular_file(file) && access(file.c_str(), X_OK) == 0; };
-  if (name.find('/') != name.npos) {
-    const fs::path file = (folder / name).lexically_normal();
+  if (name.find('/') != std::string::npos) {
+    fs::path file = (folder / name).lexically_normal();
     if (runs(file)) return file;
     throw InputError(
         fmt::format("the program '{}' of \"command\" {}; correct its path, which begins at the folder of "
@@ -30,9 +30,9 @@ fs::path program_file(const std::string& name, const fs::path& folder) {
   std::string_view left = path != nullptr ? path : "/usr/bin:/bin";
   while (!left.empty()) {
     const std::size_t colon = left.find(':');
-    const fs::path file = fs::path(left.substr(0, colon)) / name;
+    fs::path file = fs::path(left.substr(0, colon)) / name;
     if (file.is_absolute() && runs(file)) return file;
-    left = colon == left.npos ? std::string_view() : left.substr(colon + 1);
+    left = colon == std::string::npos ? std::string_view() : left.substr(colon + 1);
   }
   throw InputError(
       fmt::format("the program '{}' of \"command\" is in no folder of PATH; install it, or give its path", name));
@@ -43,7 +43,7 @@ std::string last_lines(const fs::path& file, std::size_t count) {
   std::deque<std::string> lines;
   for (std::string line; std::getline(stream, line);) {
     const std::size_t end = line.find_last_not_of(" \t\r");
-    if (end == line.npos) continue;
+    if (end == std::string::npos) continue;
     lines.push_back(line.substr(line.find_first_not_of(" \t"), std::size_t{200}));
     lines.back().resize(std::min(lines.back().size(), lines.back().find_last_not_of(" \t\r") + 1));
     if (lines.size() > count) lines.pop_front();

@@ -22,7 +22,7 @@ using Found = std::variant<std::vector<double>, std::string>;
 /// A number as C and Fortran print it: "1.5e-3", "+2", "1.5D-03".
 std::optional<double> number_in(std::string text) {
   const std::size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  if (first == text.npos) return std::nullopt;
+  if (first == std::string::npos) return std::nullopt;
   text = text.substr(first, last - first + 1);
   std::ranges::replace(text, 'D', 'e');
   std::ranges::replace(text, 'd', 'e');
@@ -35,7 +35,7 @@ std::optional<double> number_in(std::string text) {
 
 char delimiter_of(const std::string& line) {
   for (const char candidate : {';', ',', '\t'})
-    if (line.find(candidate) != line.npos) return candidate;
+    if (line.find(candidate) != std::string::npos) return candidate;
   return ' ';
 }
 
@@ -48,7 +48,7 @@ std::vector<std::string> cells_of(const std::string& line, char delimiter) {
   else
     while (std::getline(stream, cell, delimiter)) {
       const std::size_t first = cell.find_first_not_of(" \t\r\""), last = cell.find_last_not_of(" \t\r\"");
-      cells.push_back(first == cell.npos ? "" : cell.substr(first, last - first + 1));
+      cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
     }
   return cells;
 }
@@ -64,7 +64,7 @@ Found column_of(std::istream& stream, const ResultPlace& place) {
   for (std::string line; std::getline(stream, line);) {
     ++number;
     const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == line.npos || line[first] == '#') continue;
+    if (first == std::string::npos || line[first] == '#') continue;
     const bool heading = delimiter == 0;
     if (heading) delimiter = delimiter_of(line);
     const std::vector<std::string> cells = cells_of(line, delimiter);

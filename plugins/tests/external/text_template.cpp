@@ -25,15 +25,16 @@ bool is_name(std::string_view text) {
 TextTemplate::TextTemplate(std::string_view text) {
   std::string piece;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t open = text.find("{{", at), close = open == text.npos ? text.npos : text.find("}}", open);
-    if (close == text.npos) {
+    const std::size_t open = text.find("{{", at),
+                      close = open == std::string::npos ? std::string::npos : text.find("}}", open);
+    if (close == std::string::npos) {
       piece += text.substr(at);
       break;
     }
     const std::string_view inside = trimmed(text.substr(open + 2, close - open - 2));
     const std::size_t blank = inside.find_first_of(blanks);
     const std::string_view name = inside.substr(0, blank);
-    if (!is_name(name) || inside.find('\n') != inside.npos) {  // braces of the solver's own language
+    if (!is_name(name) || inside.find('\n') != std::string::npos) {  // braces of the solver's own language
       piece += text.substr(at, open + 1 - at);
       at = open + 1;
       continue;
@@ -41,7 +42,8 @@ TextTemplate::TextTemplate(std::string_view text) {
     piece += text.substr(at, open - at);
     pieces_.push_back(std::move(piece));
     piece.clear();
-    places_.push_back({std::string(name), std::string(blank == inside.npos ? "" : trimmed(inside.substr(blank)))});
+    places_.push_back(
+        {std::string(name), std::string(blank == std::string::npos ? "" : trimmed(inside.substr(blank)))});
     at = close + 2;
   }
   pieces_.push_back(std::move(piece));

@@ -15,7 +15,7 @@ Status stress_differences(const Material& material, std::size_t layer, double ct
   const double cr = 1 / (ct * cz);
   std::array<double, Material::firsts> W{};
   const std::array<double, 4> C{ct, cz, cr, 0};
-  const Status status = material.evaluate_layer(layer, 1, C, W);
+  Status status = material.evaluate_layer(layer, 1, C, W);
   tangential = 2 * (ct * W[0] - cr * W[2]);
   axial = 2 * (cz * W[1] - cr * W[2]);
   return status;
@@ -38,8 +38,8 @@ Status long_tube(const thick_wall::Wall& wall, const Material& material, double 
     for (int k = 0; k <= intervals; ++k) {
       const double R = from + k * h, r2 = outer * outer - (end * end - R * R) / (wall.K * stretch);
       double t = 0, z = 0;
-      const Status status = stress_differences(material, material.layer_count() == 1 ? 0 : layer,
-                                               wall.K * wall.K * r2 / (R * R), stretch * stretch, t, z);
+      Status status = stress_differences(material, material.layer_count() == 1 ? 0 : layer,
+                                         wall.K * wall.K * r2 / (R * R), stretch * stretch, t, z);
       if (!status.ok()) return status;
       const double weight = wall.factor(layer) *
                             (k == 0 || k == intervals ? 1

@@ -31,7 +31,7 @@ bool Dissection::small(const Mesh& mesh, const Part& part) {
 /// Across the longer side.
 std::array<Dissection::Part, 2> Dissection::halves(const Part& part) {
   std::array<Part, 2> two{part, part};
-  if (part.right - part.left >= part.high - part.low) {
+  if (part.right - part.left >= part.high - part.low) {  // NOLINT(bugprone-branch-clone): they differ
     two[0].right = two[1].left = (part.left + part.right) / 2;
     two[0].cut_right = two[1].cut_left = true;
   } else {

@@ -163,11 +163,11 @@ Status Material::respond(const Layer& layer, const Call& call) const {
   if (call.first.empty() && call.second.empty() && call.first_dp.empty()) return {};
   std::vector<double>& by = scratch().gradient_dp;
   if (!call.first_dp.empty()) by.resize(3 * count * n);
-  const Status status = layer.model->evaluate_axes({n, call.C.first(3 * n), layer.parameters},
-                                                   {{},
-                                                    call.first.empty() ? call.first : call.first.first(3 * n),
-                                                    call.second.empty() ? call.second : call.second.first(6 * n),
-                                                    call.first_dp.empty() ? std::span<double>() : std::span(by)});
+  Status status = layer.model->evaluate_axes({n, call.C.first(3 * n), layer.parameters},
+                                             {{},
+                                              call.first.empty() ? call.first : call.first.first(3 * n),
+                                              call.second.empty() ? call.second : call.second.first(6 * n),
+                                              call.first_dp.empty() ? std::span<double>() : std::span(by)});
   for (std::size_t j = 0; j < (call.first_dp.empty() ? 0 : count); ++j) {
     std::copy_n(by.begin() + static_cast<std::ptrdiff_t>(3 * j * n), 3 * n,
                 call.first_dp.begin() + static_cast<std::ptrdiff_t>(4 * j * n));
@@ -188,8 +188,8 @@ Status Material::on_tensors(const Layer& layer, const Call& call) const {
               my.tensors.begin() + static_cast<std::ptrdiff_t>(4 * n));
   const bool timed = history_ != nullptr && history_->timed && layer.model->describe().history_size > 0;
   my.time_steps.assign(timed ? n : 0, timed ? history_->time_step : 0);
-  const Status status = layer.model->evaluate({n, my.tensors, layer.parameters, my.time_steps, call.old_state},
-                                              {call.energy, my.stress, my.tangent, my.stress_dp, call.new_state});
+  Status status = layer.model->evaluate({n, my.tensors, layer.parameters, my.time_steps, call.old_state},
+                                        {call.energy, my.stress, my.tangent, my.stress_dp, call.new_state});
   if (!status.ok()) return status;
 
   // δW = ½ S : δC: ∂W/∂C_aa = S_aa/2 on the diagonal, ∂W/∂s = S_zr

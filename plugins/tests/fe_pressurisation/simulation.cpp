@@ -120,7 +120,7 @@ Status Simulation::line(Path& path, const Path::Mark& trunk, std::span<const Loa
   std::array<double, 3> errors = {};
   for (std::size_t points = first_points; points <= most_points; points = 2 * points - 1) {
     if (10 * (nodes.empty() ? points : points - nodes.size()) >= 7 * pressures.size()) break;
-    const Status status = interpolated(path, trunk, loads, rows, points, nodes, samples, failed_at, errors);
+    Status status = interpolated(path, trunk, loads, rows, points, nodes, samples, failed_at, errors);
     const double error = largest_of(errors);
     if (!status.ok() || error <= 1) return status;
     if (Status back = path.return_to(trunk); !back.ok()) return back;
@@ -160,7 +160,7 @@ Status Simulation::interpolated(Path& path, const Path::Mark& trunk, std::span<c
   for (std::size_t k = 0; k < known.size(); ++k) nodes[2 * k] = known[k];
   const auto solve = [&](std::size_t k) {
     if (!known.empty() && k % 2 == 0) return Status();
-    const Status status = take(path, {trunk.load.stretch, at[k]}, nodes[k]);
+    Status status = take(path, {trunk.load.stretch, at[k]}, nodes[k]);
     if (status.ok()) return status;
     // The next row on this side of zero that was not reached.
     const auto beyond = [&](std::size_t i) {

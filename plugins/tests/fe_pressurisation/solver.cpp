@@ -213,7 +213,7 @@ double Solver::volume(const State& state) const {
 
 Status Solver::solve_volume(double volume, Load& load, State& state) {
   const double gamma = system_.gamma;
-  const Status status = iterate_volume(volume, load, state);
+  Status status = iterate_volume(volume, load, state);
   if (status.ok()) note_support(state);
   if (!status.ok()) {
     system_.gamma = gamma;

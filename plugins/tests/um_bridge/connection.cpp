@@ -32,7 +32,7 @@ Json Connection::ask(const std::string& path, const Json* request) const {
     throw std::runtime_error(
         fmt::format("{}{} cannot be reached, or broke off ({}); start the server, or correct \"url\"", url_, path,
                     httplib::to_string(result.error())));
-  const Json answer = Json::parse(result->body, nullptr, false);
+  Json answer = Json::parse(result->body, nullptr, false);
   if (answer.is_object() && answer.contains("error")) {
     const Json& error = answer["error"];
     throw std::runtime_error(fmt::format("{}{} answered: {}", url_, path,

@@ -13,9 +13,11 @@
 #include "tunica/plugin.hpp"
 
 namespace tunica::um_bridge {
-namespace {
 
 using Json = nlohmann::json;
+
+namespace {
+
 using Vectors = Connection::Vectors;
 
 /// A parameter of the model at a place of the server's inputs.
@@ -101,7 +103,7 @@ class Served final : public Test {
         if (!lists[v][place].is_string()) throw InputError(form);
         const auto text = lists[v][place].get<std::string>();
         const std::size_t blank = text.find(' ');
-        inputs_.push_back({text.substr(0, blank), blank == text.npos ? "" : text.substr(blank + 1), v, place});
+        inputs_.push_back({text.substr(0, blank), blank == std::string::npos ? "" : text.substr(blank + 1), v, place});
         reads.push_back(inputs_.back().name);
       }
     }

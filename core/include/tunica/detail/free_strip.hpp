@@ -90,7 +90,7 @@ class Batch {
       c2[i] = u[i];
       c3[i] = 1 / (c1[i] * u[i]);
     }
-    const Status status =
+    Status status =
         pull_.model.evaluate_axes({n_, {s_.c.data(), 3 * n_}, pull_.parameters},
                                   {{},
                                    {s_.gradient.data(), 3 * n_},

@@ -34,15 +34,15 @@ template <std::size_t width>
 struct VectorOf;
 template <>
 struct VectorOf<2> {
-  typedef double Type __attribute__((vector_size(16)));
+  using Type = double __attribute__((vector_size(16)));
 };
 template <>
 struct VectorOf<4> {
-  typedef double Type __attribute__((vector_size(32)));
+  using Type = double __attribute__((vector_size(32)));
 };
 template <>
 struct VectorOf<8> {
-  typedef double Type __attribute__((vector_size(64)));
+  using Type = double __attribute__((vector_size(64)));
 };
 
 #ifdef TUNICA_LIBMVEC_

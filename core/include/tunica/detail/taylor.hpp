@@ -261,13 +261,13 @@ struct Taylor {
     const Number h = hypot(f.value, g.value), a = f.value / h, b = g.value / h;
     return f.through(g, h, a, b, b * b / h, -a * b / h, a * a / h);
   }
-  friend Taylor atan2(const Taylor& y, const Taylor& x) {
+  friend Taylor atan2(const Taylor& f, const Taylor& g) {
     using std::atan2;
-    const Number q = 1 / (x.value * x.value + y.value * y.value), a = x.value * q, b = y.value * q;
-    return y.through(x, atan2(y.value, x.value), a, -b, -2 * a * b, b * b - a * a, 2 * a * b);
+    const Number q = 1 / (g.value * g.value + f.value * f.value), a = g.value * q, b = f.value * q;
+    return f.through(g, atan2(f.value, g.value), a, -b, -2 * a * b, b * b - a * a, 2 * a * b);
   }
-  friend Taylor atan2(const Taylor& y, Given x) { return atan2(y, Taylor(x)); }
-  friend Taylor atan2(Given y, const Taylor& x) { return atan2(Taylor(y), x); }
+  friend Taylor atan2(const Taylor& f, Given s) { return atan2(f, Taylor(s)); }
+  friend Taylor atan2(Given s, const Taylor& f) { return atan2(Taylor(s), f); }
 
   /// The powers 0 and 1 are smooth at f = 0 too.
   friend Taylor pow(const Taylor& f, Given g) {

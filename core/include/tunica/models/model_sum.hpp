@@ -22,7 +22,8 @@ class ModelSum final : public Model {
  public:
   /// `own` are the parameters of `added` as the mechanism calls them. `added` has principal axes. A null that is not a
   /// number is never met.
-  ModelSum(std::shared_ptr<const Model> base, std::vector<Parameter> own, double null, std::unique_ptr<Model> added)
+  ModelSum(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, double null,
+           std::unique_ptr<Model> added)
       : base_(std::move(base)),
         added_(std::move(added)),
         count_(base_->describe().parameters.size()),

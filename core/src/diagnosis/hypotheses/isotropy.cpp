@@ -9,18 +9,17 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr int places[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
 constexpr double rounding = 1e-7;
 
 Eigen::Matrix3d tensor(const std::vector<double>& components, std::size_t n, std::size_t i) {
   Eigen::Matrix3d T;
-  for (std::size_t c = 0; c < 6; ++c)
-    T(places[c][0], places[c][1]) = T(places[c][1], places[c][0]) = components[c * n + i];
+  for (std::size_t c = 0; c < 6; ++c) T(voigt[c][0], voigt[c][1]) = T(voigt[c][1], voigt[c][0]) = components[c * n + i];
   return T;
 }
 
 void store(const Eigen::Matrix3d& T, std::vector<double>& components, std::size_t n, std::size_t i) {
-  for (std::size_t c = 0; c < 6; ++c) components[c * n + i] = T(places[c][0], places[c][1]);
+  for (std::size_t c = 0; c < 6; ++c) components[c * n + i] = T(voigt[c][0], voigt[c][1]);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "diagnosis/naming/intervals.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -47,7 +48,7 @@ Explanation with_refitted_intervals(const Inquiry& inquiry, const Analysis& anal
     for (const auto& free : found) values.push_back(free[index]);
     std::sort(values.begin(), values.end());
     const auto at = [&](double share) {
-      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+      return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
     };
     Cause& cause = claim.causes[a];
     cause.amplitude.low = at(0.025);

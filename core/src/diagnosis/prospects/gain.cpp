@@ -48,10 +48,11 @@ std::vector<Block> blocks_of(const Evidence& evidence) {
     for (const std::string& test : tests)
       leave_out("test " + test, [&](const Curve& curve, std::size_t) { return curve.test == test; });
   if (types.size() > 1)
-    for (const auto& [type, count] : types)
-      if (count > 1)
-        leave_out("protocol " + type,
-                  [&](const Curve& curve, std::size_t) { return evidence.experiment.test(curve.test).type == type; });
+    for (const auto& entry : types)
+      if (entry.second > 1)
+        leave_out("protocol " + entry.first, [&](const Curve& curve, std::size_t) {
+          return evidence.experiment.test(curve.test).type == entry.first;
+        });
   leave_out("beyond 70 % of the range", [](const Curve& curve, std::size_t i) {
     const auto [low, high] = std::minmax_element(curve.abscissa.begin(), curve.abscissa.end());
     return curve.abscissa[i] > *low + extrapolated_from * (*high - *low);

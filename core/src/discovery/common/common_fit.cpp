@@ -106,7 +106,10 @@ std::optional<CommonFit> CommonFitter::grown(const CommonFit& from, const KindPo
       fit = fitters_[s]->grown(smaller, of_specimen, alone ? worth : -INFINITY);
     if (alone && !fit) return std::nullopt;
     const bool shows = fit && (alone || data_evidence(*fit, from_nothing_) > data_evidence(smaller, from_nothing_));
-    larger.specimens.push_back(shows ? std::move(*fit) : smaller);
+    if (shows)
+      larger.specimens.push_back(std::move(*fit));
+    else
+      larger.specimens.push_back(smaller);
   }
   return weighed(std::move(larger));
 }

@@ -29,7 +29,7 @@ std::vector<Rival> common_rivals(const std::vector<std::vector<Rival>>& of_speci
       const SetFit& root = base.specimens[s];
       double evidence = data_evidence(root, false), chi2 = root.chi2();
       const auto own = std::find_if(of_specimens[s].begin(), of_specimens[s].end(),
-                                    [&](const Rival& rival) { return rival.id == first.id; });
+                                    [&first = first](const Rival& rival) { return rival.id == first.id; });
       const bool shows = own != of_specimens[s].end() && own->log_evidence - own->log_prior > evidence;
       if (shows) {
         evidence = own->log_evidence - own->log_prior;
