@@ -131,7 +131,7 @@ void add_wrapped(Jobs& jobs, Finding head, const std::vector<PropertyOf<Subject>
   std::vector<Choices> all = other_choices(declared);
   all.insert(all.begin(), Choices{});
   for (const Choices& choices : all) {
-    const Verdict able = isolated(
+    Verdict able = isolated(
         [&]() -> Verdict {
           try {
             static_cast<void>(wrap(choices));
@@ -145,7 +145,7 @@ void add_wrapped(Jobs& jobs, Finding head, const std::vector<PropertyOf<Subject>
         context.settings.time_limit);
     head.with = choices.empty() ? on : fmt::format("{}{}with {}", on, on.empty() ? "" : ", ", words_of(choices));
     if (!able.held()) {
-      add(jobs, head, properties.front().name, [able]() -> Verdict { return Verdict(able); });
+      add(jobs, head, properties.front().name, [able] { return able; });
       if (choices.empty()) return;  // then no choice helps
       continue;
     }

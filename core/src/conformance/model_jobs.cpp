@@ -38,7 +38,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
   const std::string what = "each word that an option may have with what is made with it";
   for (const Choices& choices : all) {
     // In a process of its own first: what a wrong factory does is not known yet.
-    const Verdict able = isolated(
+    Verdict able = isolated(
         [&]() -> Verdict {
           try {
             make(choices);
@@ -49,7 +49,7 @@ void add_choices(Jobs& jobs, Finding head, const std::vector<Option>& declared, 
         },
         context.settings.time_limit);
     head.with = "with " + words_of(choices);
-    if (!able.counter_example.empty()) add(jobs, head, choices_property, [able]() -> Verdict { return Verdict(able); });
+    if (!able.counter_example.empty()) add(jobs, head, choices_property, [able] { return able; });
     if (!able.held()) continue;
     seen.insert(choices.begin(), choices.end());
     ++made;

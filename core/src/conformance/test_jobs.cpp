@@ -115,10 +115,10 @@ void add_choices(Jobs& jobs, Finding head, const plugins::Catalogue::Entry<TestF
   if (base.from->choices.empty()) return;
   const std::uint64_t seed = context.settings.seed;
   // In a process of its own first, as above.
-  const Verdict able =
+  Verdict able =
       isolated([&] { return able_to([&] { choice_cases(entry, base, seed); }); }, context.settings.time_limit);
   constexpr const char* property_name = "every_choice_is_exercised";
-  if (!able.held()) return add(jobs, head, property_name, [able]() -> Verdict { return Verdict(able); });
+  if (!able.held()) return add(jobs, head, property_name, [able] { return able; });
   const auto choices = std::make_shared<const ChoiceCases>(choice_cases(entry, base, seed));
   add(jobs, head, property_name, [choices] { return choices_are_exercised(*choices); });
   for (const TestCase& test_case : choices->cases) {
@@ -148,10 +148,9 @@ Jobs test_jobs(const std::string& type, const CheckContext& context) {
       cases.push_back(std::make_shared<const TestCase>(std::move(test_case)));
   } else {
     // First in a process of its own: what a wrong test does while it is made and asked is not known yet.
-    const Verdict able =
-        isolated([&] { return able_to([&] { synthetic_case(entry, seed); }); }, context.settings.time_limit);
+    Verdict able = isolated([&] { return able_to([&] { synthetic_case(entry, seed); }); }, context.settings.time_limit);
     if (!able.counter_example.empty()) {
-      add(jobs, head, "predictions_are_numbers", [able]() -> Verdict { return Verdict(able); });
+      add(jobs, head, "predictions_are_numbers", [able] { return able; });
       return jobs;
     }
     why = able.skipped;
