@@ -333,7 +333,7 @@ void Oracle::evaluate_best(std::span<const double> xs, std::size_t best, std::sp
     while (replayed < count && replay(xs.subspan(replayed * n, n), call.first + replayed)) ++replayed;
     if (replayed < count) {
       call.size = keep(replayed, evaluate_lowest(xs, best, replayed));
-      if (call.size < count) static_cast<void>(should_stop());
+      if (call.size < count) static_cast<void>(should_stop());  // notes why, for the refusals
       count = call.size;
     }
     const double now = replayed < count ? shared_.watch.seconds() : 0;

@@ -141,7 +141,7 @@ class Oracle {
  private:
   Status evaluate_at(std::span<const double> x, std::size_t slot, std::span<double> residuals,
                      std::span<double> jacobian, assembly::Workspace& workspace, bool bound_only = false);
-  /// Evaluates the slots side by side; returns of how many of the points, in order, nothing was begun when time was up.
+  /// Evaluates the points side by side. Returns how many of them, in order, are known then: all, unless is_over().
   std::size_t evaluate_slots(std::span<const double> xs, std::size_t first, std::span<const std::size_t> points,
                              bool bound_only);
   /// Simulates what early_ asks for; the first `replayed` points of the batch the journal knows.
