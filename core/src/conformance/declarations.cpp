@@ -15,7 +15,7 @@
 namespace tunica::conformance {
 namespace {
 
-constexpr const char* declared = "names, units, bounds, defaults and documentation with what tunica needs of them";
+constexpr const char* demanded = "names, units, bounds, defaults and documentation with what tunica needs of them";
 
 bool plain(const std::string& name) {
   return !name.empty() &&
@@ -90,7 +90,7 @@ std::string flaw_of_all(const List& list) {
 }
 
 Verdict verdict(std::string flaw) {
-  Verdict found{.compared = declared};
+  Verdict found{.compared = demanded};
   found.counter_example = std::move(flaw);
   return found;
 }
