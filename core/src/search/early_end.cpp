@@ -27,10 +27,14 @@ void EarlyEnd::begin(std::size_t best) {
   lowest_ = Lowest(best_);
 }
 
+bool EarlyEnd::is_complete() const {
+  // Of fewer points the best-th lowest is higher, so that nothing is left out too early.
+  return taken_ == order_.size() || !lowest_.admits(order_[taken_].first);
+}
+
 std::optional<EarlyEnd::Taken> EarlyEnd::take() {
   const std::lock_guard lock(mutex_);
-  // Of fewer points the best-th lowest is higher, so that nothing is left out too early.
-  if (taken_ == order_.size() || !lowest_.admits(order_[taken_].first)) return std::nullopt;
+  if (is_complete()) return std::nullopt;
   const std::size_t place = taken_++;
   return Taken{order_[place].second, place};
 }

@@ -37,6 +37,8 @@ class EarlyEnd {
   /// What the simulation gave; nothing where it failed or the point is infeasible.
   void found(Taken taken, std::optional<double> objective);
 
+  /// Once no thread simulates: whether the rest cannot be among the lowest. Else the work was ended before.
+  [[nodiscard]] bool is_complete() const;
   /// Once no thread simulates: the points that cannot be among the lowest; the first `needless` of them were taken.
   std::span<const std::size_t> left();
   [[nodiscard]] std::size_t needless() const { return needless_; }

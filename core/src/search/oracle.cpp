@@ -306,7 +306,7 @@ std::size_t Oracle::evaluate_lowest(std::span<const double> xs, std::size_t best
   std::copy(statuses.begin(), statuses.end(), made.statuses.begin() + first);
   early_.begin(best);
   simulate_early(xs, call, replayed);
-  if (broken_off(early_.take().has_value())) return replayed;
+  if (broken_off(!early_.is_complete())) return replayed;
   const auto left = early_.left();
   for (const std::size_t k : left) made.ended_early[call.first + k] = 1;
   for (const std::size_t k : left.first(early_.needless())) {  // what is written of them is their bound
