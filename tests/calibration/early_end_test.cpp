@@ -2,9 +2,12 @@
 #include "search/early_end.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,6 +105,7 @@ class EarlyEndOfEvaluations : public testing::Test {
     fakes::set_behaviour([this](double a, std::span<double> values, Status& status) {
       if (values.size() != 3) return;
       ++simulations_;
+      std::this_thread::sleep_for(takes_);
       if (a > fails_above_) status = Status::failed("the simulation broke down");
     });
   }
@@ -123,6 +127,8 @@ class EarlyEndOfEvaluations : public testing::Test {
     settings.end_early = early;
     settings.replay = replay;
     settings.on_failure = on_failure;
+    settings.stop.max_time = max_time_;
+    settings.interrupted = [this] { return simulations_ >= ends_after_; };
     CalibrationProblem problem(assembly, std::move(settings));
     std::mt19937_64 generator(3);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -150,6 +156,9 @@ class EarlyEndOfEvaluations : public testing::Test {
   Bench bench_;
   std::atomic<int> simulations_ = 0;
   double fails_above_ = 1e300;
+  int ends_after_ = 1'000'000;  ///< simulations, after which a person ends the work
+  std::chrono::milliseconds takes_{0};
+  std::optional<double> max_time_;
 };
 
 TEST_F(EarlyEndOfEvaluations, RanksAndBestPointStayTheSame) {
@@ -203,6 +212,37 @@ TEST_F(EarlyEndOfEvaluations, AJournalCutAnywhereIsContinuedToTheSameRows) {
     EXPECT_LE(resumed.simulations, whole.simulations);
   }
   EXPECT_EQ(run(true, 1, recording.replay(whole.lines.size())).simulations, 0);
+}
+
+TEST_F(EarlyEndOfEvaluations, WhatAPersonEndsAnywhereIsContinuedToTheSameRows) {
+  const Outcome whole = run(true);
+  for (const unsigned threads : {1, 2})
+    for (int simulations = 1; simulations < whole.simulations; ++simulations) {
+      ends_after_ = simulations;
+      const Recording ended{run(true, threads).lines};
+      ends_after_ = 1'000'000;
+      // Two threads may both be in their last simulation.
+      ASSERT_LE(ended.lines.size() + (threads == 1 ? 1 : 0), whole.lines.size()) << simulations;
+      EXPECT_TRUE(std::equal(ended.lines.begin(), ended.lines.end(), whole.lines.begin())) << simulations;
+      EXPECT_EQ(run(true, threads, ended.replay(ended.lines.size())).lines, whole.lines) << simulations;
+    }
+}
+
+TEST_F(EarlyEndOfEvaluations, PointsThatTimeLeavesNoSimulationForHaveTheirBound) {
+  const Outcome whole = run(true);
+  takes_ = std::chrono::milliseconds(20);
+  max_time_ = 0.03;
+  const Outcome early = run(true);
+  EXPECT_LE(early.simulations, 2);  // none begins after its time
+  EXPECT_EQ(early.tally.simulated, static_cast<std::uint64_t>(early.simulations));
+  ASSERT_LE(early.lines.size(), batch);
+  for (const Line& line : early.lines) {
+    if (line.ended_early) {
+      EXPECT_EQ(line.objective, line.per_test[1]);
+    } else {
+      EXPECT_EQ(line, whole.lines[line.index]);
+    }
+  }
 }
 
 TEST_F(EarlyEndOfEvaluations, PoliciesThatLookAtFailuresSimulateEverything) {
