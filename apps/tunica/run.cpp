@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "exit_codes.hpp"
 #include "fresh_process.hpp"
 #include "messages.hpp"
+#include "stages.hpp"
 #include "supervisor.hpp"
 #include "text/aside.hpp"
 #include "text/lists.hpp"
@@ -33,6 +35,9 @@
 namespace tunica::app {
 
 namespace {
+
+/// Work after the searches that takes no longer needs no words.
+constexpr auto patience = std::chrono::seconds(2);
 
 struct RunOptions {
   std::string file, directory, share;
@@ -170,7 +175,14 @@ int run(const GlobalOptions& global, const RunOptions& asked) {
   auto experiment = session.read(options.file);
   check_names(options.overrides.profiles);
   calibration::apply(options.overrides, experiment);
-  const auto outcome = calibration::calibrate(experiment, session.catalogue(), options_of(global, options, session));
+  auto how = options_of(global, options, session);
+  std::optional<Stages> stages;
+  how.concluding = [&](const std::string& what) {
+    if (!stages) stages.emplace(global.quiet, patience);
+    stages->tell("after the searches: " + what, {});
+  };
+  const auto outcome = calibration::calibrate(experiment, session.catalogue(), how);
+  stages.reset();
   switch (outcome.ending) {
     case calibration::Outcome::Ending::write_failure:
       say_error(fmt::format("{}. Then go on with\n  {}", outcome.write_failure,

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -11,27 +12,30 @@
 
 namespace tunica::app {
 
-/// What a diagnosis is doing, on stderr: on a terminal one line that is redrawn, with the time it took and about takes
-/// on; elsewhere a plain line a stage. Any thread may tell it.
+/// What long work is doing, on stderr: on a terminal one line that is redrawn, with the time it took and about takes
+/// on; elsewhere a plain line a stage. Any thread may tell it. Work that ends within `patience` says nothing.
 class Stages {
  public:
-  explicit Stages(bool quiet);
+  using Clock = std::chrono::steady_clock;
+  explicit Stages(bool quiet, Clock::duration patience = {});
   ~Stages();
   Stages(const Stages&) = delete;
   Stages& operator=(const Stages&) = delete;
-  void tell(const std::string& what, double share);
+  /// `share` of the whole that is done, from 0 to 1; none where nobody can know it.
+  void tell(const std::string& what, std::optional<double> share);
 
  private:
-  void draw() const;  // with the mutex held
-  using Clock = std::chrono::steady_clock;
+  void draw();  // with the mutex held
+  [[nodiscard]] double seconds() const;
   const text::Terminal terminal_;
   const text::StatusLine line_;
   const bool quiet_;
+  const Clock::duration patience_;
   const Clock::time_point begin_ = Clock::now();
   mutable std::mutex mutex_;
   std::condition_variable over_;
-  std::string what_;
-  double share_ = 0;
+  std::string what_, said_;  ///< the stage; the last one that has a plain line
+  std::optional<double> share_;
   bool ended_ = false;
   std::thread clock_;  ///< redraws while nothing is told
 };

@@ -36,6 +36,14 @@ Cause cause(const std::string& id) {
   return one;
 }
 
+TEST_F(DiagnosisJson, SaysWhereTheChanceIsABound) {
+  found.analysis.alarm.p_refits = 5e-4;
+  found.analysis.alarm.detection.p = 1e-6;
+  EXPECT_EQ(diagnosis_json(found).at("p_value_is_bound"), true);
+  found.analysis.alarm.detection.p = 5e-4;
+  EXPECT_FALSE(diagnosis_json(found).contains("p_value_is_bound"));
+}
+
 TEST_F(DiagnosisJson, HasTheVerdictWithItsReasonsAndLevels) {
   explanation.verdict = Verdict::indistinguishable;
   explanation.reasons = {{ReasonKind::at_bound, "one"}, {ReasonKind::not_clean, "two"}};
@@ -48,6 +56,7 @@ TEST_F(DiagnosisJson, HasTheVerdictWithItsReasonsAndLevels) {
   EXPECT_EQ(written["reason_codes"], json::array({"at_bound", "not_clean"}));
   EXPECT_EQ(written["alpha"], 0.02);
   EXPECT_EQ(written["p_value"], 0.25);
+  EXPECT_FALSE(written.contains("p_value_is_bound"));
   EXPECT_EQ(written["p_smooth"], found.analysis.alarm.detection.smooth);
   EXPECT_EQ(written["p_mechanisms"], found.analysis.alarm.detection.mechanisms);
   EXPECT_EQ(written["admissibility"], json({{"stable", nullptr}, {"where", nullptr}, {"remedy", nullptr}}));

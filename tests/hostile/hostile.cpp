@@ -3,6 +3,7 @@
 // material is a neo-Hookean solid, and honest below the shear modulus `from`.
 #include <array>
 #include <cfenv>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -85,6 +86,7 @@ void misbehave(const std::string& how) {
   if (how == "leaks") take(100'000);
   if (how == "allocates_without_end")
     for (;;) take(1'000'000);
+  if (how == "is_slow") std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (how == "loops")
     for (;;) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }

@@ -209,6 +209,15 @@ def what_is_left_for_the_end_of_the_process_disturbs_nothing():
         expect_others_as_ever(folder, how)
 
 
+def work_after_slow_searches_says_what_it_does():
+    folder, tunica = laboratory("slow", "is_slow", max_evaluations=3)
+    said = tunica("run", "experiment.json", "-o", "results")
+    expect("after the searches: " in said, f"nothing tells of the work after the searches:\n{said}")
+    folder, tunica = laboratory("quick")
+    said = tunica("run", "experiment.json", "-o", "results")
+    expect("after the searches: " not in said, f"a fit of milliseconds talks:\n{said}")
+
+
 def two_signals_end_what_hangs():
     for first, second in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGTERM)):
         folder, tunica = laboratory(f"signals_{first}_{second}", "loops")
@@ -257,7 +266,7 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluati
            resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
            what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
            what_is_left_for_the_end_of_the_process_disturbs_nothing,
-           two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
+           work_after_slow_searches_says_what_it_does, two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
            a_full_disk_at_the_other_end_is_told_and_harms_nothing]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

@@ -39,9 +39,17 @@ TEST(ResultFolder, WithoutResultsIsRefused) {
 TEST(ResultFolder, WithABrokenResultIsRefused) {
   const trial::Scratch scratch;
   scratch.write("result.json", "{\"name\": ");
-  EXPECT_THAT(refusal(scratch.path()), HasSubstr("is not JSON"));
+  EXPECT_THAT(refusal(scratch.path()), HasSubstr("is not JSON (parse error at line 1, column 10: "));
   scratch.write("result.json", "[1]");
   EXPECT_THAT(refusal(scratch.path()), HasSubstr("expected an object at the top"));
+}
+
+TEST(ResultFolder, OfAnotherFormatIsRefused) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"format": 2, "runs": []})");
+  EXPECT_THAT(refusal(scratch.path()), HasSubstr("\"format\" is 2, and this version of tunica reads 1"));
+  scratch.write("result.json", R"({"format": 1, "runs": []})");
+  EXPECT_NO_THROW(report::Folder{scratch.path()});
 }
 
 TEST(ResultFolder, NoFolderAtAllIsRefused) { EXPECT_THROW(report::report({}, "."), InputError); }

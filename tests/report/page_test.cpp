@@ -113,5 +113,8 @@ TEST(Figures, AreShortAndCountsAreWhole) {
   EXPECT_EQ(report::amount(2.5, "kPa"), "2.5 kPa");
   EXPECT_EQ(report::amount(2.5, "1"), "2.5");
   EXPECT_EQ(report::chance(1e-9), "p < 0.0001");
+  EXPECT_EQ(report::chance(5e-4), "p = 0.0005");
+  EXPECT_EQ(report::chance(5e-4, true), "p ≤ 0.0005");
+  EXPECT_EQ(report::chance(NAN, true), "–");
   EXPECT_EQ(report::share(0.5), "0.5");
 }

@@ -58,6 +58,14 @@ TEST(Message, IsShortWhateverItQuotes) {
   EXPECT_EQ(message("two\nlines \033"), "two\nlines \\x1b");
 }
 
+TEST(JsonProblem, IsSaidWithoutTheCodesOfTheLibrary) {
+  EXPECT_EQ(json_problem("[json.exception.parse_error.101] parse error at line 1, column 2: no"),
+            "parse error at line 1, column 2: no");
+  EXPECT_EQ(json_problem("another [a] b"), "another [a] b");
+  EXPECT_EQ(json_problem("[json.exception.broken"), "[json.exception.broken");
+  EXPECT_EQ(json_problem("last read: '\033'"), "last read: '\\x1b'");
+}
+
 TEST(PlainJson, EscapesWhatTheLibraryWritesRaw) {
   EXPECT_EQ(plain_json("{\n \"a\": \"\u202E\x7f\u0085λ\"\n}"), "{\n \"a\": \"\\u202e\\u007f\\u0085λ\"\n}");
 }

@@ -58,6 +58,8 @@ py::dict run(const Loaded& loaded, const Folder& directory, bool resume, unsigne
   options.threads = threads;
   options.refusals = loaded.refusals;
   options.told = told.function();
+  if (options.told)
+    options.concluding = [&options](const std::string& what) { options.told(1, "after the searches: " + what); };
   options.noticed = [](const std::string& sentence) {
     const py::gil_scoped_acquire held;
     py::module_::import("warnings").attr("warn")(sentence);

@@ -137,11 +137,13 @@ void write_tables_and_certify(const execution::Plan& plan, const std::vector<exe
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
-             unsigned threads, comparison::Summary& summary) {
-  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute(
-      [&] { comparison::analyse(plan, catalogue, directory, execution::InterruptWatch::interrupted, summary); });
+             const Options& options, comparison::Summary& summary) {
+  const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
+  tbb::task_arena arena(static_cast<int>(options.threads));
+  arena.execute([&] {
+    comparison::analyse(plan, catalogue, directory, execution::InterruptWatch::interrupted, options.concluding,
+                        summary);
+  });
 }
 
 /// From the searches to the results.
@@ -149,13 +151,14 @@ void conclude(const execution::Plan& plan, const std::vector<execution::RunResul
               const plugins::Catalogue& catalogue, const Options& options, Outcome& outcome) {
   const tbb::global_control budget(tbb::global_control::max_allowed_parallelism, options.threads);
   const execution::InterruptWatch watch;  // a full disk is an error to report here too, not a signal to die of
-  outcome.summary = comparison::summarise(plan, found, options.refusals);
+  outcome.summary = comparison::summarise(plan, found, options.refusals, options.concluding);
   outcome.provenance = comparison::provenance_of(plan);
   if (options.merge)  // the searches were others'
     if (auto level = execution::vector_level_of(outcome.directory); !level.empty())
       outcome.provenance.vector_level = std::move(level);
+  if (options.concluding) options.concluding("tables and certificate");
   write_tables_and_certify(plan, found, outcome.directory, options, outcome.summary);
-  analyse(plan, catalogue, outcome.directory, options.threads, outcome.summary);
+  analyse(plan, catalogue, outcome.directory, options, outcome.summary);
   if (execution::InterruptWatch::interrupted()) {
     outcome.ending = Outcome::Ending::interrupted;
     return;

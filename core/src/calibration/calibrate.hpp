@@ -37,6 +37,7 @@ struct Options {
   execution::Progress::Style progress = execution::Progress::Style::none;
   std::function<void(double share, const std::string& text)> told = {};  ///< see execution::RunSettings
   std::function<void(const std::string& sentence)> noticed = {};         ///< see execution::RunSettings
+  comparison::Told concluding = {};                                      ///< what is done after the searches
   std::vector<std::string> refusals = {};                                ///< of plugins, for the warnings
   /// Asks a fresh process about the best points that stand in the file of the folder.
   std::function<Certified(const std::filesystem::path& directory, const std::filesystem::path& points)> certify = {};

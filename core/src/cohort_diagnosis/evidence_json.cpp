@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort_diagnosis {
@@ -158,7 +159,7 @@ SpecimenEvidence evidence_from_json(const Json& json, const std::string& where) 
     throw InputError(
         fmt::format("{}: found {}, expected the evidence of a specimen as this version writes it. Use the file "
                     "that it wrote, or diagnose the specimen again",
-                    where, problem.what()));
+                    where, text::json_problem(problem.what())));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
@@ -114,8 +115,8 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
       runs.push_back(std::move(entry));
     }
   } catch (const json::exception& problem) {
-    throw InputError(
-        fmt::format("result.json cannot be understood: {}; make it again with `tunica run`", problem.what()));
+    throw InputError(fmt::format("result.json cannot be understood: {}; make it again with `tunica run`",
+                                 text::json_problem(problem.what())));
   }
   const json document = {{"runs", std::move(runs)}};
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';

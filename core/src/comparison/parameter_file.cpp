@@ -10,6 +10,7 @@
 #include "data/nearest.hpp"
 #include "data/units.hpp"
 #include "execution/files.hpp"
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
@@ -69,8 +70,8 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
       throw InputError(fmt::format("{}: is not a result.json, so it has no run '{}'; leave out --run", file, run));
     }
   } catch (const json::exception& problem) {
-    throw InputError(
-        fmt::format("{}: is neither a result.json nor an object {{name: value}}: {}", file, problem.what()));
+    throw InputError(fmt::format("{}: is neither a result.json nor an object {{name: value}}: {}", file,
+                                 text::json_problem(problem.what())));
   }
   if (!values.is_object())
     throw InputError(fmt::format("{}: found {}, expected an object {{name: value}}", file, values.type_name()));

@@ -158,15 +158,18 @@ std::vector<std::string> merge_sentences(const std::vector<RunSummary>& runs) {
 }  // namespace
 
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  const std::vector<std::string>& refusals) {
+                  const std::vector<std::string>& refusals, const Told& told) {
   Summary summary;
   summary.name = plan.experiment->name;
   std::vector<execution::Warning> mismatches;
-  for (std::size_t run = 0; run < plan.runs.size(); ++run)
+  for (std::size_t run = 0; run < plan.runs.size(); ++run) {
+    if (told) told(fmt::format("the best point of {}", plan.runs[run].label));
     summary.runs.push_back(summarise_run(*plan.experiment, plan.runs[run], results[run], mismatches));
+  }
   count_successes(plan, results, summary.runs);
   summary.ranking = rank(summary.runs);
   compare_information(summary.runs, summary.ranking);
+  if (told) told("stability");
   add_stability(plan, summary);
   summary.identifiability = merge_sentences(summary.runs);
   const auto add = [&](const execution::Warning& warning) {

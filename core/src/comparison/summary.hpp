@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -163,9 +164,12 @@ struct Summary {
   std::vector<std::string> identifiability;
 };
 
+/// Told what is being done, as "profiles of gho/lm": work after the searches can be long, too.
+using Told = std::function<void(const std::string& what)>;
+
 /// Evaluates the best points again, ranks, counts successes, and says what should not be overlooked. `refusals`: why
 /// plugins were refused; they go before the warnings of the plan and the data.
 Summary summarise(const execution::Plan& plan, const std::vector<execution::RunResult>& results,
-                  const std::vector<std::string>& refusals);
+                  const std::vector<std::string>& refusals, const Told& told = {});
 
 }  // namespace tunica::comparison

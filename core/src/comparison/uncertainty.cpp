@@ -96,7 +96,7 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
-             const std::function<bool()>& interrupted, Summary& summary) {
+             const std::function<bool()>& interrupted, const Told& told, Summary& summary) {
   const auto& analysis = plan.experiment->analysis;
   if (!analysis.wanted()) {
     for (auto& run : summary.runs) add_words(run);
@@ -117,6 +117,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     for (const auto& parameter : own.parameters) best.push_back(parameter.value);
     const std::uint64_t seed = derive_seed(run.seed, "analysis");
     if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
+      if (told) told("profiles of " + own.label);
       const auto likelihood = uncertainty::likelihood_at(assembly, best, optimizer, seed);
       if (!likelihood.centre.status.ok()) {
         own.uncertainty.push_back(
@@ -129,6 +130,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
       }
     }
     if (analysis.bootstrap_draws > 0) {
+      if (told) told("bootstrap of " + own.label);
       auto made = uncertainty::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
       for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
       add_bootstrap_words(assembly, made, own);

@@ -22,6 +22,6 @@ void check_analysis(const execution::Plan& plan, const plugins::Catalogue& catal
 /// Side by side within the threads of the calling arena, the same for any number of them. Once `interrupted` returns
 /// true it ends without writing.
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
-             const std::function<bool()>& interrupted, Summary& summary);
+             const std::function<bool()>& interrupted, const Told& told, Summary& summary);
 
 }  // namespace tunica::comparison

@@ -9,6 +9,7 @@
 #include "data/sha256.hpp"
 #include "execution/checksum.hpp"
 #include "execution/files.hpp"
+#include "text/escaped.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 #include "tunica/plugin.hpp"
@@ -208,8 +209,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
                         file.string(), checkpoint.finished.size() + checkpoint.damages.size() + 1));
     return checkpoint;
   } catch (const json::exception& problem) {
-    throw InputError(
-        fmt::format("{}: cannot be understood ({}); start anew with another -o", file.string(), problem.what()));
+    throw InputError(fmt::format("{}: cannot be understood ({}); start anew with another -o", file.string(),
+                                 text::json_problem(problem.what())));
   }
 }
 

@@ -218,9 +218,10 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
     const auto* parse_error = dynamic_cast<const nlohmann::json::parse_error*>(&error);
     const auto [line, column] =
         place_of(text_, parse_error != nullptr && parse_error->byte > 0 ? parse_error->byte - 1 : 0);
-    throw InputError(
-        fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(), line, column,
-                    excerpt(std::string_view(error.what()).substr(std::string_view(error.what()).find("] ") + 2))));
+    std::string said = text::json_problem(error.what());
+    if (said.starts_with("parse error at ")) said.erase(0, said.find(": ") + 2);  // the place is named already
+    throw InputError(fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(), line,
+                                 column, said));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "execution/files.hpp"
 #include "exporting/remarks.hpp"
 #include "report/pieces.hpp"
+#include "text/escaped.hpp"
 #include "text/lists.hpp"
 #include "tunica/error.hpp"
 
@@ -28,7 +29,8 @@ Json document(const std::filesystem::path& file) {
   try {
     return Json::parse(execution::read_text(file));
   } catch (const Json::exception& problem) {
-    throw InputError(fmt::format("{}: is not JSON ({}); run it again", file.string(), problem.what()));
+    throw InputError(
+        fmt::format("{}: is not JSON ({}); run it again", file.string(), text::json_problem(problem.what())));
   }
 }
 

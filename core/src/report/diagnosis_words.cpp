@@ -141,7 +141,8 @@ void add_verdict(Page& page, const Folder& folder) {
   for (const Json& cause : list(diagnosis, "causes")) causes.push_back(cause_words(cause));
   const double p = number(diagnosis, "p_value");
   std::vector<std::string> sure{fmt::format("Noise alone would look like this with {}. Below {} counts as detected.",
-                                            chance(p), figure(number(diagnosis, "alpha")))};
+                                            chance(p, member(diagnosis, "p_value_is_bound") == true),
+                                            figure(number(diagnosis, "alpha")))};
   if (const double after = number(diagnosis, "p_after"); std::isfinite(after)) {
     const std::string remainder = word(diagnosis, "remainder");
     sure.push_back(fmt::format("With the cause added, noise alone would leave this much with {}{}.", chance(after),

@@ -7,6 +7,7 @@
 
 #include "execution/files.hpp"
 #include "report/pieces.hpp"
+#include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::report {
@@ -37,10 +38,15 @@ void Folder::read_result(const std::filesystem::path& file) {
   try {
     result_ = Json::parse(execution::read_text(file));
   } catch (const Json::exception& reason) {
-    throw InputError(fmt::format("{}: is not JSON ({}); run it again", file.string(), reason.what()));
+    throw InputError(
+        fmt::format("{}: is not JSON ({}); run it again", file.string(), text::json_problem(reason.what())));
   }
   if (!result_.is_object())
     throw InputError(fmt::format("{}: expected an object at the top; run it again", file.string()));
+  if (const Json& format = member(result_, "format"); !format.is_null() && format != 1)
+    throw InputError(
+        fmt::format("{}: \"format\" is {}, and this version of tunica reads 1. Use the version that wrote it.",
+                    file.string(), text::excerpt(format.dump())));
 }
 
 std::string Folder::name() const {

@@ -55,7 +55,10 @@ std::string amount(double value, const std::string& unit) {
   return std::isfinite(value) ? figure(value) + text::unit_suffix(unit) : figure(value);
 }
 
-std::string chance(double p) { return std::isnan(p) ? "–" : p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
+std::string chance(double p, bool bound) {
+  if (std::isnan(p)) return "–";
+  return p < 1e-4 ? "p < 0.0001" : fmt::format("p {} {:.2g}", bound ? "≤" : "=", p);
+}
 
 std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
   return count == 1 ? "one " + one : fmt::format("{} {}", count, many);

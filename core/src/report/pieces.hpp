@@ -27,8 +27,8 @@ std::string figure(double value);
 std::string share(double p);
 /// "3.2 kPa"; nothing after numbers of unit 1.
 std::string amount(double value, const std::string& unit);
-/// "p = 0.03", "p < 0.0001".
-std::string chance(double p);
+/// "p = 0.03", "p < 0.0001"; "p ≤ 0.0005" of an upper bound.
+std::string chance(double p, bool bound = false);
 /// "one run", "3 runs".
 std::string count_of(std::size_t count, const std::string& one, const std::string& many);
 

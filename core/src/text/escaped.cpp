@@ -115,6 +115,12 @@ std::string message(std::string_view text) {
   return end < text.size() ? shown + "…" : shown;
 }
 
+std::string json_problem(std::string_view what) {
+  if (const auto end = what.find("] "); what.starts_with("[json.exception.") && end != what.npos)
+    what.remove_prefix(end + 2);
+  return excerpt(what, 300);
+}
+
 std::string plain_json(std::string json) {
   if (is_plain(json)) return json;
   std::string result;

@@ -27,6 +27,9 @@ std::string excerpt(std::string_view text, std::size_t limit = 60);
 /// cut short.
 std::string message(std::string_view text);
 
+/// What the JSON library says, `what` of its exception, without its codes: "parse error at line 1, column 2: …".
+std::string json_problem(std::string_view what);
+
 /// JSON text with \u escapes for what the library writes raw: DEL, C1 controls, marks of direction. The document stays
 /// the same.
 std::string plain_json(std::string json);

@@ -38,12 +38,12 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
-void StatusLine::draw(const std::string& line, double share) const {
+void StatusLine::draw(const std::string& line, std::optional<double> share) const {
   const std::size_t used = columns(line);
   std::string text = shortened(line, room());
-  if (used + 3 + shortest_bar <= room()) {
+  if (share && used + 3 + shortest_bar <= room()) {
     const std::size_t length = std::min(room() - used - 3, longest_bar);
-    const double full = std::clamp(share, 0.0, 1.0) * static_cast<double>(length);
+    const double full = std::clamp(*share, 0.0, 1.0) * static_cast<double>(length);
     const auto marks = static_cast<std::size_t>(std::lround(full));
     text = fmt::format("[{}{}{}{}] {}", terminal_.colours ? "\033[36m" : "", std::string(marks, '#'),
                        std::string(length - marks, '.'), terminal_.colours ? "\033[0m" : "", text);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace tunica::text {
@@ -22,8 +23,8 @@ std::string clock_text(double seconds);
 class StatusLine {
  public:
   explicit StatusLine(Terminal terminal) : terminal_(terminal) {}
-  /// `share` from 0 to 1 is how far it is.
-  void draw(const std::string& line, double share) const;
+  /// `share` from 0 to 1 is how far it is; without one there is no bar.
+  void draw(const std::string& line, std::optional<double> share) const;
   /// Takes it off the screen again.
   void clear() const;
   [[nodiscard]] std::size_t room() const { return terminal_.columns - 1; }  ///< columns for the line

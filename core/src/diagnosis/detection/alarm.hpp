@@ -20,6 +20,8 @@ struct Alarm {
   std::optional<double> factor;  ///< times the noise up to which the alarm stands
 
   [[nodiscard]] double p() const { return p_refits.value_or(detection.p); }
+  /// p() is an upper bound: so many refits cannot tell smaller ones apart.
+  [[nodiscard]] bool p_is_bound() const { return p_refits && detection.p < *p_refits && *p_refits < 0.001; }
 };
 
 Alarm alarm_of(const Inquiry& inquiry, const Evidence& evidence, const Hypotheses& hypotheses);

@@ -270,6 +270,7 @@ json diagnosis_json(const Diagnosis& d) {
                  {"ranking", ranking_json(explanation.ranking)},
                  {"confusable", confusable_json(analysis.hypotheses.candidates,
                                                 likeness(analysis.hypotheses, explanation.best_direction))}};
+  if (alarm.p_is_bound()) result["p_value_is_bound"] = true;
   if (claim.best) result["extension"] = extension_json(explanation);
   if (d.prospects.gain) result["gain"] = gain_json(*d.prospects.gain);
   if (!evidence.gross.empty()) result["left_out"] = gross_json(evidence.gross);

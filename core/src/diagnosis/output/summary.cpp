@@ -23,9 +23,7 @@ std::string factor_words(double factor) { return factor < 19 ? fmt::format("{:.3
 
 std::string p_words(const Alarm& alarm) {
   const double p = alarm.p();
-  // So many refits cannot tell smaller ones apart.
-  if (alarm.p_refits && alarm.detection.p < p && p >= 1e-4 && p < 0.001) return fmt::format("p ≤ {:.2g}", p);
-  return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p);
+  return p < 1e-4 ? "p < 0.0001" : fmt::format("p {} {:.2g}", alarm.p_is_bound() ? "≤" : "=", p);
 }
 
 std::string joined_reasons(const Explanation& explanation) {
