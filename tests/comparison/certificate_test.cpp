@@ -207,7 +207,8 @@ TEST(Certify, StatesADifferenceFromWhatWasRecorded) {
   auto changed = nlohmann::json::parse(ended.written);
   const double recorded = changed["runs"][0]["best"]["objective"];
   changed["runs"][0]["best"]["objective"] = recorded + 1;
-  comparison::add_certificates(comparison::certify(*ended.plan, changed.dump()), "", ended.summary);
+  EXPECT_TRUE(comparison::add_certificates(comparison::certify(*ended.plan, changed.dump()), "", ended.summary));
+  EXPECT_TRUE(ended.summary.runs[0].certificate.refuted());
   EXPECT_FALSE(ended.summary.runs[0].certificate.fresh->identical);
   EXPECT_DOUBLE_EQ(ended.summary.runs[0].certificate.fresh->difference, -1);
 }
@@ -226,9 +227,9 @@ TEST(Certify, RefusesAResultOfSomethingElse) {
 
 TEST(Certify, LeavesARunUncertifiedWhenTheAnswerIsMissing) {
   Ended ended({2, 1, 3});
-  comparison::add_certificates("", "it was ended by signal 9", ended.summary);
+  EXPECT_FALSE(comparison::add_certificates("", "it was ended by signal 9", ended.summary));
   EXPECT_FALSE(ended.summary.runs[0].certificate.fresh);
   EXPECT_THAT(ended.summary.runs[0].certificate.sentence, HasSubstr("(it was ended by signal 9)"));
-  comparison::add_certificates("{\"runs\": []}", "", ended.summary);
+  EXPECT_FALSE(comparison::add_certificates("{\"runs\": []}", "", ended.summary));
   EXPECT_THAT(ended.summary.runs[0].certificate.sentence, HasSubstr("there is no run 'm/walk'"));
 }

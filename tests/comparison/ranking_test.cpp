@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 using namespace tunica;
+using comparison::CertificateVerdict;
 using comparison::RunSummary;
 
 namespace {
@@ -35,6 +36,21 @@ TEST(Ranking, NeverHidesARunWithoutAResult) {
   const auto ranking = comparison::rank({run("a", {}), run("a", 5, Status::infeasible("unstable", 1)), run("a", 9)});
   EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 1, 0));
   EXPECT_FALSE(ranking[2].rank);
+}
+
+TEST(Ranking, PutsWhatAFreshProcessRefutesBehindAllThatItDoesNot) {
+  std::vector<RunSummary> runs{run("a", 1), run("a", 2), run("a", 5, Status::infeasible("unstable", 1)), run("a", {})};
+  for (const auto verdict : {CertificateVerdict::failed, CertificateVerdict::objective_differs}) {
+    runs[0].certificate.verdict = verdict;
+    const auto ranking = comparison::rank(runs);
+    EXPECT_THAT(order(ranking), ::testing::ElementsAre(1, 2, 0, 3));
+    EXPECT_EQ(ranking[2].rank, 3u);
+  }
+  for (const auto verdict : {CertificateVerdict::not_checked, CertificateVerdict::not_an_optimum,
+                             CertificateVerdict::better_neighbour, CertificateVerdict::constraint_broken}) {
+    runs[0].certificate.verdict = verdict;
+    EXPECT_THAT(order(comparison::rank(runs)), ::testing::ElementsAre(0, 1, 2, 3));
+  }
 }
 
 TEST(Ranking, PutsTheLeastViolationFirstOfPointsThatBreakAConstraint) {

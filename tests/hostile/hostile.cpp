@@ -2,6 +2,7 @@
 // A material and a search that break every promise of their interfaces, one at a time, as the option "how" says. The
 // material is a neo-Hookean solid, and honest below the shear modulus `from`.
 #include <array>
+#include <atomic>
 #include <cfenv>
 #include <chrono>
 #include <cmath>
@@ -112,12 +113,21 @@ class HostileModel final : public Model {
   template <class Honest>
   Status act(double mu, bool tangent, std::span<double> wanted, const Honest& answer) const {
     if (mu < from_) return answer();
+    if (how_ == "tires") return tired(wanted, answer());
     if (how_ == "writes_nothing") return {};
     if (how_ == "writes_beyond") wanted.end()[0] = 1;
     if (how_ == "tangent_throws" && tangent) throw std::runtime_error("no tangent today");
     if (how_ == "tangent_throws_42" && tangent) throw 42;
     misbehave(how_);
     return answer();
+  }
+
+  /// Half of what is right, from the hundredth call of the process on.
+  static Status tired(std::span<double> wanted, Status status) {
+    static std::atomic<int> calls = 0;
+    if (++calls > 100)
+      for (double& value : wanted) value /= 2;
+    return status;
   }
 
   std::unique_ptr<Model> honest_;

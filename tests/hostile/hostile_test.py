@@ -209,6 +209,20 @@ def what_is_left_for_the_end_of_the_process_disturbs_nothing():
         expect_others_as_ever(folder, how)
 
 
+def what_a_fresh_process_refutes_is_no_result():
+    """The search has seen half the stress for nearly all of its calls; a fresh process sees the whole."""
+    folder, tunica = laboratory("refuted", "tires", search="es", max_evaluations=2000)
+    said = tunica("run", "experiment.json", "-o", "results", code=1)
+    expect("NOT CONFIRMED" in said.upper(), said)
+    bad, _ = outcome(folder)
+    expect(bad["best"]["certificate"]["verdict_code"] == "objective_differs", bad["best"]["certificate"])
+    ranking = json.loads((folder / "results/result.json").read_text(encoding="utf-8"))["ranking"]
+    expect([entry["run"] for entry in ranking] == ["good/lm", "bad/es"], ranking)
+    rows = (folder / "results/ranking.csv").read_text(encoding="utf-8").splitlines()
+    expect("good/lm" in rows[-2] and "bad/es" in rows[-1], rows)
+    expect_others_as_ever(folder, "refuted")
+
+
 def work_after_slow_searches_says_what_it_does():
     folder, tunica = laboratory("slow", "is_slow", max_evaluations=3)
     said = tunica("run", "experiment.json", "-o", "results")
@@ -266,7 +280,8 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluati
            resuming_afterwards_gives_the_same, a_search_that_misbehaves_costs_its_own_run,
            what_fails_before_the_work_is_an_error_that_names_the_plugin, max_time_holds_for_what_hangs,
            what_is_left_for_the_end_of_the_process_disturbs_nothing,
-           work_after_slow_searches_says_what_it_does, two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
+           what_a_fresh_process_refutes_is_no_result, work_after_slow_searches_says_what_it_does,
+           two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
            a_full_disk_at_the_other_end_is_told_and_harms_nothing]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

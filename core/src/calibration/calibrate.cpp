@@ -133,7 +133,8 @@ void write_tables_and_certify(const execution::Plan& plan, const std::vector<exe
                                 [&] { return certified(directory, options, summary); });
   write_tables(plan, results, directory, summary);
   const Certified found = certificate.get();
-  comparison::add_certificates(found.answer, found.missing, summary);
+  if (comparison::add_certificates(found.answer, found.missing, summary))
+    write_tables(plan, results, directory, summary);  // of another ranking
 }
 
 void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, const std::filesystem::path& directory,
@@ -184,7 +185,8 @@ void refuse_runs_without_data(const execution::Plan& plan) {
 
 bool Outcome::sound() const {
   return std::all_of(summary.runs.begin(), summary.runs.end(), [](const comparison::RunSummary& run) {
-    return run.has_result && run.status.kind() != Status::Kind::infeasible && run.given_up + run.faults == 0;
+    return run.has_result && run.status.kind() != Status::Kind::infeasible && run.given_up + run.faults == 0 &&
+           !run.certificate.refuted();
   });
 }
 

@@ -60,6 +60,11 @@ struct Certificate {
   bool ended_at_target = false;  ///< the search was not to go on to the optimum
   CertificateVerdict verdict = CertificateVerdict::not_checked;
   std::string sentence;  ///< empty until it is judged
+
+  /// A fresh process found no objective there, or another one.
+  [[nodiscard]] bool refuted() const {
+    return verdict == CertificateVerdict::failed || verdict == CertificateVerdict::objective_differs;
+  }
 };
 
 /// Fills in how many realisations end within 1e-3 (relative) of the best objective or, where the best one reached the

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "comparison/ranking.hpp"
 #include "text/escaped.hpp"
 #include "tunica/error.hpp"
 
@@ -122,8 +123,9 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
-void add_certificates(const std::string& certified, const std::string& missing, Summary& summary) {
+bool add_certificates(const std::string& certified, const std::string& missing, Summary& summary) {
   const json document = json::parse(certified, nullptr, false);
+  bool refuted = false;
   for (auto& run : summary.runs) {
     if (!run.has_result) continue;
     auto& certificate = run.certificate;
@@ -137,8 +139,14 @@ void add_certificates(const std::string& certified, const std::string& missing, 
       }
     }
     judge(certificate);
+    refuted = refuted || certificate.refuted();
     if (auto warning = certificate_warning(run.label, certificate)) summary.warnings.push_back(std::move(*warning));
   }
+  if (refuted) {
+    summary.ranking = rank(summary.runs);
+    compare_information(summary.runs, summary.ranking);
+  }
+  return refuted;
 }
 
 }  // namespace tunica::comparison

@@ -20,7 +20,8 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions = nullptr);
 
 /// Reads what certify() printed elsewhere into the certificates of the summary and words every verdict. A run that is
-/// not in it, or an empty text, is left without; `missing` then says why.
-void add_certificates(const std::string& certified, const std::string& missing, Summary& summary);
+/// not in it, or an empty text, is left without; `missing` then says why. True where an objective was not found again,
+/// and the ranking is another one for that.
+bool add_certificates(const std::string& certified, const std::string& missing, Summary& summary);
 
 }  // namespace tunica::comparison

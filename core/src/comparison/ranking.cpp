@@ -18,8 +18,12 @@ namespace {
 /// Multimodel Inference (2002), section 2.6).
 constexpr double hardly_supported = 4;
 
-/// 0: fits and keeps the constraints; 1: breaks one; 2: no result.
-int standing(const RunSummary& run) { return !run.has_result ? 2 : run.status.ok() ? 0 : 1; }
+/// 0: fits and keeps the constraints; 1: breaks one; 2: its objective was not found again; 3: no result.
+int standing(const RunSummary& run) {
+  if (!run.has_result) return 3;
+  if (run.certificate.refuted()) return 2;
+  return run.status.ok() ? 0 : 1;
+}
 
 }  // namespace
 

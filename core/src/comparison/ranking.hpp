@@ -17,7 +17,8 @@ std::string group_of(const experiment::RunEntry& run);
 bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& group);
 
 /// Within a group by objective, ties in the order of the file; where all its runs stop at one target by success rate,
-/// then by expected running time. Then the points that break a constraint, by violation; then runs without a result.
+/// then by expected running time. Then the points that break a constraint, by violation; then those whose objective a
+/// fresh process did not find again; then runs without a result.
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 
 /// Where runs of a group fit different models: AICc above the least of the group.
