@@ -35,7 +35,7 @@ LOGS = ROOT / "build/analysis"
 ENVIRONMENT = {  # a signal that a plugin dies of stays one, for the tests that look for it
     "asan": {"ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_string_checks=1:handle_segv=0",
              "UBSAN_OPTIONS": "print_stacktrace=1", "LSAN_OPTIONS": f"suppressions={ROOT}/cmake/lsan.supp:print_suppressions=0"},
-    "tsan": {"TSAN_OPTIONS": f"suppressions={ROOT}/cmake/tsan.supp:second_deadlock_stack=1"},
+    "tsan": {"TSAN_OPTIONS": f"suppressions={ROOT}/cmake/tsan.supp:second_deadlock_stack=1:handle_segv=0"},
 }
 
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <charconv>
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -12,11 +16,14 @@ namespace tunica::app {
 
 using Action = std::function<int()>;
 
-/// A seed on the command line; CLI11 by itself would wrap a negative one around.
+/// A seed on the command line; CLI11 by itself would wrap a negative one around, and take the largest for one beyond.
 inline CLI::Validator seed_number() {
   return {[](std::string& text) {
-            const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-            return digits ? std::string() : "a seed is a whole number from 0, not '" + text + "'";
+            std::uint64_t seed = 0;
+            const char* end = text.data() + text.size();
+            const auto [stop, problem] = std::from_chars(text.data(), end, seed);
+            if (stop == end && problem == std::errc()) return std::string();
+            return "a seed is a whole number from 0 to 18446744073709551615, not '" + text + "'";
           },
           ""};
 }

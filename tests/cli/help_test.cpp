@@ -88,7 +88,9 @@ TEST(Help, RefusesUnknownAndMissingArgumentsAndSaysWhereToReadOn) {
   EXPECT_THAT(refusal({"check", "x.json", "--plugn-path=a"}), HasSubstr("Did you mean '--plugin-path'?"));
   EXPECT_THAT(refusal({"check", "x.json", "y.json"}), HasSubstr("error: 'y.json' is one argument too many."));
   EXPECT_THAT(refusal({"run", "x.json", "-j", "0"}), HasSubstr("--threads: Value 0 not in range 1 to 1024."));
-  EXPECT_THAT(refusal({"run", "x.json", "--seed", "-1"}), HasSubstr("a seed is a whole number from 0, not '-1'"));
+  for (const std::string seed : {"-1", "18446744073709551616", "1.5", "7a"})
+    EXPECT_THAT(refusal({"run", "x.json", "--seed", seed}),
+                AllOf(HasSubstr("a seed is a whole number from 0 to"), HasSubstr("'" + seed + "'. ")));
   EXPECT_THAT(refusal({}), HasSubstr("error: a verb is missing: run, "));
   EXPECT_THAT(refusal({"completion", "fish"}), HasSubstr("there is no completion for 'fish'. "));
 }

@@ -58,6 +58,8 @@ TEST_F(Messages, NameMissingKeys) {
 TEST_F(Messages, NameWrongTypes) {
   expect_within(refusal(R"("seed": 7)", R"("seed": -7)"),
                 "found the number -7 where a whole number from 0 is expected (/seed, line 3");
+  expect_within(refusal(R"("seed": 7)", R"("seed": 18446744073709551616)"),
+                "where a whole number from 0 to 18446744073709551615 is expected (/seed, line 3");
   expect_within(refusal(R"("seed": 7)", R"("seed": "7")"),
                 "found the text '7' where a whole number from 0 is expected");
   expect_within(refusal(R"("name": "lamb-aorta")", R"("name": null)"), "found null where a name is expected (/name");
