@@ -116,7 +116,7 @@ std::string message(std::string_view text) {
 }
 
 std::string json_problem(std::string_view what) {
-  if (const auto end = what.find("] "); what.starts_with("[json.exception.") && end != what.npos)
+  if (const auto end = what.find("] "); what.starts_with("[json.exception.") && end != std::string_view::npos)
     what.remove_prefix(end + 2);
   return excerpt(what, 300);
 }
