@@ -134,7 +134,8 @@ def tidy(step):
     if step.run("cmake", "--preset", "dev", "-B", "build/tidy", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16"):
         return False, "cannot be configured"
     code = step.run("cmake", "--build", "build/tidy", "--target", "lint")
-    return code == 0, f"{len(re.findall(r'(?:error|warning): .*[[]', step.text()))} findings"
+    findings = re.findall(r"(?:error|warning): .*\[", step.text())
+    return code == 0, f"{len(findings)} findings"
 
 
 def cppcheck(step):

@@ -28,7 +28,7 @@ if(RUN_CLANG_TIDY)
   add_custom_target(lint
     COMMAND ${CMAKE_COMMAND} -E make_directory lint
     COMMAND sed ${foreign_options} compile_commands.json > lint/compile_commands.json
-    COMMAND ${RUN_CLANG_TIDY} -quiet -p lint -header-filter=${sources} -extra-arg=-Wno-unknown-pragmas -checks=-bugprone-suspicious-include
+    COMMAND ${RUN_CLANG_TIDY} -quiet -p lint -header-filter=${sources} -extra-arg=-Wno-unknown-pragmas -extra-arg=-Wno-overlength-strings -checks=-bugprone-suspicious-include
       "(${PROJECT_SOURCE_DIR}|${CMAKE_BINARY_DIR})${sources}"
     WORKING_DIRECTORY ${CMAKE_BINARY_DIR} VERBATIM USES_TERMINAL COMMENT "clang-tidy over core, plugins and apps")
   add_dependencies(lint tunica_templates tunica_page)  # sources that are made

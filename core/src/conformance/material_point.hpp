@@ -13,8 +13,9 @@
 
 namespace tunica::conformance {
 
-using Tensor = std::array<double, 6>;  // tt, zz, rr, tz, zr, tr
-using Matrix = Eigen::Matrix3d;        // axes t, z, r
+using Tensor = std::array<double, 6>;
+inline constexpr std::array<const char*, 6> component_names{"tt", "zz", "rr", "tz", "zr", "tr"};
+using Matrix = Eigen::Matrix3d;  // axes t, z, r
 
 Tensor to_tensor(const Matrix& C);
 Matrix to_matrix(const Tensor& C);

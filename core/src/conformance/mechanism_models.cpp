@@ -14,19 +14,19 @@
 namespace tunica::conformance {
 namespace {
 
-constexpr std::size_t n = 40;
+constexpr std::size_t state_count = 40;
 constexpr OutputSelection no_derivatives{true, true, true, false, false};
 
 /// States at which the bare model is finite; no history yet.
 Batch states(const WrappedModel& on, std::uint64_t seed) {
   Sampler sampler(seed);
   Batch batch;
-  batch.count = n;
+  batch.count = state_count;
   batch.p = on.base;
-  batch.C.resize(6 * n);
-  for (std::size_t i = 0; i < n; ++i) {
+  batch.C.resize(6 * state_count);
+  for (std::size_t i = 0; i < state_count; ++i) {
     const Tensor C = sampler.right_cauchy_green();
-    for (std::size_t c = 0; c < 6; ++c) batch.C[c * n + i] = C[c];
+    for (std::size_t c = 0; c < 6; ++c) batch.C[c * state_count + i] = C[c];
   }
   return batch;
 }
@@ -40,9 +40,9 @@ std::vector<double> ask(const Model& model, Batch batch, std::vector<double> p, 
 std::vector<double> path(const Model& model, const Batch& there, const std::vector<double>& p) {
   Batch step = there;
   step.p = p;
-  step.time_step.assign(n, 1.0);
+  step.time_step.assign(state_count, 1.0);
   if (model.describe().history_size > 0) step.state = answers(model, step, {false, false, false, false, true});
-  for (std::size_t k = 0; k < step.C.size(); ++k) step.C[k] = 0.5 * (there.C[k] + (k < 3 * n ? 1 : 0));
+  for (std::size_t k = 0; k < step.C.size(); ++k) step.C[k] = 0.5 * (there.C[k] + (k < 3 * state_count ? 1 : 0));
   return answers(model, step, {false, true, false, false, false});
 }
 
@@ -144,12 +144,12 @@ Verdict derivative_at_the_null_matches_differences(const WrappedModel& on, std::
     return ask(*on.with, batch, on.at(mechanism.null + steps * h), {false, true, false, false, false});
   };
   const std::vector<double> all = ask(*on.with, batch, on.at(mechanism.null), {false, false, false, true, false});
-  const std::span<const double> exact = std::span(all).subspan(on.base.size() * 6 * n, 6 * n);
+  const std::span<const double> exact = std::span(all).subspan(on.base.size() * 6 * state_count, 6 * state_count);
   const std::vector<double> f0 = stress(0), f1 = stress(1), f2 = stress(2), f3 = stress(3), f4 = stress(4);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < state_count; ++i) {
     double scale = 1e-6;
-    for (std::size_t c = 0; c < 6; ++c) scale = std::max(scale, std::abs(exact[c * n + i]));
-    for (std::size_t k = i; k < 6 * n; k += n) {
+    for (std::size_t c = 0; c < 6; ++c) scale = std::max(scale, std::abs(exact[c * state_count + i]));
+    for (std::size_t k = i; k < 6 * state_count; k += state_count) {
       // Of fourth order, and what rounding of the stress leaves in it.
       const double difference = (-25 * f0[k] + 48 * f1[k] - 36 * f2[k] + 16 * f3[k] - 3 * f4[k]) / (12 * h);
       const double rounding = 1e-13 * std::abs(f0[k]) / h, off = std::abs(exact[k] - difference);
@@ -167,8 +167,8 @@ Verdict amplitude_has_an_effect(const WrappedModel& on, std::uint64_t seed) {
   const Batch batch = states(on, seed);
   if (same(path(*on.with, batch, on.at(on.mechanism.plausible_max)), path(*on.with, batch, on.at(on.mechanism.null))))
     return broken(compared,
-                  fmt::format("{} states answer the same at {} = {:g} and {:g}", n, on.mechanism.parameters[0].name,
-                              on.mechanism.plausible_max, on.mechanism.null));
+                  fmt::format("{} states answer the same at {} = {:g} and {:g}", state_count,
+                              on.mechanism.parameters[0].name, on.mechanism.plausible_max, on.mechanism.null));
   return {.compared = compared};
 }
 

@@ -10,8 +10,8 @@ Batch Batch::draw(const Model& model, Sampler& sampler, std::size_t n) {
   Batch batch;
   batch.count = n;
   batch.C.resize(6 * n);
-  const auto place = [&](std::size_t i, const Tensor& C) {
-    for (std::size_t c = 0; c < 6; ++c) batch.C[c * n + i] = C[c];
+  const auto place = [&](std::size_t i, const Tensor& at) {
+    for (std::size_t c = 0; c < 6; ++c) batch.C[c * n + i] = at[c];
   };
   Point first = sampler.point(model);
   batch.p = first.p;

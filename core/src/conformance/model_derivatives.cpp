@@ -18,7 +18,6 @@ constexpr double settled_below = 0.25 * derivative_tolerance;
 constexpr std::size_t settled_states = 20;
 /// First step in C; the last is 1/256 of it.
 constexpr double first_step = 1e-2;
-constexpr const char* component[] = {"tt", "zz", "rr", "tz", "zr", "tr"};
 
 /// compare(point, at) at states until there are enough at which it says that differences can see the derivative: not
 /// where the energy is too steep for them, next to a kink, or next to where it ends.
@@ -74,7 +73,8 @@ Verdict stress_is_the_gradient_of_the_energy(const Model& model, std::uint64_t s
     if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled_below * scale)) return false;
     for (std::size_t c = 0; c < 6; ++c)
       meter.see(std::abs(at.stress[c] - expected[c]) / scale, [&] {
-        return fmt::format("S_{} = {:.10g}, differences of W give {:.10g},", component[c], at.stress[c], expected[c]) +
+        return fmt::format("S_{} = {:.10g}, differences of W give {:.10g},", component_names[c], at.stress[c],
+                           expected[c]) +
                where(model, point);
       });
     return true;
@@ -98,8 +98,8 @@ Verdict tangent_is_the_derivative_of_the_stress(const Model& model, std::uint64_
     if (!(*std::max_element(uncertainty.begin(), uncertainty.end()) <= settled_below * scale)) return false;
     for (std::size_t k = 0; k < 36; ++k)
       meter.see(std::abs(at.tangent[k] - expected[k]) / scale, [&] {
-        return fmt::format("2 dS_{}/dC_{} = {:.10g}, differences of S give {:.10g},", component[k / 6],
-                           component[k % 6], at.tangent[k], expected[k]) +
+        return fmt::format("2 dS_{}/dC_{} = {:.10g}, differences of S give {:.10g},", component_names[k / 6],
+                           component_names[k % 6], at.tangent[k], expected[k]) +
                where(model, point);
       });
     return true;
@@ -117,8 +117,8 @@ Verdict tangent_has_its_symmetries(const Model& model, std::uint64_t seed) {
     for (std::size_t a = 0; a < 6; ++a)
       for (std::size_t b = 0; b < a; ++b)
         meter.see(std::abs(at.tangent[6 * a + b] - at.tangent[6 * b + a]) / scale, [&] {
-          return fmt::format("entry ({0}, {1}) is {2:.10g} and ({1}, {0}) is {3:.10g},", component[a], component[b],
-                             at.tangent[6 * a + b], at.tangent[6 * b + a]) +
+          return fmt::format("entry ({0}, {1}) is {2:.10g} and ({1}, {0}) is {3:.10g},", component_names[a],
+                             component_names[b], at.tangent[6 * a + b], at.tangent[6 * b + a]) +
                  where(model, point);
         });
   }
@@ -156,7 +156,7 @@ Verdict parameter_derivatives_match_differences(const Model& model, std::uint64_
     for (std::size_t j = 0; j < slopes.size(); ++j)
       for (std::size_t c = 0; c < 6; ++c)
         meter.see(std::abs(at.stress_dp[6 * j + c] - slopes[j][c].value) / scales[j], [&] {
-          return fmt::format("dS_{}/d{} = {:.10g}, differences give {:.10g},", component[c],
+          return fmt::format("dS_{}/d{} = {:.10g}, differences give {:.10g},", component_names[c],
                              description.parameters[j].name, at.stress_dp[6 * j + c], slopes[j][c].value) +
                  where(model, point);
         });

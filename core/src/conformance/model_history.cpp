@@ -67,7 +67,6 @@ Verdict history_begins_at_rest(const Model& model, std::uint64_t seed) {
 Verdict history_tangent_is_the_derivative_of_the_step(const Model& model, std::uint64_t seed) {
   Meter meter("2 dS/dC of a step from an old state with differences of S of that step", 1e-6);
   if (model.describe().history_size == 0) return not_checked(meter.verdict().compared, "the model has no history");
-  constexpr const char* component[] = {"tt", "zz", "rr", "tz", "zr", "tr"};
   Sampler sampler(seed);
   std::size_t settled = 0, all = 0;
   for (const double dt : {-1., 1e-2, 1., 1e2}) {
@@ -97,7 +96,7 @@ Verdict history_tangent_is_the_derivative_of_the_step(const Model& model, std::u
           const double given = tangent[(6 * a + b) * points + i], expected = factor * slope[a * points + i].value;
           meter.see(std::abs(given - expected) / scale, [&] {
             return fmt::format("2 dS_{}/dC_{} = {:.10g}, differences of S from the same old state give {:.10g}, {}",
-                               component[a], component[b], given, expected,
+                               component_names[a], component_names[b], given, expected,
                                dt < 0 ? std::string("no clock") : fmt::format("a step of {:g} s", dt)) +
                    where(model, batch.point(i));
           });

@@ -130,9 +130,7 @@ Verdict deviatoric_stress_vanishes_at_rest(const Model& model, std::uint64_t see
     for (std::size_t c = 0; c < 6; ++c) {
       const double deviatoric = at.stress[c] - (c < 3 ? mean : 0);
       meter.see(std::abs(deviatoric) / scale, [&] {
-        return fmt::format("deviatoric S_{} = {:.6g} kPa", std::array{"tt", "zz", "rr", "tz", "zr", "tr"}[c],
-                           deviatoric) +
-               where(model, rest);
+        return fmt::format("deviatoric S_{} = {:.6g} kPa", component_names[c], deviatoric) + where(model, rest);
       });
     }
   }

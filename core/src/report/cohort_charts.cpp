@@ -128,7 +128,7 @@ void add_parameters_of(Page& page, const Folder& folder, const Json& population)
                                  member(one, "means"));
     chart.id += "_" + run;
     chart.files = {"parameters.csv", "shrunken.csv"};
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
 }
 
@@ -148,7 +148,7 @@ void add_readings_of(Page& page, const Folder& folder, const Json& population) {
                                  member(one, "means"));
     chart.id += "_" + word(population, "run");
     chart.files = {"population.csv"};
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
 }
 
@@ -247,7 +247,7 @@ void add_bands(Page& page, const Folder& folder) {
             chart.series.push_back(measured_of(folder, "fit_" + test + ".csv", channel, some));
           }
           for (Series& branch : branches_of(curve)) chart.series.push_back(std::move(branch));
-          page.chart(std::move(chart), folder.address());
+          page.chart(chart, folder.address());
         }
     }
     page.end_pair();
@@ -300,7 +300,7 @@ void add_specimen_fits(Page& page, const Folder& folder) {
           if (style++ == 0) chart.series.push_back(std::move(data));
           chart.series.push_back(std::move(fit));
         }
-        page.chart(std::move(chart), folder.address());
+        page.chart(chart, folder.address());
       }
     }
   }

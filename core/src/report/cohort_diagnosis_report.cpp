@@ -51,7 +51,7 @@ void add_picture(Page& page, const Folder& folder, const Json& diagnosis) {
   if (chart.labels.size() < matrix.size())
     chart.note += fmt::format(" The {} likeliest of {} mechanisms.", chart.labels.size(), matrix.size());
   chart.domain = {-10, 10};
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 /// Gain of each specimen, with an amplitude of its own and with that of the others.
@@ -81,7 +81,7 @@ void add_gain(Page& page, const Folder& folder, const Json& diagnosis) {
   }
   chart.rule(1, "noise");
   for (Series* one : {&without, &foretold, &own}) chart.series.push_back(std::move(*one));
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 void add_rivals(Page& page, const Json& diagnosis) {

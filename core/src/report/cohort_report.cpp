@@ -96,7 +96,7 @@ void add_forest(Page& page, const Folder& folder, const Json& population) {
     }
   if (chart.labels.empty()) return;
   chart.rows = {std::move(ratios)};
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 void add_groups(Page& page, const Folder& folder, const Json& population) {

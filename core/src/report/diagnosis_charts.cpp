@@ -165,7 +165,7 @@ void add_confusability(Page& page, const Folder& folder) {
     for (const std::size_t k : columns) line.push_back(table->number(row, k));
     chart.values.push_back(std::move(line));
   }
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 /// "1 ± 0.4", "3.2 kPa"; in words where no plausible amplitude is so large.

@@ -183,8 +183,8 @@ void add_channel(Page& page, const Folder& folder, const Order& order, const Cha
   rest.note = hidden_note(groups.size()) + thinning_note(left_out);
   fit.note += bands_note(fit) + rest.note;
   page.begin_pair();
-  page.chart(std::move(fit), folder.address());
-  page.chart(std::move(rest), folder.address());
+  page.chart(fit, folder.address());
+  page.chart(rest, folder.address());
   page.end_pair();
 }
 

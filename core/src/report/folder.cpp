@@ -50,7 +50,7 @@ void Folder::read_result(const std::filesystem::path& file) {
 }
 
 std::string Folder::name() const {
-  const std::string given = word(result_, "name");
+  std::string given = word(result_, "name");
   if (!given.empty()) return given;
   const auto last = path_.filename().empty() ? path_.parent_path().filename() : path_.filename();
   return last.string();
@@ -83,7 +83,7 @@ std::vector<std::string> Folder::tables_in(const std::string& folder, const std:
   for (const auto& entry : std::filesystem::directory_iterator(path_ / folder)) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() == ".csv" && name.starts_with(prefix))
-      names.push_back(folder.empty() ? name : folder + "/" + name);
+      names.push_back(folder.empty() ? name : fmt::format("{}/{}", folder, name));
   }
   std::sort(names.begin(), names.end());
   return names;

@@ -70,12 +70,12 @@ void Page::begin_fold(const std::string& summary) {
 
 void Page::command(const std::string& text) { body_ += fmt::format("<pre>{}</pre>\n", escaped(text)); }
 
-void Page::chart(Chart chart, const std::string& folder) {
+void Page::chart(const Chart& chart, const std::string& folder) {
   if (chart.empty()) return;
+  const std::string place = folder.empty() ? "./" : folder + "/";
   std::string links;
   for (const std::string& file : chart.files)
-    links +=
-        fmt::format(" <a href=\"{}\">{}</a>", address((folder.empty() ? "./" : folder + "/") + file), escaped(file));
+    links += fmt::format(" <a href=\"{}\">{}</a>", address(fmt::format("{}{}", place, file)), escaped(file));
   body_ += fmt::format(
       "<figure data-chart=\"{}\"><figcaption>{}<small>{}</small></figcaption><div class=\"legend\" role=\"group\" "
       "aria-label=\"Series of {}\"></div><div class=\"plot\"></div><div class=\"tools\">{}</div></figure>\n",
@@ -114,7 +114,7 @@ namespace {
 /// A long name in a table may be broken after an underscore.
 std::string cell_html(const Cell& cell) {
   constexpr std::size_t long_text = 24;
-  const std::string text = escaped(cell.text);
+  std::string text = escaped(cell.text);
   if (!cell.link.empty()) return fmt::format("<a href=\"{}\">{}</a>", address(cell.link), text);
   if (cell.number || text.size() <= long_text) return text;
   std::string broken;

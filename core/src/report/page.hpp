@@ -32,7 +32,7 @@ class Page {
   void html(std::string_view trusted) { body_ += trusted; }
   /// Draws it where it is put in; nothing for an empty chart. Its tables are looked for in `folder`, an address
   /// relative to the page.
-  void chart(Chart chart, const std::string& folder = "");
+  void chart(const Chart& chart, const std::string& folder = "");
   /// A fold whose charts are drawn when it is opened, beside each other as many as there is room for.
   void begin_fold(const std::string& summary);
   void end_fold() { body_ += "</div></details>\n"; }

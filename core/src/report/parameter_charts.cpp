@@ -139,7 +139,7 @@ void add_profiles(Page& page, const Folder& folder, const Order& order) {
       chart.rule(threshold, "95 %");
       chart.y.include.push_back(1.15 * threshold);  // room for the word
     }
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
   page.end_pair();
 }
@@ -174,7 +174,7 @@ void add_pairs(Page& page, const Folder& folder, const Order& order) {
         if (!series.x.empty()) chart.series.push_back(std::move(series));
       }
       if (chart.series.empty()) continue;
-      page.chart(std::move(chart), folder.address());
+      page.chart(chart, folder.address());
       ++made;
     }
   page.end_pair();
@@ -209,7 +209,7 @@ void add_parameters(Page& page, const Folder& folder, const Order& order) {
       Chart chart = across_runs(name, runs);
       chart.id += '_' + model;
       chart.files = {"ranking.csv", "statistics.csv"};
-      page.chart(std::move(chart), folder.address());
+      page.chart(chart, folder.address());
     }
     page.end_pair();
   }

@@ -46,7 +46,7 @@ void add_convergence(Page& page, const Folder& folder, const Order& order, const
     std::vector<Series> lines;
     std::string last;
     for (const std::size_t row : *drawn[k].second) {
-      const std::string realisation = table.text(row, "realisation");
+      const std::string& realisation = table.text(row, "realisation");
       if (lines.empty() || realisation != last)
         lines.push_back({order.runs()[drawn[k].first].label,
                          "step",
@@ -80,7 +80,7 @@ void add_convergence(Page& page, const Folder& folder, const Order& order, const
         "objective. ",
         shown, all);
   chart.note += "At most 20 counts a decade are kept of every search.";
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 /// Realisations sorted by what they came to: a flat left end means that they agree.
@@ -111,7 +111,7 @@ void add_waterfall(Page& page, const Folder& folder, const Order& order, const T
   for (std::size_t k = shown_runs; k < chart.series.size(); ++k) chart.series[k].hidden = true;
   chart.note = hidden_note(chart.series.size());
   chart.y.log = all_positive(chart);
-  page.chart(std::move(chart), folder.address());
+  page.chart(chart, folder.address());
 }
 
 void add_profile(Page& page, const Folder& folder, const char* file, const char* column, const char* title,
@@ -149,7 +149,7 @@ void add_profile(Page& page, const Folder& folder, const char* file, const char*
     series.y.push_back(series.y.back());
     chart.series.push_back(std::move(series));
   }
-  if (chart.series.size() > 1) page.chart(std::move(chart), folder.address());
+  if (chart.series.size() > 1) page.chart(chart, folder.address());
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void add_common_fits(Page& page, const std::vector<Folder>& folders, const std::
       }
     }
     for (auto& [key, chart] : charts)
-      if (users[key] > 1) page.chart(std::move(chart));
+      if (users[key] > 1) page.chart(chart);
   }
   page.end_pair();
 }

@@ -28,7 +28,7 @@ void add_strips(Page& page, const Folder& folder, const Order& order, const Tabl
     chart.note = "Where a curve rises the material is unstable. ";
     std::map<std::size_t, Series> by_place;
     for (const std::size_t row : rows) {
-      const std::string run = table.text(row, "run");
+      const std::string& run = table.text(row, "run");
       const std::size_t place = order.place(run);
       Series& series =
           by_place.try_emplace(place, Series{run, "line", static_cast<int>(place), {}, {}, {}, {}}).first->second;
@@ -40,7 +40,7 @@ void add_strips(Page& page, const Folder& folder, const Order& order, const Tabl
       chart.series.push_back(std::move(series));
     }
     chart.note += order.note();
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
   page.end_pair();
 }
@@ -127,7 +127,7 @@ void add_energy(Page& page, const Folder& folder, const Order& order) {
     models.push_back(key);
     Chart chart = energy_chart(folder, *table, run, rows);
     if (chart.empty()) continue;
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
     ++made;
   }
   page.end_pair();
@@ -173,7 +173,7 @@ void add_map(Page& page, const Folder& folder, const std::string& file) {
   if (low < high) {
     const double reach = std::max(std::abs(low), 0.05);
     chart.domain = {-reach, reach};
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
 }
 

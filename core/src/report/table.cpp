@@ -24,7 +24,7 @@ std::optional<Table> Table::read(const std::filesystem::path& file, std::string&
     const std::string text = data::read_bytes(file);
     // A table of which nothing came to be written but its header is no fault.
     std::size_t lines = 0;
-    for (std::size_t at = 0; at < text.size() && lines < 2; at = text.find('\n', at), at += at != text.npos)
+    for (std::size_t at = 0; at < text.size() && lines < 2; at = text.find('\n', at), at += at != std::string::npos)
       if (text[at] != '#' && text[at] != '\n') ++lines;
     if (lines < 2) return std::nullopt;
     table.csv_ = data::parse_csv(file, text);

@@ -253,7 +253,7 @@ void add_fields(Page& page, const Folder& folder, const Wall& wall) {
                   {"values", std::move(values)},
                   {"title", unit_of(field->title)}};
     add_outline(chart, *grid);
-    page.chart(std::move(chart), folder.address());
+    page.chart(chart, folder.address());
   }
   page.end_pair();
 }

@@ -59,9 +59,9 @@ auto Row<Order>::lanes_at(std::size_t g) const {
   };
   return [
     at = f.data() + g * n_, w = first.data() + g * n_, R = measure_.data() + g * n_, modes = q_.data(), all = ng * n_,
-    n = n_, weight = area(g),  // NOLINT(clang-diagnostic-unused-lambda-capture): n of nine-node elements
-    xi = element_.xi[g], eta = element_.eta[g]
+    n = n_, weight = area(g), xi = element_.xi[g], eta = element_.eta[g]
   ](std::size_t e) __attribute__((always_inline)) {
+    static_cast<void>(n);  // of nine-node elements
     double q = modes[e];
     if constexpr (np == 3) q += xi * modes[n + e] + eta * modes[2 * n + e];
     return Lane{at[e],           at[all + e],        at[2 * all + e],
