@@ -219,7 +219,9 @@ JsonDocument::JsonDocument(std::filesystem::path file, std::string text)
     const auto [line, column] =
         place_of(text_, parse_error != nullptr && parse_error->byte > 0 ? parse_error->byte - 1 : 0);
     std::string said = text::json_problem(error.what());
-    if (said.starts_with("parse error at ")) said.erase(0, said.find(": ") + 2);  // the place is named already
+    // It begins with the place, which is named already.
+    if (const auto colon = said.find(": "); parse_error != nullptr && colon != std::string::npos)
+      said.erase(0, colon + 2);
     throw InputError(fmt::format("{}: this is not JSON (line {}, column {}). The parser says: {}", file_.string(), line,
                                  column, said));
   }
