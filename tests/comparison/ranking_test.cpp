@@ -45,7 +45,10 @@ TEST(Ranking, PutsWhatAFreshProcessRefutesBehindAllThatItDoesNot) {
     const auto ranking = comparison::rank(runs);
     EXPECT_THAT(order(ranking), ::testing::ElementsAre(1, 2, 0, 3));
     EXPECT_EQ(ranking[2].rank, 3u);
+    EXPECT_THAT(comparison::reason_of_rank(runs[0]), ::testing::HasSubstr("did not find this objective again"));
   }
+  EXPECT_EQ(comparison::reason_of_rank(runs[1]), "");
+  EXPECT_EQ(comparison::reason_of_rank(runs[2]), "unstable");
   for (const auto verdict : {CertificateVerdict::not_checked, CertificateVerdict::not_an_optimum,
                              CertificateVerdict::better_neighbour, CertificateVerdict::constraint_broken}) {
     runs[0].certificate.verdict = verdict;

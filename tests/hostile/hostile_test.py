@@ -218,6 +218,7 @@ def what_a_fresh_process_refutes_is_no_result():
     expect(bad["best"]["certificate"]["verdict_code"] == "objective_differs", bad["best"]["certificate"])
     ranking = json.loads((folder / "results/result.json").read_text(encoding="utf-8"))["ranking"]
     expect([entry["run"] for entry in ranking] == ["good/lm", "bad/es"], ranking)
+    expect([bool(entry["reason"]) for entry in ranking] == [False, True], ranking)
     rows = (folder / "results/ranking.csv").read_text(encoding="utf-8").splitlines()
     expect("good/lm" in rows[-2] and "bad/es" in rows[-1], rows)
     expect_others_as_ever(folder, "refuted")

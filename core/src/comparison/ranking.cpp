@@ -79,6 +79,11 @@ std::vector<Ranked> rank(const std::vector<RunSummary>& runs) {
   return order;
 }
 
+std::string reason_of_rank(const RunSummary& run) {
+  if (run.has_result && run.certificate.refuted()) return "a fresh process did not find this objective again";
+  return run.status.reason();
+}
+
 void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked>& ranking) {
   std::map<std::string, std::set<std::string>> models;
   std::map<std::string, double> least;

@@ -21,6 +21,9 @@ bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& g
 /// fresh process did not find again; then runs without a result.
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 
+/// Why a run does not count, or comes behind those that do; empty of one that is as it should be.
+std::string reason_of_rank(const RunSummary& run);
+
 /// Where runs of a group fit different models: AICc above the least of the group.
 void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked>& ranking);
 

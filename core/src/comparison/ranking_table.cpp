@@ -52,7 +52,7 @@ std::string flaw(const RunSummary& run) {
   if (!run.has_result) return "no result: " + run.status.reason();
   if (run.status.kind() == Status::Kind::infeasible)
     return fmt::format("no feasible point; least violation {:.3g}: {}", run.status.violation(), run.status.reason());
-  return run.status.ok() ? "" : run.status.reason();
+  return reason_of_rank(run);
 }
 
 /// Columns that some run has something to say in; both take the place of the seconds.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison/hold_out.hpp"
+#include "comparison/ranking.hpp"
 #include "comparison/stability_report.hpp"
 
 namespace tunica::comparison {
@@ -277,7 +278,7 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                        {"successes", run.successes},
                        {"expected_running_time", or_null(run.expected_running_time)},
                        {"failures", run.failures},
-                       {"reason", run.status.reason()}});
+                       {"reason", reason_of_rank(run)}});
   }
   json warnings = json::array(), details = json::array();
   for (const auto& warning : summary.warnings) {

@@ -107,7 +107,7 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                   name_of(planned.objective),
                   csv_cell(constraints),
                   name(run.status.kind()),
-                  csv_cell(run.status.reason()),
+                  csv_cell(reason_of_rank(run)),
                   some(run.objective),
                   box ? fmt::format("{}", box->median) : "",
                   box ? fmt::format("{}", box->max) : "",
