@@ -17,7 +17,7 @@ Search::Search(Problem& problem, const Settings& settings, Random& random)
       variation_(settings_, n_),
       objectives_(settings.offspring),
       statuses_(settings.offspring),
-      order_(settings.parents + settings.offspring) {}
+      order_(settings.offspring) {}
 
 End Search::run(bool from_start) {
   if (const auto end = initialise(from_start)) return *end;
@@ -31,10 +31,9 @@ End Search::run(bool from_start) {
     for (std::size_t i = 0; i < count; ++i) variation_.make(parents_, parent_count_, offspring_, i, random_);
     evaluate(count);
     if (problem_.should_stop()) return End::stopped;
-    if (variation_.cumulative()) {
-      if (const auto best = best_offspring(count); !best.empty()) variation_.follow(offspring_, best);
-    }
-    select(count);
+    const auto best = best_offspring(count);
+    if (variation_.cumulative() && !best.empty()) variation_.follow(offspring_, best);
+    select(best);
     if (!variation_.cumulative()) variation_.learn(parents_, parent_count_, first_mutant_);
     // Progress is measured from where it was last seen, so that a slow descent adds up.
     const double enough = settings_.tolerance * std::abs(reference.objective);
@@ -61,7 +60,7 @@ std::optional<End> Search::initialise(bool from_start) {
     if (from_start && attempt == 0) std::ranges::copy(problem_.start(), offspring_.position(0).begin());
     evaluate(count);
     if (problem_.should_stop()) return End::stopped;
-    select(count);
+    select(best_offspring(count));
     first_mutant_ = index_;
     if (parent_count_ > 0) return std::nullopt;
   }
@@ -108,27 +107,16 @@ std::span<const std::size_t> Search::best_offspring(std::size_t count) {
 }
 
 /// Failed individuals are left out, so that there may be fewer parents than asked for; where a whole generation of
-/// comma selection failed, its parents live on.
-void Search::select(std::size_t count) {
-  // Candidates are numbered parents first, then offspring.
-  const auto fitness = [this](std::size_t i) -> const Fitness& {
-    return i < parent_count_ ? parents_.fitness(i) : offspring_.fitness(i - parent_count_);
-  };
-  std::size_t candidates = 0;
-  for (std::size_t i = settings_.selection == Selection::plus ? 0 : parent_count_; i < parent_count_ + count; ++i) {
-    if (fitness(i).kind != Status::Kind::failed) order_[candidates++] = i;
-  }
-  if (candidates == 0) return;
-  const std::size_t selected = std::min(settings_.parents, candidates);
-  std::partial_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(selected),
-                    order_.begin() + static_cast<std::ptrdiff_t>(candidates),
-                    [&](std::size_t a, std::size_t b) { return fitness(a) < fitness(b); });
-  for (std::size_t k = 0; k < selected; ++k) {
-    const std::size_t i = order_[k];
-    if (i < parent_count_) {
-      survivors_.copy(k, parents_, i);
+/// comma selection failed, its parents live on. Parents and `best` offspring both come by rank: they are merged.
+void Search::select(std::span<const std::size_t> best) {
+  const std::size_t old = settings_.selection == Selection::plus ? parent_count_ : 0;
+  if (old + best.size() == 0) return;
+  const std::size_t selected = std::min(settings_.parents, old + best.size());
+  for (std::size_t k = 0, parent = 0, child = 0; k < selected; ++k) {
+    if (child == best.size() || (parent < old && parents_.fitness(parent) < offspring_.fitness(best[child]))) {
+      survivors_.copy(k, parents_, parent++);
     } else {
-      survivors_.copy(k, offspring_, i - parent_count_);
+      survivors_.copy(k, offspring_, best[child++]);
     }
   }
   std::swap(parents_, survivors_);

@@ -30,7 +30,7 @@ class Search {
   [[nodiscard]] bool alike() const;
   void evaluate(std::size_t count);
   [[nodiscard]] std::span<const std::size_t> best_offspring(std::size_t count);
-  void select(std::size_t count);
+  void select(std::span<const std::size_t> best);
 
   Problem& problem_;
   const Settings settings_;

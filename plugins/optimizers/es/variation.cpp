@@ -8,6 +8,7 @@ namespace {
 
 /// The triangle wave that folds the line onto [0, 1]: a mutation bounces off the wall.
 double reflected(double x) {
+  if (x >= 0 && x <= 1) return x;
   const double wave = std::abs(x - 2 * std::round(0.5 * x));  // period 2
   return std::min(wave, 1.0);
 }
