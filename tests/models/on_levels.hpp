@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_start.hpp"
 #include "tunica/models/arterial_fibres.hpp"
 
 /// Answers of models on every vector level, to be held against each other.

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "on_levels.hpp"
+#include "tunica/detail/free_strip.hpp"
 #include "tunica/models/convex_laws.hpp"
 #include "tunica/models/rubber_laws.hpp"
 

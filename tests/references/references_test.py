@@ -26,6 +26,8 @@ WITHIN = 1e-4
 OF_THE_DAY = re.compile(r"provenance|^date$|seconds|version|\$schema|time_s")
 # How long a search took says nothing of its result, and the last digits of a processor decide it.
 COUNTS = re.compile(r"evaluation|jacobian|failure|convergence|statistics|_profile\.csv|realisations\.csv")
+# So do they decide which of the starts that came to the same place is the best.
+START = re.compile(r"(?<=the best was start )\d+")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
@@ -82,6 +84,7 @@ def same_number(one, other, within):
 
 def same_words(one, other):
     """Sentences, whose numbers may differ by two in their last digit; whole ones not at all."""
+    one, other = START.sub("#", one), START.sub("#", other)
     if NUMBER.sub("#", one) != NUMBER.sub("#", other):
         return False
     for a, b in zip(NUMBER.findall(one), NUMBER.findall(other)):

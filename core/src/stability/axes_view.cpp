@@ -7,8 +7,7 @@
 namespace tunica::stability {
 
 Status AxesView::evaluate_axes(const AxisPoints& points, const AxisResponse& out) const {
-  const ModelDescription& model = model_.describe();
-  if (model.principal_axes && model.history_size == 0) return model_.evaluate_axes(points, out);
+  if (has_axes()) return model_.evaluate_axes(points, out);
   const std::size_t n = points.count, parameters = points.parameters.size();
   std::vector<double> C(6 * n), stress(6 * n), tangent(out.hessian.empty() ? 0 : 36 * n),
       stress_dp(out.gradient_dp.empty() ? 0 : 6 * n * parameters);

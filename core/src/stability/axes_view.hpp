@@ -19,8 +19,14 @@ class AxesView final : public Model {
     return model_.evaluate(points, response);
   }
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override;
+  bool solve_strip(const StripPath& strip, Status& status) const override {
+    return has_axes() && model_.solve_strip(strip, status);
+  }
 
  private:
+  [[nodiscard]] bool has_axes() const {
+    return model_.describe().principal_axes && model_.describe().history_size == 0;
+  }
   const Model& model_;
 };
 

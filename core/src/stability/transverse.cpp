@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tunica/detail/solve_strip.hpp"
 #include "tunica/optimizer.hpp"
 
 namespace tunica::stability {
@@ -30,53 +31,66 @@ FreePath::FreePath(const Model& model, std::size_t axis, std::vector<double> str
   start_ = free_strip::Start(at_);
 }
 
-Status FreePath::solve(std::span<const double> parameters, double shift, bool derivatives, std::span<double> u,
-                       std::vector<double>& stretch) const {
+std::string FreePath::strip_at(std::size_t row) const {
+  return fmt::format("{} strip at stretch {:.6g}", axis_ == 0 ? "circumferential" : "axial", stretches_[row]);
+}
+
+Status FreePath::solve(StripPath path) const {
+  std::size_t lost = StripPath::none;
+  path.loaded = axis_;
+  path.stretch = at_;
+  path.lost = &lost;
+  start_.set(path);
+  Status status = free_strip::solve(view_, path, thread_scratch());
+  if (status.ok() || lost == StripPath::none) return status;
+  return Status::failed(strip_at(lost) + ": " + status.reason());
+}
+
+/// The rows at exp(l + shift), from u there to their equilibria; they stay evaluated in the scratch.
+Status FreePath::solve_shifted(const free_strip::Pull& pull, std::span<const double> stretch,
+                               std::span<double> u) const {
   free_strip::Scratch& s = thread_scratch();
-  s.reserve(at_.size(), parameters.size());
-  const free_strip::Pull pull{view_, parameters, axis_};
-  stretch.resize(at_.size());
-  for (std::size_t i = 0; i < at_.size(); ++i) stretch[i] = at_[i] * std::exp(shift);
-  std::optional<std::size_t> lost;
   free_strip::Batch batch(pull, stretch, s);
-  Status status = shift == 0 ? start_.guess(pull, stretch, s, u, lost) : Status();
-  if (status.ok()) status = free_strip::iterate(pull, stretch, tight, batch, u, lost);
-  if (lost)
-    return Status::failed(fmt::format("{} strip at stretch {:.6g}: {}", axis_ == 0 ? "circumferential" : "axial",
-                                      stretches_[*lost], status.reason()));
+  std::optional<std::size_t> lost;
+  Status status = free_strip::iterate(pull, stretch, tight, batch, u, lost);
+  if (lost) return Status::failed(strip_at(*lost) + ": " + status.reason());
   if (!status.ok()) return status;
   for (std::size_t i = 0; i < u.size(); ++i) u[i] *= 1 + s.step[i];
-  return batch.evaluate(u.data(), derivatives);
+  return batch.evaluate(u.data(), true);
 }
 
 Status FreePath::slopes(std::span<const double> parameters, std::span<double> slope, std::span<double> slope_dp) const {
   const std::size_t n = at_.size();
-  thread_local std::vector<double> u, shifted, stretch;
-  u.resize(n);
-  shifted.resize(n);
-  if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
-  const free_strip::Pull pull{view_, parameters, axis_};
-  free_strip::Scratch& s = thread_scratch();
-  const free_strip::Batch batch(pull, stretch, s);
+  const bool exact = !slope_dp.empty() && view_.describe().parameter_derivatives;
+  thread_local std::vector<double> y, stress_by_l, stretch, u;
+  y.resize(exact ? n : 0);
+  stress_by_l.resize(n);
+  if (Status status =
+          solve({.parameters = parameters, .lateral = y, .stress_by_l = stress_by_l, .lateral_by_l = slope});
+      !status.ok())
+    return status;
   std::size_t bad = n;
   for (std::size_t i = 0; i < n; ++i) {
-    double stress_by_l, y_by_l;
-    batch.by_stretch(i, stress_by_l, y_by_l);
-    slope[i] = -1 - y_by_l;
+    slope[i] = -1 - slope[i];
     if (!std::isfinite(slope[i]) && bad == n) bad = i;
   }
-  if (bad < n)
-    return Status::failed(fmt::format("{} strip at stretch {:.6g}: the slope of the transverse stretch overflows",
-                                      axis_ == 0 ? "circumferential" : "axial", stretches_[bad]));
+  if (bad < n) return Status::failed(strip_at(bad) + ": the slope of the transverse stretch overflows");
   if (slope_dp.empty()) return {};
-  if (!view_.describe().parameter_derivatives) return difference(parameters, slope_dp);
+  if (!exact) return difference(parameters, slope_dp);
   // f'(l) ≈ [8 (f(l+δ) − f(l−δ)) − (f(l+2δ) − f(l−2δ))]/(12 δ), f = dy/dp; c has it with the opposite sign.
   static constexpr std::array<std::array<double, 2>, 4> stencil{{{-2, 1}, {-1, -8}, {1, 8}, {2, -1}}};
   std::fill(slope_dp.begin(), slope_dp.end(), 0.0);
+  stretch.resize(n);
+  u.resize(n);
+  const free_strip::Pull pull{view_, parameters, axis_};
   for (const auto& [offset, weight] : stencil) {
-    for (std::size_t i = 0; i < n; ++i) shifted[i] = u[i] * std::exp(-(1 + slope[i]) * offset * step);
-    if (Status status = solve(parameters, offset * step, true, shifted, stretch); !status.ok()) return status;
-    const free_strip::Batch there(pull, stretch, s);
+    const double shift = offset * step;
+    for (std::size_t i = 0; i < n; ++i) {
+      stretch[i] = at_[i] * std::exp(shift);
+      u[i] = std::exp(y[i] - (1 + slope[i]) * shift);
+    }
+    if (Status status = solve_shifted(pull, stretch, u); !status.ok()) return status;
+    const free_strip::Batch there(pull, stretch, thread_scratch());
     for (std::size_t j = 0; j < parameters.size(); ++j)
       for (std::size_t i = 0; i < n; ++i) {
         double stress_p, y_p;
@@ -105,19 +119,22 @@ Status FreePath::difference(std::span<const double> parameters, std::span<double
 
 Status FreePath::states(std::span<const double> parameters, std::span<StripState> states) const {
   const std::size_t n = at_.size();
-  std::vector<double> u(n), stretch;
-  if (Status status = solve(parameters, 0, false, u, stretch); !status.ok()) return status;
-  const free_strip::Scratch& s = thread_scratch();
-  const free_strip::Batch batch({view_, parameters, axis_}, stretch, thread_scratch());
+  std::vector<double> stress(n), y(n), stress_by_l(n), y_by_l(n);
+  if (Status status = solve({.parameters = parameters,
+                             .stress = stress,
+                             .lateral = y,
+                             .stress_by_l = stress_by_l,
+                             .lateral_by_l = y_by_l});
+      !status.ok())
+    return status;
   for (std::size_t i = 0; i < n; ++i) {
-    double stress_by_l, y_by_l;
-    batch.by_stretch(i, stress_by_l, y_by_l);
     // Close to rest the row was solved a little farther out: back along the tangent, y = y' l, σ ∝ l.
-    const double l = std::log(stretches_[i]), solved_at = std::log(stretch[i]);
-    const double y = l == solved_at ? std::log(u[i]) : y_by_l * l;
-    const double lambda2 = std::exp(y / 2), lambda3 = 1 / (stretches_[i] * lambda2);
-    states[i] = {stretches_[i],          lambda2,    lambda3, s.stress[i] * (l == solved_at ? 1 : l / solved_at),
-                 std::exp(-2 * (l + y)), -1 - y_by_l};
+    const bool moved = at_[i] != stretches_[i];
+    const double l = std::log(stretches_[i]), y_i = moved ? y_by_l[i] * l : y[i];
+    const double lambda2 = std::exp(y_i / 2), lambda3 = 1 / (stretches_[i] * lambda2);
+    states[i] = {
+        stretches_[i], lambda2, lambda3, stress[i] * (moved ? l / std::log(at_[i]) : 1), std::exp(-2 * (l + y_i)),
+        -1 - y_by_l[i]};
   }
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "stability/axes_view.hpp"
 #include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_start.hpp"
 #include "tunica/model.hpp"
 
 /// Transverse stability (Canales et al., Mathematics 11:922, 2023; corrected, see docs/theory.md). On the equilibrium
@@ -48,9 +49,11 @@ class FreePath {
   Status states(std::span<const double> parameters, std::span<StripState> states) const;
 
  private:
-  /// Solves all rows at exp(l + shift) from u in place and leaves them evaluated in the scratch.
-  Status solve(std::span<const double> parameters, double shift, bool derivatives, std::span<double> u,
-               std::vector<double>& stretch) const;
+  /// All rows at their equilibria: what `path` wants of them.
+  Status solve(StripPath path) const;
+  Status solve_shifted(const free_strip::Pull& pull, std::span<const double> stretch, std::span<double> u) const;
+  /// "axial strip at stretch 1.2"
+  [[nodiscard]] std::string strip_at(std::size_t row) const;
   Status difference(std::span<const double> parameters, std::span<double> slope_dp) const;
 
   AxesView view_;

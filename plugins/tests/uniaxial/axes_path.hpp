@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_start.hpp"
 #include "uniaxial.hpp"
 
 namespace tunica::uniaxial {
 
 /// The free strip pulled along a material axis, for models with a principal-axes path: all rows at once, see
-/// tunica/detail/free_strip.hpp. The last Newton step is not evaluated again but applied to first order, which leaves
+/// tunica/detail/solve_strip.hpp. The last Newton step is not evaluated again but applied to first order, which leaves
 /// an error of its square.
 class AxesPath {
  public:
@@ -15,8 +15,6 @@ class AxesPath {
   Status predict(const Strip& strip, const TestInput& input, const TestOutput& output) const;
 
  private:
-  bool solved_by_model(const Strip& strip, const TestInput& input, const TestOutput& output,
-                       std::span<const double> stretch, Status& status) const;
   free_strip::Start start_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tunica/detail/axis_path.hpp"
+#include "tunica/detail/solve_strip.hpp"
 
 namespace tunica::uniaxial {
 namespace {
@@ -127,17 +128,13 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
 
   // Begun from the elastic strip.
   const Model& elastic = input.model.elastic();
-  const free_strip::Pull pull{elastic, input.model_parameters.first(elastic.describe().parameters.size()),
-                              strip.loaded};
-  m.elastic.reserve(n, 0);
-  free_strip::Batch batch(pull, stretch, m.elastic);
-  std::optional<std::size_t> lost;
-  static const free_strip::Start without_nodes;
-  const free_strip::Start& start = input.abscissae.empty() ? start_ : without_nodes;
-  if (Status status = start.guess(pull, stretch, m.elastic, m.u, lost); !status.ok()) return status;
-  if (Status status = free_strip::iterate(pull, stretch, free_strip::last_step, batch, m.u, lost); !status.ok())
-    return status;
-  for (std::size_t i = 0; i < n; ++i) m.u[i] *= 1 + m.elastic.step[i];
+  StripPath path{.loaded = strip.loaded,
+                 .parameters = input.model_parameters.first(elastic.describe().parameters.size()),
+                 .stretch = stretch,
+                 .lateral = m.u};
+  if (input.abscissae.empty()) start_.set(path);
+  if (Status status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return status;
+  for (double& u : m.u) u = std::exp(u);
 
   Pass pass(strip, input, stretch, m);
   const auto step_on = [&] {

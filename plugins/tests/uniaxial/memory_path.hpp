@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tunica/detail/free_strip.hpp"
+#include "tunica/detail/strip_start.hpp"
 #include "uniaxial.hpp"
 
 namespace tunica::uniaxial {

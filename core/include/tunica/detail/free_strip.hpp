@@ -6,13 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "tunica/detail/safeguarded_newton.hpp"
-#include "tunica/detail/vector_level.hpp"
 #include "tunica/model.hpp"
 
 /// The incompressible strip pulled along a material axis with free lateral faces: its equilibrium path, all rows at
@@ -20,9 +18,7 @@
 ///
 /// With the squared stretches c = (λ1², u = λ2², 1/(λ1² u)) and g_a = ∂W/∂c_a:
 ///     σ11 = 2 (c1 g1 − c3 g3),   0 = r = 2 (u g2 − c3 g3)       (physics: docs/theory.md, uniaxial strip)
-/// Newton's method on r(y), y = ln u, runs over a whole batch. Its start (`Start`): r is first solved at a few
-/// Chebyshev points of the stretch range, and λ1 u (1 for an isotropic material, smooth in λ1) interpolated to the
-/// rows. Used by the test `uniaxial` and by the host's transverse stability.
+/// Newton's method on r(y), y = ln u, runs over a whole batch.
 namespace tunica::free_strip {
 
 /// A relative step of λ2² this small may be applied to first order: the error left behind is its square.
@@ -242,106 +238,5 @@ inline Status iterate(const Pull& pull, std::span<const double> stretch, double 
   }
   return batch.evaluate(u.data(), false);
 }
-
-/// The row whose stretch is nearest.
-inline std::size_t nearest(std::span<const double> stretch, double wanted) {
-  const auto closer = [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
-  return static_cast<std::size_t>(std::min_element(stretch.begin(), stretch.end(), closer) - stretch.begin());
-}
-
-/// Where the batch iteration begins, for given stretches.
-class Start {
- public:
-  static constexpr std::size_t node_count = 8;  ///< whole vectors on every level
-
-  Start() = default;
-  /// Places the nodes and prepares the interpolation, once a test.
-  explicit Start(std::span<const double> stretch) {
-    const std::size_t n = stretch.size();
-    if (n < 2 * node_count) return;
-    const auto [low, high] = std::minmax_element(stretch.begin(), stretch.end());
-    if (*high - *low < 1e-6) return;
-    // Chebyshev points of the first kind and their barycentric weights (Berrut & Trefethen 2004, eq. 5.3)
-    std::array<double, node_count> weight;
-    for (std::size_t k = 0; k < node_count; ++k) {
-      const double angle = (2 * static_cast<double>(k) + 1) / (2 * node_count) * std::numbers::pi;
-      nodes_.push_back(0.5 * (*low + *high) - 0.5 * (*high - *low) * std::cos(angle));
-      weight[k] = (k % 2 == 0 ? 1 : -1) * std::sin(angle);
-    }
-    // Between them lie most tissues: λ2 = λ1^−½ is isotropic.
-    for (const double power : {-0.75, -1.25})
-      for (const double node : nodes_) guesses_.push_back(std::pow(node, power));
-    row_stride_ = (n + detail::widest - 1) / detail::widest * detail::widest;
-    interpolation_.resize(2 * node_count * row_stride_);
-    for (std::size_t i = 0; i < row_stride_; ++i) {
-      const double lambda = stretch[std::min(i, n - 1)];
-      double sum = 0;
-      std::array<double, node_count> term;
-      for (std::size_t k = 0; k < node_count; ++k) {
-        double distance = lambda - nodes_[k];
-        if (std::abs(distance) < 1e-14) distance = 1e-14;
-        term[k] = weight[k] / distance;
-        sum += term[k];
-      }
-      // Hermite's interpolation of f = λ1 u from f and ∂f/∂λ1: (1 − 2 (λ − λ_k) L'_k(λ_k)) L_k² and (λ − λ_k) L_k², L_k
-      // Lagrange's polynomials. The node's λ1 and the row's own 1/λ1 are folded in.
-      for (std::size_t k = 0; k < node_count; ++k) {
-        const double lagrange = term[k] / sum, distance = lambda - nodes_[k];
-        double slope = 0;
-        for (std::size_t j = 0; j < node_count; ++j)
-          if (j != k) slope += 1 / (nodes_[k] - nodes_[j]);
-        interpolation_[k * row_stride_ + i] = (1 - 2 * distance * slope) * lagrange * lagrange * nodes_[k] / lambda;
-        interpolation_[(node_count + k) * row_stride_ + i] = distance * lagrange * lagrange / lambda;
-      }
-    }
-  }
-
-  /// Sets where the search for a model's own solution begins.
-  void set(StripPath& path) const {
-    path.nodes = nodes_;
-    path.guesses = guesses_;
-    path.interpolation = interpolation_;
-    path.row_stride = row_stride_;
-  }
-
-  /// First u = λ2² of every row: interpolated from the nodes, or 1/λ1 where there are too few rows for that to pay.
-  Status guess(const Pull& pull, std::span<const double> stretch, Scratch& scratch, std::span<double> u,
-               std::optional<std::size_t>& lost) const {
-    if (nodes_.empty()) {
-      for (std::size_t i = 0; i < stretch.size(); ++i) u[i] = 1 / stretch[i];
-      return {};
-    }
-    constexpr double coarse = 1e-3;  // a start's error is squared by the next Newton step
-    std::array<double, 2 * node_count> at_nodes;
-    for (std::size_t k = 0; k < node_count; ++k) at_nodes[k] = 1 / nodes_[k];
-    Batch batch(pull, nodes_, scratch);
-    if (Status status = iterate(pull, nodes_, coarse, batch, {at_nodes.data(), node_count}, lost); !status.ok()) {
-      if (lost) lost = nearest(stretch, nodes_[*lost]);
-      return status;
-    }
-    for (std::size_t k = 0; k < node_count; ++k) {
-      double stress_by_l, y_by_l;
-      batch.by_stretch(k, stress_by_l, y_by_l);
-      at_nodes[k] *= 1 + batch.scratch_of().step[k];
-      at_nodes[node_count + k] = at_nodes[k] * (1 + y_by_l);
-    }
-    double* const row = u.data();
-    detail::vectorised([&, n = stretch.size()] {
-      TUNICA_LANES
-      for (std::size_t i = 0; i < n; ++i) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 2 * node_count; ++k) sum += interpolation_[k * row_stride_ + i] * at_nodes[k];
-        row[i] = sum;
-      }
-    });
-    return {};
-  }
-
- private:
-  std::vector<double> nodes_;          ///< stretches of the Chebyshev points; empty = too few rows to pay
-  std::vector<double> guesses_;        ///< as StripPath::guesses
-  std::vector<double> interpolation_;  ///< as StripPath::interpolation
-  std::size_t row_stride_ = 0;         ///< rows, filled up to whole vectors
-};
 
 }  // namespace tunica::free_strip

@@ -10,6 +10,7 @@
 
 #include "tunica/detail/free_strip.hpp"
 #include "tunica/detail/strip_derivatives.hpp"
+#include "tunica/detail/strip_start.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/detail/vector_math.hpp"
 #include "tunica/strip_path.hpp"
