@@ -33,7 +33,19 @@ using text::counted;
 using text::hanging;
 using text::pad;
 
-void print_tests(const assembly::Assembly& assembly) {
+/// "Cauchy stress": what a column of stress was taken for; empty for other channels.
+std::string measure_of(const experiment::Experiment& experiment, const assembly::MeasuredChannel& channel) {
+  if (channel.observable != "stress") return "";
+  const auto test = std::find_if(experiment.tests.begin(), experiment.tests.end(),
+                                 [&](const auto& entry) { return entry.name == channel.test; });
+  if (test == experiment.tests.end()) return "";
+  const std::string& measure = test->data.stress_measure;
+  return measure == "cauchy"                  ? " Cauchy stress"
+         : measure == "first_piola_kirchhoff" ? " nominal stress (first Piola-Kirchhoff)"
+                                              : " second Piola-Kirchhoff stress";
+}
+
+void print_tests(const experiment::Experiment& experiment, const assembly::Assembly& assembly) {
   for (const auto& channel : assembly.layout().channels) {
     std::vector<double> values = channel.measured;
     std::erase_if(values, [](double value) { return std::isnan(value); });
@@ -50,7 +62,8 @@ void print_tests(const assembly::Assembly& assembly) {
     if (channel.held_out_rows() > 0) text += fmt::format(" ({} held out)", channel.held_out_rows());
     if (values.size() < channel.count) text += fmt::format(" ({} without a value)", channel.count - values.size());
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    text += fmt::format(", {:.4g} … {:.4g}{}{}", *low, *high, text::unit_suffix(channel.unit), over);
+    text += fmt::format(", {:.4g} … {:.4g}{}{}", *low, *high, text::unit_suffix(channel.unit),
+                        measure_of(experiment, channel) + over);
     text += fmt::format(", weight {:g}", channel.weight);
     text += channel.noise ? fmt::format(", noise {:g} + {:g} y", channel.noise->absolute, channel.noise->relative)
                           : std::string(", noise estimated");
@@ -164,7 +177,7 @@ void print(const calibration::Examination& checked, const std::string& file) {
   print_paths(paths);
   for (const auto& problem : problems) {
     answer("\n{}\n", hanging("", problem.title));
-    print_tests(*problem.run->assembly);
+    print_tests(experiment, *problem.run->assembly);
     print_parameters(*problem.run->assembly);
     print_initial_point(problem);
   }

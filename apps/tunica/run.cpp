@@ -67,6 +67,7 @@ std::string command(const GlobalOptions& global, const RunOptions& options, cons
   if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
   if (!kept.empty()) words.insert(words.end(), {"--keep-evaluations", kept});
   if (!options.certificate) words.emplace_back("--no-certificate");
+  if (options.threads != RunOptions().threads) words.insert(words.end(), {"-j", std::to_string(options.threads)});
   const auto plugins = plugin_words(global);
   words.insert(words.end(), plugins.begin(), plugins.end());
   return text::quoted(words);

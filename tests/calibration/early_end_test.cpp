@@ -128,9 +128,10 @@ class EarlyEndOfEvaluations : public testing::Test {
     settings.replay = replay;
     settings.on_failure = on_failure;
     settings.stop.max_time = max_time_;
+    settings.stop.target = target_;
     settings.interrupted = [this] { return simulations_ >= ends_after_; };
     CalibrationProblem problem(assembly, std::move(settings));
-    std::mt19937_64 generator(3);
+    std::mt19937_64 generator(seed_);
     std::uniform_real_distribution<double> uniform(0, 1);
     simulations_ = 0;
     Outcome outcome;
@@ -158,8 +159,22 @@ class EarlyEndOfEvaluations : public testing::Test {
   double fails_above_ = 1e300;
   int ends_after_ = 1'000'000;  ///< simulations, after which a person ends the work
   std::chrono::milliseconds takes_{0};
-  std::optional<double> max_time_;
+  std::optional<double> max_time_, target_;
+  std::uint64_t seed_ = 3;  ///< of the points
 };
+
+/// An offspring that ended early is not evaluated: neither it nor what was best before it has reached anything.
+TEST_F(EarlyEndOfEvaluations, ATargetIsReachedBySimulatedPointsOnly) {
+  while (!run(true).lines.front().ended_early) ASSERT_LT(++seed_, 50u);  // nothing is known before it
+  const Outcome all = run(false);
+  target_ = 0.999 * all.found.objective;
+  EXPECT_EQ(run(true).lines.size(), batches * batch);
+  target_ = all.found.objective;
+  const Outcome reached = run(false), early = run(true);
+  EXPECT_LT(reached.lines.size(), batches * batch);
+  EXPECT_EQ(early.lines.size(), reached.lines.size());
+  EXPECT_EQ(early.found.index, reached.found.index);
+}
 
 TEST_F(EarlyEndOfEvaluations, RanksAndBestPointStayTheSame) {
   const Outcome all = run(false), early = run(true);

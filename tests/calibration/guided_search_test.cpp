@@ -176,9 +176,10 @@ TEST_F(Guided, ACostlyTestWithoutAStandInIsRefused) {
   const assembly::Assembly full = bench_.assemble();
   const auto make = [&] { assembly::make_guide(bench_.experiment, bench_.run, "m/o", bench_.shelf, full); };
   fakes::set_stand_in("");
-  EXPECT_THAT(fakes::message_of(make),
-              HasSubstr("run m/o: \"guide\" is true, and none of its costly tests has a cheaper one that stands in for "
-                        "it; leave \"guide\" out"));
+  EXPECT_THAT(
+      fakes::message_of(make),
+      HasSubstr("run m/o: \"guide\" is true, and not each of its costly tests has a cheaper one that stands in for "
+                "it; leave \"guide\" out"));
   fakes::set_stand_in("unheard_of");
   EXPECT_THAT(fakes::message_of(make), HasSubstr("run m/o: the test 'slow' would be guided by a 'unheard_of', which no "
                                                  "loaded plugin provides; leave \"guide\" out, or load that plugin"));

@@ -133,6 +133,28 @@ TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {
   EXPECT_EQ(std::count_if(summary.warnings.begin(), summary.warnings.end(), same), 1);
 }
 
+TEST(Summary, BlamesTheSearchWhereAnotherRunOfTheModelCameLower) {
+  for (const bool constrained : {false, true}) {
+    Summarised made;
+    made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();
+    made.laboratory.bench.experiment.tests.front().data.noise = {{"y", {0.01, 0, 0}}};
+    made.plan.emplace(made.laboratory.plan());
+    made.results[0].realisations = {made.realisation(1, {10, 1, 3})};
+    made.results[1].realisations = {made.realisation(1, {2.01, 1, 3})};
+    auto entry = *made.plan->runs[0].entry;
+    entry.constraints.resize(constrained ? 1 : 0);  // then it may be the constraint that costs
+    made.plan->runs[0].entry = &entry;
+    const auto summary = made.summarise();
+    const auto& first = summary.warnings.at(0);
+    EXPECT_EQ(first.kind,
+              constrained ? execution::WarningKind::noise_contradicted : execution::WarningKind::search_fell_short);
+    EXPECT_EQ(first.run, "m/walk");
+    if (!constrained) {
+      EXPECT_THAT(first.sentence, HasSubstr("and that of m/compass is "));
+    }
+  }
+}
+
 TEST(Summary, SaysFirstThatTheRowsScatterByFarLessThanTheStatedNoise) {
   Summarised made;
   made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();

@@ -233,6 +233,26 @@ TEST(BaseFitKept, IsAnOptimumWhereNothingKeepsItFromOne) {
   EXPECT_THAT(found.warnings, IsEmpty());
 }
 
+/// The optimum, 30, lies behind a bound; at its own end nobody but the model is to blame.
+TEST(BaseFitKept, SaysWhichBoundsHoldItBack) {
+  for (const double most : {20., 40.}) {
+    BaseFitBed bed([](double a) { return StressAt{0.1 * (a - 30), 0.1}; }, 100, 0.01);
+    bed.parameter("a").initial = 10;
+    bed.parameter("a").max = most;
+    const auto found = bed.fit();
+    if (most > 30) {
+      EXPECT_THAT(found.warnings, IsEmpty());
+      continue;
+    }
+    ASSERT_THAT(found.warnings, SizeIs(1));
+    EXPECT_EQ(found.warnings[0].kind, WarningKind::base_fit_at_bound);
+    EXPECT_THAT(found.warnings[0].text, HasSubstr("held back by its bounds: a = 20 kPa (upper bound)."));
+  }
+  BaseFitBed ends([](double a) { return StressAt{0.1 * (a - 130), 0.1}; }, 100, 0.01);
+  EXPECT_NEAR(ends.fit().fit.free[0], 100, 1e-9);
+  EXPECT_THAT(ends.fit().warnings, IsEmpty());
+}
+
 /// exp(300 − a) between two parameters, and nothing else: a step goes down by 1, as often as it may.
 StressOf slope_between(double from, double to) {
   return [=](double a) -> std::optional<StressAt> {

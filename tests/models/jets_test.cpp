@@ -191,6 +191,9 @@ TEST(TaylorNumbers, HavePowersOfZeroAndOfNegativeNumbers) {
   const auto by_exponent = pow(Taylor<1>::argument(0), Taylor<1>::parameter(2.5, 0));
   EXPECT_EQ(by_exponent.p[0], 0);
   EXPECT_EQ(by_exponent.xp[0], 0);
+  // ∂²(f^g)/∂f∂g = f^(g − 1) (1 + g ln f) has no limit here.
+  EXPECT_EQ(pow(Taylor<1>::argument(0), Taylor<1>::parameter(1, 0)).xp[0], -std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(std::isfinite(pow(Taylor<1>::argument(0), Taylor<1>::parameter(0.5, 0)).xp[0]));
   EXPECT_EQ(pow(Taylor<1>::argument(-1.5), 2).xx, 2);
   EXPECT_EQ(pow(Taylor<1>::argument(-1.5), 3).x, 6.75);
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tunica/detail/strip_start.hpp"
@@ -131,6 +132,12 @@ inline Rows on_tensors(const Model& model, std::size_t n) {
   return rows;
 }
 
+/// With dispersion, a switch by the fibres' own stretch makes ∂W/∂y jump: some rows have no equilibrium.
+inline bool jumps(const Model& model) {
+  const auto parts = model.parts();
+  return !parts.empty() && parts.back()->describe().active == EnergyPart::Active::fibre_stretched;
+}
+
 /// σ, y, their derivatives by parameters and along the path; those of σ by parameters again, as they are found where
 /// nobody asks for y's.
 inline Rows along_strip(const Model& model, std::size_t n, std::size_t loaded, double reach = 0.6) {
@@ -148,6 +155,10 @@ inline Rows along_strip(const Model& model, std::size_t n, std::size_t loaded, d
   start.set(path);
   Status status;
   EXPECT_TRUE(model.solve_strip(path, status));
+  if (jumps(model) && !status.ok()) {
+    EXPECT_THAT(status.reason(), ::testing::HasSubstr("jumps from one sign to the other"));
+    return {};
+  }
   EXPECT_TRUE(status.ok()) << status.reason();
   path.stress_dp = rows[6];
   path.stress = path.lateral = path.lateral_dp = path.stress_by_l = path.lateral_by_l = {};

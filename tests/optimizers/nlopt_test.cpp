@@ -50,6 +50,25 @@ TEST(Nlopt, DrawsTheSameNumbersOnAnyThread) {
   EXPECT_TRUE(points(true) == points(false));
 }
 
+/// Where derivatives point the wrong way SLSQP gives up, and NLopt's MLSL with it, in the first of many minima.
+TEST(Nlopt, MlslOutlivesALocalSearchThatFails) {
+  Function function = rastrigin(2);
+  function.start = {0.8, 0.8};
+  function.residuals = [right = function.residuals](std::span<const double> x, std::span<double> r,
+                                                    std::span<double> jacobian) {
+    if (!right(x, r, jacobian)) return false;
+    for (double& entry : jacobian)
+      if (x[0] > 0.55) entry = -entry;
+    return true;
+  };
+  FunctionProblem problem(function, {.budget = 20000});
+  const auto outcome =
+      make_optimizer("nlopt", {{"algorithm", "mlsl"}, {"stall", std::int64_t{5000}}})->minimise(problem);
+  EXPECT_GT(problem.evaluations(), 5000u) << outcome.reason;
+  EXPECT_LT(problem.best, 2) << outcome.reason;  // the lowest minima have 0 and 1
+  EXPECT_TRUE(outcome.converged) << outcome.reason;
+}
+
 TEST(Nlopt, EndsAStartThatAsksForAPointThatIsNotANumber) {
   // SLSQP loses its quadratic model to this derivative, and would ask for NaN until the budget is spent.
   const Function function =

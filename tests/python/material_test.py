@@ -24,6 +24,12 @@ class Materials(Case):
         numpy.testing.assert_allclose(material.stress(C=C), 30 * numpy.broadcast_to(numpy.eye(3), C.shape), atol=1e-12)
         numpy.testing.assert_allclose(material.cauchy(F=F), 30 * numpy.einsum("nik,njk->nij", F, F)
                                       / numpy.linalg.det(F)[:, None, None], rtol=1e-12, atol=1e-12)
+        stretches = numpy.array([[1.2, 1, 1 / 1.2], [0.9, 1.3, 0.8]])
+        numpy.testing.assert_array_equal(material.cauchy(stretches=stretches),
+                                         material.cauchy(F=stretches[:, :, None] * numpy.eye(3)))
+        for neither in ({}, {"F": F, "stretches": stretches}):
+            with self.assertRaisesRegex(tunica.InputError, "either F or stretches"):
+                material.cauchy(**neither)
 
     def test_stress_is_the_gradient_of_the_energy_and_the_tangent_that_of_the_stress(self):
         material = tunica.Material("gho", mu=10.0, k1=20.0, k2=2.0)

@@ -3,6 +3,7 @@
 #include <random>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "conformance/test_properties.hpp"
@@ -10,6 +11,7 @@
 
 namespace tunica::testing::uniaxial_test {
 using namespace conformance;
+using ::testing::HasSubstr;
 namespace {
 
 /// Set S of Canales et al. 2023: mu, kappa, k1, k2, theta.
@@ -135,6 +137,35 @@ TEST(Uniaxial, OverflowIsAStatusOnBothPaths) {
     for (const std::size_t rows : {5u, 40u})
       EXPECT_EQ(overflow_is_a_status({*make_strip(evenly(1, 3, rows)), *model, stiff, {misalignment}}).counter_example,
                 "");
+}
+
+/// With dispersion, fibres that switch by their own stretch do so under load: at some stretches ½ ∂W/∂ln λ2² jumps from
+/// below zero to above, and there is no equilibrium. At rest and behind these there is one.
+TEST(Uniaxial, AJumpIsNoEquilibrium) {
+  Options options;
+  options.set("fibre_switch", std::string("stretch"));
+  const auto model = make_model("gho", options);
+  const double mu = 10, kappa = 0.2, k1 = 200, k2 = 1, theta = 35;
+  const auto jumps = [&](double stretch) {
+    const double s2 = std::pow(std::sin(theta * std::acos(-1) / 180), 2), c1 = stretch * stretch;
+    const double u = (1 - s2 * c1) / (1 - s2), c3 = 1 / (c1 * u);  // the fibres' own stretch is 1
+    const double e = kappa * (c1 + u + c3 - 3), first = 2 * k1 * e * std::exp(k2 * e * e);
+    const double slack = mu / 2 * (u - c3), of_fibres = first * (u * (kappa + (1 - 3 * kappa) * (1 - s2)) - c3 * kappa);
+    return u > 0 && slack < 0 && slack + of_fibres > 0;
+  };
+  for (const double stretch : {1.0, 1.05, 1.2, 1.29, 1.8})
+    for (const double misalignment : {0., 1e-7})
+      for (const std::vector<std::string>& channels :
+           {std::vector<std::string>{"stress"}, std::vector<std::string>{"stress", "transverse_stretch"}}) {
+        const auto strip = make_strip({stretch}, {.channels = channels});
+        const Prediction found = predict(*strip, *model, {mu, kappa, k1, k2, theta}, misalignment);
+        EXPECT_EQ(found.status.ok(), !jumps(stretch)) << stretch << ' ' << misalignment << ' ' << found.status.reason();
+        if (jumps(stretch)) EXPECT_THAT(found.status.reason(), HasSubstr("jumps from one sign to the other"));
+      }
+  EXPECT_TRUE(jumps(1.05) && jumps(1.2));
+  EXPECT_FALSE(jumps(1) || jumps(1.8));
+  EXPECT_THAT(predict(*make_strip(evenly(1, 1.7, 40)), *model, {mu, kappa, k1, k2, theta}).status.reason(),
+              HasSubstr("jumps from one sign to the other, at row"));
 }
 
 TEST(Uniaxial, TensorsGiveWhatTheAxesGive) {

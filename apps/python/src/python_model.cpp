@@ -119,4 +119,11 @@ Status AddedPythonEnergy::evaluate_axes(const AxisPoints& points, const AxisResp
   return {};
 }
 
+bool AddedPythonEnergy::solve_strip(const StripPath& strip, Status& status) const {
+  if (strip.parameters[own_] != null_ || !strip.stress_dp.empty() || !description_.principal_axes) return false;
+  StripPath bare = strip;
+  bare.parameters = strip.parameters.first(own_);
+  return base_->solve_strip(bare, status);
+}
+
 }  // namespace tunica::python

@@ -38,6 +38,7 @@ class AddedPythonEnergy final : public Model {
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override;
   Status evaluate_axes(const AxisPoints& points, const AxisResponse& response) const override;
+  bool solve_strip(const StripPath& strip, Status& status) const override;
 
  private:
   std::unique_ptr<Model> base_;

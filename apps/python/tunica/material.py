@@ -69,8 +69,12 @@ class Response:
         found = self._evaluate(C, F, stretches, tangent=True)["tangent"]
         return found.reshape(6, 6, -1).transpose(2, 0, 1)
 
-    def cauchy(self, *, F, time_step=None):
-        """Cauchy stress F S Fᵀ/J without pressure, kPa, (n, 3, 3)."""
+    def cauchy(self, *, F=None, stretches=None, time_step=None):
+        """Cauchy stress F S Fᵀ/J without pressure, kPa, (n, 3, 3). `C` does not say how the body has turned."""
+        if (F is None) == (stretches is None):
+            raise InputError("give either F or stretches")
+        if F is None:
+            F = numpy.asarray(stretches, dtype=float).reshape(-1, 3)[:, :, None] * numpy.eye(3)
         F = numpy.asarray(F, dtype=float).reshape(-1, 3, 3)
         S = self.stress(F=F, time_step=time_step)
         return numpy.einsum("nij,njk,nlk->nil", F, S, F) / numpy.linalg.det(F)[:, None, None]

@@ -27,7 +27,7 @@ struct StripPath {
   std::span<const double> parameters = {};  ///< of the model
   std::span<const double> stretch = {};     ///< n entries: λ1
 
-  /// Stretches at which the equilibrium is looked for first, to be interpolated to the rows; may be empty.
+  /// Stretches at which the equilibrium is looked for first, to be interpolated to the rows: 8, or none.
   std::span<const double> nodes = {};
   std::span<const double> guesses = {};  ///< 2·nodes entries: two guesses of λ2² a node
   /// 2·nodes × `row_stride` entries: λ2² of row i begins as Σ_k w_ki u_k + v_ki u_k (1 + y_l,k), w_ki at

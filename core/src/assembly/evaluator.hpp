@@ -36,7 +36,8 @@ enum class CostlyTests {
 };
 
 /// From free parameter values, in base units, to predictions, residuals and objective of a run. Const and thread-safe;
-/// each thread brings a workspace, and evaluation allocates nothing. Refers to what it was made with.
+/// each thread brings a workspace, and evaluation allocates nothing, unless it has to difference a test. Refers to what
+/// it was made with.
 class Evaluator {
  public:
   Evaluator(const Layout& layout, const Models& models, const Constraints& constraints, std::vector<RunTest> tests,

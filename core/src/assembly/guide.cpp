@@ -34,7 +34,6 @@ std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, c
                                      const Assembly& full) {
   if (!full.layout().has_costly_tests) return nullptr;
   experiment::Experiment cheaper = experiment;
-  bool replaced = false;
   for (experiment::TestEntry& entry : cheaper.tests) {
     if (std::find(run.tests.begin(), run.tests.end(), entry.name) == run.tests.end()) continue;
     const auto& costly = catalogue.tests().at(entry.type);
@@ -51,13 +50,7 @@ std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, c
           label, entry.name, found->type));
     entry.type = found->type;
     entry.options = completed(std::move(found->options), on_shelf->second.factory.options);
-    replaced = true;
   }
-  if (!replaced)
-    throw InputError(
-        fmt::format("run {}: \"guide\" is true, and none of its costly tests has a cheaper one that stands in for it; "
-                    "leave \"guide\" out",
-                    label));
   std::unique_ptr<Assembly> guide;
   try {
     guide = std::make_unique<Assembly>(cheaper, run, catalogue);
@@ -66,6 +59,11 @@ std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, c
         fmt::format("run {}: the tests that would guide it cannot be made; leave \"guide\" out. The reason: {}", label,
                     problem.what()));
   }
+  if (guide->layout().has_costly_tests)
+    throw InputError(
+        fmt::format("run {}: \"guide\" is true, and not each of its costly tests has a cheaper one that stands in for "
+                    "it; leave \"guide\" out",
+                    label));
   if (!alike(guide->layout(), full.layout()))
     throw InputError(
         fmt::format("run {}: the tests that would guide it have other free parameters or rows than its own; leave "

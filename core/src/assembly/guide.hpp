@@ -8,10 +8,10 @@
 
 namespace tunica::assembly {
 
-/// The run with each costly test replaced by the cheaper one that stands in for it, see TestFactory::stand_in; none
+/// The run with each test replaced by the cheaper one that stands in for it, if any, see TestFactory::stand_in; none
 /// where the run has no costly test. Data, weights, parameters, constraints and residuals are those of `full`.
 ///
-/// Throws InputError where no costly test has a stand-in, or where one cannot take its place. `label` names the run.
+/// Throws InputError where a costly test has no stand-in, or where one cannot take its place. `label` names the run.
 std::unique_ptr<Assembly> make_guide(const experiment::Experiment& experiment, const experiment::RunEntry& run,
                                      const std::string& label, const plugins::Catalogue& catalogue,
                                      const Assembly& full);

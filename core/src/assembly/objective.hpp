@@ -37,7 +37,8 @@ struct PriorRow {
 ///   least_squares           J = w Σ ((y − ŷ)/σ)², whitened by stated correlation    r = e/σ
 ///   sum_of_norms            J = w ‖y − ŷ‖                                           r = e, ρ = √
 ///
-/// Fills own, previous, block.weight and block.loss. Throws InputError naming `where` when the range is zero.
+/// Fills own, previous, block.weight and block.loss. Throws InputError naming `where` when the range is zero,
+/// or a measured value is beyond all units.
 void scale_residuals(ChannelObjective& fitted, experiment::ObjectiveType objective, double weight,
                      const NoiseModel* noise, const std::string& where);
 

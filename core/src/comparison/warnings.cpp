@@ -17,8 +17,36 @@ namespace {
 using execution::WarningKind;
 using Warnings = std::vector<execution::Warning>;
 
-void warn_of_contradicted_noise(const execution::Plan& plan, const RunSummary& run, Warnings& warnings) {
+/// The run of the same model under the same constraints, objective and tests that came clearly lower; none = null.
+const RunSummary* lower_run(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own) {
+  constexpr double clearly = 0.99;
+  const auto same = [](const experiment::ConstraintEntry& a, const experiment::ConstraintEntry& b) {
+    return a.type == b.type && a.json == b.json;
+  };
+  const auto constraints = [&](std::size_t run) -> const auto& { return plan.runs[run].entry->constraints; };
+  const RunSummary* lowest = nullptr;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].group != runs[own].group || runs[k].model != runs[own].model || !runs[k].status.ok()) continue;
+    const auto &a = constraints(k), &b = constraints(own);
+    if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) continue;
+    if (runs[k].objective < clearly * (lowest != nullptr ? lowest : &runs[own])->objective) lowest = &runs[k];
+  }
+  return lowest;
+}
+
+void warn_of_contradicted_noise(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own,
+                                Warnings& warnings) {
+  const RunSummary& run = runs[own];
   if (!run.misfit || !run.misfit->contradicts()) return;
+  if (const RunSummary* const lower = lower_run(plan, runs, own)) {
+    warnings.push_back({WarningKind::search_fell_short,
+                        fmt::format("the search ended above the optimum: its objective is {:.5g}, and that of {} is "
+                                    "{:.5g}, with the same model and tests. Its misfit says nothing of the model. Take "
+                                    "the lower run, or give this one more evaluations",
+                                    run.objective, lower->label, lower->objective),
+                        run.label});
+    return;
+  }
   warnings.push_back(
       {WarningKind::noise_contradicted,
        fmt::format(
@@ -130,7 +158,8 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
       warn(WarningKind::unstable,
            fmt::format(
                "unstable: when the strip is {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to "
-               "{:.4g}); impose the constraint transverse_stability, or take a model with dispersed fibres",
+               "{:.4g}); impose the constraint transverse_stability. Fibres are the more stable the more they are "
+               "dispersed",
                pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
                from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
                strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
@@ -229,7 +258,7 @@ std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const s
     if (run.has_result && run.status.kind() == Status::Kind::infeasible) warn_of_broken_constraints(run, warnings);
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_scale(run, warnings);
-  for (const auto& run : runs) warn_of_contradicted_noise(plan, run, warnings);
+  for (std::size_t run = 0; run < runs.size(); ++run) warn_of_contradicted_noise(plan, runs, run, warnings);
   for (auto& warning : preferences(runs, ranking)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it

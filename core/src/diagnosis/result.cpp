@@ -129,6 +129,8 @@ const char* code_of(WarningKind kind) {
       return "optimizer_failed";
     case WarningKind::base_fit_not_optimal:
       return "base_fit_not_optimal";
+    case WarningKind::base_fit_at_bound:
+      return "base_fit_at_bound";
     case WarningKind::noise_too_large:
       return "noise_too_large";
     case WarningKind::noise_vanishes:

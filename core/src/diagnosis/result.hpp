@@ -58,6 +58,7 @@ enum class WarningKind {
   optimizer_has_stages,
   optimizer_failed,
   base_fit_not_optimal,
+  base_fit_at_bound,
   base_model,
   noise_too_large,
   noise_vanishes,

@@ -14,6 +14,7 @@ enum class WarningKind {
   misfit_out_of_scale,
   no_misfit,
   noise_contradicted,
+  search_fell_short,
   noise_too_large,
   no_result,
   no_feasible_point,
@@ -46,10 +47,11 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 33> warning_codes{
+inline constexpr text::Codes<WarningKind, 34> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
+     {WarningKind::search_fell_short, "search_fell_short"},
      {WarningKind::noise_too_large, "noise_too_large"},
      {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},

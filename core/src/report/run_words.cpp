@@ -175,7 +175,7 @@ Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
     doubts.add("the best point breaks its constraints", "Relax the constraints.");
   if (member(best, "stable") == false)
     doubts.add("the material is unstable within the measured range",
-               "Impose the constraint transverse_stability, or take a model with dispersed fibres.");
+               "Impose the constraint transverse_stability. Fibres are the more stable the more they are dispersed.");
   const Json& certificate = member(best, "certificate");
   if (is_no_optimum(certificate))
     doubts.add("a neighbouring point is better, so this is not an optimum",

@@ -27,6 +27,11 @@ struct Record {
   bool ended_early = false;  ///< the objective is a lower bound, see Problem::evaluate_best
 };
 
+/// Whether one point is strictly better than another: the less violation, the less objective.
+inline bool is_better(double objective, double violation, double than_objective, double than_violation) {
+  return violation != than_violation ? violation < than_violation : objective < than_objective;
+}
+
 /// What the best evaluated point is, at any time: the feasible one of least objective; while none is feasible, the
 /// one of least violation.
 struct Best {
@@ -40,7 +45,7 @@ struct Best {
   /// Strictly better than another, so that of equals the first stays.
   [[nodiscard]] bool better_than(const Best& other) const {
     if (!found() || !other.found()) return found() && !other.found();
-    return violation != other.violation ? violation < other.violation : objective < other.objective;
+    return is_better(objective, violation, other.objective, other.violation);
   }
 };
 
@@ -83,7 +88,8 @@ struct Tally {
 /// A batch counts whole, up to the budget: a target or a stall in the middle of one refuses what comes after it, so
 /// that results do not depend on threads. Starts run side by side and are merged as if one after the other
 /// (starts.hpp); a start's evaluations() and budget() are its own, from what was left when its block began. Only
-/// max_time and an interruption depend on the clock; what is recorded then is still a prefix of what would have been.
+/// max_time and an interruption depend on the clock. What is recorded then is a prefix of what would have been, but for
+/// the last batch before max_time: what it did not come to simulate counts as ended early.
 class CalibrationProblem : public Problem {
  public:
   struct Settings {

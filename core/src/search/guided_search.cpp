@@ -11,10 +11,7 @@
 namespace tunica::search {
 namespace {
 
-/// Strictly better: feasible points by objective, before others by violation.
-bool better(double objective, double violation, double than_objective, double than_violation) {
-  return violation != than_violation ? violation < than_violation : objective < than_objective;
-}
+constexpr const char* stopped = "guided by cheaper tests: stopped";
 
 }  // namespace
 
@@ -86,6 +83,7 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     at.violation = status.violation();
     return status;
   };
+  if (costly.should_stop()) return {false, stopped};
   if (const Status status = linearise(centre); status.kind() == Status::Kind::failed)
     return {false, fmt::format("the costly tests cannot be simulated where their guides led: {}", status.reason())};
   double radius = first_radius;
@@ -98,7 +96,8 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     if (!correct(centre, radius, correction))
       return {false, "the tests that guide the search cannot be evaluated at the best point"};
     const Best found = search(correction, centre.x, few, round);
-    if (!found.found() || costly.should_stop()) break;
+    if (costly.should_stop()) break;
+    if (!found.found()) return {false, ended("nothing near the best point could be evaluated")};
     const double promised = centre.objective - found.objective;
     const bool promising =
         found.violation < centre.violation ||
@@ -112,7 +111,7 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     guide_.box().to_unit(found.parameters, trial.x);
     const Status status = linearise(trial);
     const bool usable = status.kind() != Status::Kind::failed;
-    const bool accepted = usable && better(trial.objective, trial.violation, centre.objective, centre.violation);
+    const bool accepted = usable && is_better(trial.objective, trial.violation, centre.objective, centre.violation);
     const double kept = usable && promised > 0 ? (centre.objective - trial.objective) / promised : 0;
     if (accepted) std::swap(centre, trial);
     if (!accepted) {
@@ -124,7 +123,7 @@ Optimizer::Outcome GuidedSearch::run(CalibrationProblem& costly, bool begun) {
     }
     if (radius < least_radius) return {true, ended("the trust region vanished")};
   }
-  if (costly.should_stop()) return {false, "guided by cheaper tests: stopped"};
+  if (costly.should_stop()) return {false, stopped};
   return {false, fmt::format("guided by cheaper tests: {} rounds did not suffice", most_rounds)};
 }
 

@@ -17,13 +17,11 @@ namespace tunica::search {
 ///      an earlier stage has found is taken for the centre instead.
 ///   2. The costly problem is linearised at x₀: one evaluation with its Jacobian.
 ///   3. The optimizer searches the cheap problem, corrected to the first order at x₀ (correction.hpp), in a trust
-///   region
-///      |x − x₀| ≤ Δ, and the costly problem is linearised at its best point x₁.
+///      region |x − x₀| ≤ Δ, and the costly problem is linearised at its best point x₁.
 ///   4. With q = (f(x₀) − f(x₁)) / (f(x₀) − m(x₁)), m the corrected problem: where f(x₁) < f(x₀), x₁ is the new centre;
 ///      Δ is halved where q < 1/4, quartered where the point was no better, and doubled where q > 3/4.
 ///   5. Again from 3, until Δ < `least_radius`, the costly problem has to stop, or `most_idle` corrected searches in
-///   turn
-///      promised less than `promise` of the objective (and `perfect`, for perfect fits). Such a search costs no
+///      turn promised less than `promise` of the objective (and `perfect`, for perfect fits). Such a search costs no
 ///      simulation; the next one has a quarter of Δ, where random numbers find more.
 ///
 /// Values and derivatives of the corrected problem are those of the costly one at every centre, so that the end is a

@@ -60,8 +60,7 @@ void Ledger::add(std::span<const double> parameters, double objective, const Sta
   } else {
     const double violation = status.violation();
     if (status.kind() == Status::Kind::infeasible) ++tally_.infeasible;
-    const bool nearer = violation != best_.violation ? violation < best_.violation : objective < best_.objective;
-    if (!best_.found() || nearer) {
+    if (!best_.found() || is_better(objective, violation, best_.objective, best_.violation)) {
       best_.parameters.assign(parameters.begin(), parameters.end());
       best_.objective = objective;
       best_.index = index;
@@ -69,7 +68,9 @@ void Ledger::add(std::span<const double> parameters, double objective, const Sta
       improved_at_ = tally_.evaluations;
     }
   }
-  if (status.ok() && rules_.stop.target && best_.objective <= *rules_.stop.target) stop(StopReason::target);
+  // What ended early is not the best, and says nothing of it.
+  const bool reached = status.ok() && extent != Extent::ended_early && best_.feasible();
+  if (reached && rules_.stop.target && best_.objective <= *rules_.stop.target) stop(StopReason::target);
   check_failures(status);
   if (rules_.stop.stall && tally_.evaluations - improved_at_ >= *rules_.stop.stall) stop(StopReason::stall);
   if (tally_.evaluations >= rules_.stop.max_evaluations) stop(StopReason::max_evaluations);

@@ -177,8 +177,10 @@ Status Oracle::evaluate_at(std::span<const double> x, std::size_t slot, std::spa
   if (status.kind() == Status::Kind::failed) shared_.watch.add(plugins::take_time_lost());
   if (status.kind() == Status::Kind::failed) return status;
   if (!jacobian.empty()) shared_.box.jacobian_to_unit(free, jacobian);
-  if (correction != nullptr)
+  if (correction != nullptr) {
     made.objectives[slot] = correction->apply(x, shared_.assembly.layout().blocks, residuals, jacobian);
+    if (!std::isfinite(made.objectives[slot])) return Status::failed("the corrected objective overflows");
+  }
   return status;
 }
 
@@ -391,7 +393,6 @@ Status Oracle::constraints(std::span<const double> x, std::span<double> values, 
   shared_.box.from_unit(x, free);
   if (Status status = shared_.assembly.constraints().evaluate(free, values, jacobian); !status.ok() || jacobian.empty())
     return status;
-  const WorkspacePool::Loan workspace(shared_.pool);
   shared_.box.jacobian_to_unit(free, jacobian);
   return {};
 }

@@ -13,14 +13,6 @@
 namespace tunica::nlopt_plugin {
 namespace {
 
-std::vector<double> random_point(std::uint64_t seed, std::size_t n) {
-  std::vector<double> x(n);
-  for (std::size_t j = 0; j < n; ++j) {
-    x[j] = static_cast<double>(derive_seed(seed, fmt::format("coordinate {}", j)) >> 11) * 0x1p-53;
-  }
-  return x;
-}
-
 std::string infeasibility(const Point& best) {
   return best.violation > 0 ? fmt::format("no feasible point was found, the least violation was {:g}; ", best.violation)
                             : std::string();

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "tunica/optimizers/augmented_lagrangian.hpp"
+#include "tunica/random.hpp"
 
 namespace tunica::nlopt_plugin {
 namespace {
@@ -131,6 +132,37 @@ std::size_t stall_of(const Settings& settings, std::size_t n) {
   return (settings.algorithm == Algorithm::isres ? 2000 : 200) * (n + 1);
 }
 
+/// MLSL. NLopt ends it with the first of its local searches that fails or comes to rounding, and forgets what it knew.
+/// It is then begun again from another point, on another stretch of its sequence, until it has made no progress for as
+/// long as one search may.
+Search search_by_levels(Problem& problem, std::span<const double> start, const Settings& settings) {
+  const auto n = static_cast<unsigned>(problem.dimension());
+  const Algorithm local = possible(settings.local, n);
+  const std::size_t stall = stall_of(settings, n);
+  const unsigned points = settings.population > 0 ? static_cast<unsigned>(settings.population) : 4;  // NLopt's own
+  Search search;
+  std::size_t improved_at = 0;
+  for (unsigned round = 0;; ++round) {
+    Bridge bridge(
+        problem,
+        {.gradient = uses_gradient(local), .failed = failed(local), .stall = stall, .tolerance = settings.tolerance});
+    nlopt::opt opt(algorithm_of(Algorithm::mlsl, local), n), inner(algorithm_of(local, local), n);
+    bridge.attach(opt, takes_constraints(Algorithm::mlsl));
+    opt.set_population(points + round);
+    set_local(inner, local, settings);
+    opt.set_local_optimizer(inner);
+    const Point before = search.best;
+    run(opt, bridge, round == 0 ? std::vector<double>(start.begin(), start.end()) : random_point(round, n), search);
+    if (search.best.better_than(before)) improved_at = search.evaluated;
+    if (search.end == Search::End::nothing && !search.best.x.empty()) search.end = Search::End::stalled;
+    const bool cut_short = search.end == Search::End::roundoff || search.end == Search::End::gave_up;
+    if (!cut_short || bridge.evaluated() == 0 || problem.should_stop()) return search;
+    if (search.evaluated - improved_at < stall) continue;
+    search.end = Search::End::stalled;
+    return search;
+  }
+}
+
 /// MLSL on a quadratic penalty until it stalls, then its local algorithm from the best point.
 Search search_in_two_steps(Problem& problem, std::span<const double> start, std::uint64_t seed,
                            const Settings& settings) {
@@ -168,8 +200,17 @@ std::string Search::words() const {
   return "";
 }
 
+std::vector<double> random_point(std::uint64_t seed, std::size_t n) {
+  std::vector<double> x(n);
+  for (std::size_t j = 0; j < n; ++j)
+    x[j] = static_cast<double>(derive_seed(seed, fmt::format("coordinate {}", j)) >> 11) * 0x1p-53;
+  return x;
+}
+
 Search search_globally(Problem& problem, std::span<const double> start, std::uint64_t seed, const Settings& settings) {
   const Algorithm algorithm = settings.algorithm;
+  if (algorithm == Algorithm::mlsl && problem.constraint_count() == 0)
+    return search_by_levels(problem, start, settings);
   const bool constrained = problem.constraint_count() > 0;
   if (algorithm == Algorithm::mlsl && constrained) return search_in_two_steps(problem, start, seed, settings);
   if (algorithm == Algorithm::direct_l && constrained) {
@@ -179,20 +220,13 @@ Search search_globally(Problem& problem, std::span<const double> start, std::uin
   }
   // NLopt's generator is one a thread. Evaluations are serial here, so that no other search runs on it in between.
   nlopt::srand(static_cast<unsigned long>(seed));
-  const Algorithm local = possible(settings.local, problem.dimension());
-  Bridge bridge(problem, {.gradient = algorithm == Algorithm::mlsl && uses_gradient(local),
-                          .infeasible = algorithm == Algorithm::crs2_lm ? Infeasible::ranked : Infeasible::as_is,
-                          .failed = failed(algorithm == Algorithm::mlsl ? local : algorithm),
+  Bridge bridge(problem, {.infeasible = algorithm == Algorithm::crs2_lm ? Infeasible::ranked : Infeasible::as_is,
+                          .failed = failed(algorithm),
                           .stall = stall_of(settings, problem.dimension()),
                           .tolerance = settings.tolerance});
-  nlopt::opt opt(algorithm_of(algorithm, local), static_cast<unsigned>(problem.dimension()));
+  nlopt::opt opt(algorithm_of(algorithm, algorithm), static_cast<unsigned>(problem.dimension()));
   bridge.attach(opt, takes_constraints(algorithm));
   if (settings.population > 0) opt.set_population(static_cast<unsigned>(settings.population));
-  if (algorithm == Algorithm::mlsl) {
-    nlopt::opt inner(algorithm_of(local, local), static_cast<unsigned>(problem.dimension()));
-    set_local(inner, local, settings);
-    opt.set_local_optimizer(inner);
-  }
   Search search;
   run(opt, bridge, start, search);
   return search;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bridge.hpp"
 #include "settings.hpp"
@@ -28,6 +31,9 @@ struct Search {
   [[nodiscard]] bool converged() const { return end <= End::stalled && best.violation == 0; }
   [[nodiscard]] std::string words() const;
 };
+
+/// A point of the unit box that depends on the seed alone.
+std::vector<double> random_point(std::uint64_t seed, std::size_t n);
 
 /// One run of a global algorithm over the box; `seed` is for NLopt's generator of this thread.
 Search search_globally(Problem& problem, std::span<const double> start, std::uint64_t seed, const Settings& settings);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "tunica/detail/free_strip.hpp"
 #include "tunica/detail/safeguarded_newton.hpp"
 
 namespace tunica::uniaxial {
@@ -170,6 +171,8 @@ Status predict_on_tensors(const Strip& strip, const TestInput& input, double mis
     previous = stretch[i];
     if (!row.evaluate(y, !output.jacobian.empty(), new_state))
       return Status::failed("uniaxial: " + row_name(strip, stretch, i) + ": " + row.failure());
+    if (const detail::Residual left = row.residual(); !(std::abs(left.value) < free_strip::last_step * left.slope))
+      return Status::failed("uniaxial: " + free_strip::jumping_row().reason() + ", at " + row_name(strip, stretch, i));
     std::swap(old_state, new_state);
 
     RowSolution solution{stretch[i], row.stress(), y, 0, 0};

@@ -204,7 +204,8 @@ inline bool solve_from_rest(const Pull& pull, double stretch, Scratch& scratch, 
 }
 
 /// Newton over the batch until every step is below `tolerance`. `u` is updated but for that last step, which stays in
-/// the batch. Rows that do not get there are solved one by one; `lost` is the first that has no equilibrium, or none.
+/// the batch. Rows that do not get there are solved one by one; `lost` is the first that cannot be followed from rest,
+/// or none. What these came to may be a jump: first_unsettled() sees that.
 inline Status iterate(const Pull& pull, std::span<const double> stretch, double tolerance, Batch& batch,
                       std::span<double> u, std::optional<std::size_t>& lost) {
   const std::size_t n = stretch.size();
@@ -237,6 +238,18 @@ inline Status iterate(const Pull& pull, std::span<const double> stretch, double 
     return Status::failed(lost_row);
   }
   return batch.evaluate(u.data(), false);
+}
+
+/// A row where ∂W/∂y changes sign in a jump. With dispersion, "fibre_switch": "stretch" makes such energies.
+inline Status jumping_row() {
+  return Status::failed(
+      "no lateral equilibrium: where a family of fibres switches, the lateral stress jumps from one sign to the other");
+}
+
+/// The first of n rows whose Newton step, or the want of one, says that it is in no equilibrium; n = none.
+inline std::size_t first_unsettled(const double* step, std::size_t n, double tolerance) {
+  return static_cast<std::size_t>(
+      std::find_if(step, step + n, [tolerance](double value) { return !(std::abs(value) < tolerance); }) - step);
 }
 
 }  // namespace tunica::free_strip

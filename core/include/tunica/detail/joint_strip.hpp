@@ -23,7 +23,7 @@ class Strip {
         by_stretch_(!strip.stress_by_l.empty()),
         lateral_(!strip.lateral_dp.empty()) {}
 
-  /// c3, the derivatives of W at u, Newton's step, and σ after it.
+  /// The derivatives of W at u, Newton's step, and σ after it.
   template <std::size_t width>
   [[gnu::always_inline]] void evaluate(hyperelastic::StripLanes& s, std::size_t lanes) const {
     pass<width, Beside::other, Variable::y>(
@@ -33,11 +33,10 @@ class Strip {
           place.store(s.by_l.data(), w.p[0]);
           place.store(s.by_ly.data(), w.xp[0]);
         });
-    set_c3(s, lanes);
     hyperelastic::end_strip(s, lanes);
   }
 
-  /// c3, W_yy and ½ W_ly at u, and ¼ W_ll where it is wanted. With `by_parameters` W_yp and ½ W_lp too; where nobody
+  /// W_yy and ½ W_ly at u, and ¼ W_ll where it is wanted. With `by_parameters` W_yp and ½ W_lp too; where nobody
   /// asks for y by parameters, what the stress makes of both, at half the cost.
   template <std::size_t width>
   [[gnu::always_inline]] void differentiate(hyperelastic::StripLanes& s, bool by_parameters,
@@ -60,7 +59,6 @@ class Strip {
       by_p.along_path = true;
     }
     for (std::size_t j = 0; by_parameters && j < parameters; ++j) by_p.written.set(j);
-    set_c3(s, lanes);
   }
 
  private:
@@ -80,10 +78,6 @@ class Strip {
     const auto c1 = place.load(s.c1.data()), c2 = place.load(s.u.data());
     if (!on_path) return {c1, c2, 1 / (c1 * c2), 0};
     return {c1, c2, 1 / (c1 * c2), place.load(s.by_ly.data()) / place.load(s.by_yy.data())};
-  }
-  [[gnu::always_inline]] static void set_c3(hyperelastic::StripLanes& s, std::size_t lanes) {
-    TUNICA_LANES
-    for (std::size_t i = 0; i < lanes; ++i) s.c3[i] = 1 / (s.c1[i] * s.u[i]);
   }
 
   /// Ψ by the variable, and what stands beside it, at all lanes; store(place, Ψ).

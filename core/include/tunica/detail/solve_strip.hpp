@@ -57,6 +57,11 @@ inline Status solve_by_batches(const Model& model, const StripPath& path, Scratc
   std::optional<std::size_t> lost;
   Status status = guess(pull, path, scratch, u, lost);
   if (status.ok()) status = iterate(pull, path.stretch, last_step, batch, u, lost);
+  if (status.ok())
+    if (const std::size_t row = first_unsettled(scratch.step.data(), n, last_step); row < n) {
+      lost = row;
+      status = jumping_row();
+    }
   if (lost && path.lost != nullptr) *path.lost = *lost;
   if (!status.ok()) return status;
   const bool along = !path.stress_by_l.empty() || !path.lateral_by_l.empty();

@@ -37,7 +37,7 @@ struct StripLanes {
   alignas(64) Row by_ll;                        ///< ¼ W_ll
   alignas(64) Row step, stress;                 ///< Newton's, relative to u; σ after it, to first order
   alignas(64) Row u_before, r_before, u_per_r;  ///< of the pass before: u, W_y, ∂u/∂W_y
-  alignas(64) Row bend, bend_before;            ///< at nodes: W_ly/W_yy at the u of this pass, and the pass before
+  alignas(64) Row bend, bend_before;            ///< at nodes: ½ W_ly/W_yy at the u of this pass, and the pass before
 };
 
 /// One part along a strip.

@@ -214,8 +214,13 @@ class StripSolver {
         move<true>(s, lanes);
     }
     Status status = follow_from_rest(s, stretch, tolerance);
-    if (status.ok()) evaluate(s, lanes);
-    return status;
+    if (!status.ok()) return status;
+    evaluate(s, lanes);
+    if constexpr (nodes) return status;  // where rows only begin
+    const std::size_t row = free_strip::first_unsettled(s.step.data(), stretch.size(), tolerance);
+    if (row == stretch.size()) return status;
+    if (strip_.lost != nullptr) *strip_.lost = row;
+    return free_strip::jumping_row();
   }
 
   /// Whether all that is open has no step at all.

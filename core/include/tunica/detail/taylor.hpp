@@ -5,6 +5,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 
@@ -278,13 +279,15 @@ struct Taylor {
     const Number slope = g * lane_pow(f.value, g - 1);
     return f.through(lane_pow(f.value, g), slope, g * (g - 1) * lane_pow(f.value, g - 2));
   }
-  /// At f = 0 < g all derivatives by g are 0; at f < 0 they are no numbers.
+  /// At f = 0 < g derivatives by g alone are 0, and the mixed one f^(g − 1) (1 + g ln f) is −∞ but for g > 1; at f < 0
+  /// they are no numbers.
   friend Taylor pow(const Taylor& f, const Taylor& g) {
     using std::pow, std::log;
     if (g.is_constant()) return pow(f, g.value);
     const Number a = f.value, b = g.value, F = pow(a, b), lower = pow(a, b - 1);
     const bool at_zero = a == 0 && b > 0;
-    const Number logarithm = at_zero ? 0 : log(a), mixed = at_zero && b > 1 ? 0 : lower * (1 + b * logarithm);
+    const Number logarithm = at_zero ? 0 : log(a), at_edge = b > 1 ? 0 : -std::numeric_limits<double>::infinity();
+    const Number mixed = at_zero ? at_edge : lower * (1 + b * logarithm);
     const Number twice = b == 1 ? 0 : b * (b - 1) * pow(a, b - 2);
     return f.through(g, F, b * lower, F * logarithm, twice, mixed, F * logarithm * logarithm);
   }

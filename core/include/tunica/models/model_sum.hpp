@@ -73,6 +73,13 @@ class ModelSum final : public Model {
     return {};
   }
 
+  bool solve_strip(const StripPath& strip, Status& status) const override {
+    if (strip.parameters[count_] != null_ || !strip.stress_dp.empty() || !description_.principal_axes) return false;
+    StripPath bare = strip;
+    bare.parameters = strip.parameters.first(count_);
+    return base_->solve_strip(bare, status);
+  }
+
  private:
   static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
     ModelDescription description = base.describe();

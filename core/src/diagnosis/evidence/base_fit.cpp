@@ -2,6 +2,7 @@
 #include "diagnosis/evidence/base_fit.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <boost/random/mersenne_twister.hpp>
@@ -10,6 +11,8 @@
 #include <tbb/parallel_for.h>
 
 #include "diagnosis/evidence/projection.hpp"
+#include "text/lists.hpp"
+#include "text/units.hpp"
 #include "tunica/random.hpp"
 #include "uncertainty/refit.hpp"
 
@@ -97,6 +100,26 @@ experiment::Experiment with_noise_levels(experiment::Experiment experiment, cons
 
 }  // namespace
 
+/// A bound that keeps the model from the data looks like a cause. The model's own range is no such bound.
+std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const Fit& fit) {
+  std::vector<std::string> bounds;
+  const auto& parameters = assembly.layout().parameters;
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const assembly::FreeParameter& p = parameters[j];
+    const double near = 1e-6 * (p.max - p.min);
+    const bool lower = fit.free[j] - p.min <= near && p.min > p.declared.min,
+               upper = p.max - fit.free[j] <= near && p.max < p.declared.max;
+    if (lower || upper)
+      bounds.push_back(fmt::format("{} = {:.4g}{} ({} bound)", p.name, lower ? p.min : p.max, text::unit_suffix(p.unit),
+                                   lower ? "lower" : "upper"));
+  }
+  if (bounds.empty()) return std::nullopt;
+  return Warning{WarningKind::base_fit_at_bound,
+                 fmt::format("the base model is held back by its bounds: {}. What is named below may only make up for "
+                             "that. Widen them and diagnose again, before anything else is believed",
+                             text::joined(bounds))};
+}
+
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   const assembly::Assembly& assembly = *prepared.base;
   const bool quick = inquiry.request.quick;
@@ -125,6 +148,8 @@ BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
     throw BaseFitFailure(fmt::format("diagnosis: the base model cannot be evaluated from any of {} starts: {}",
                                      fits.size(), fits.front().status.reason()));
   base.fit = *best;
+  if (auto warning = bound_warning(assembly, base.fit))
+    base.warnings.insert(base.warnings.begin(), std::move(*warning));
   // Scores presuppose an optimum: what of the residuals a step of the parameters could still take away must be nothing.
   const Projection projection(interior(base.fit));
   const double left = base.fit.chi2 - projection.off(base.fit.residuals).squaredNorm();
