@@ -23,9 +23,9 @@ namespace tunica {
 /// is. Threads: a call reads and writes nothing but this. Ownership: the caller's; everything lives as long as the
 /// call.
 struct StripPath {
-  std::size_t loaded = 0;                   ///< the axis it is pulled along: 0 = circumferential, 1 = axial
-  std::span<const double> parameters = {};  ///< of the model
-  std::span<const double> stretch = {};     ///< n entries: λ1
+  std::size_t loaded = 0;              ///< the axis it is pulled along: 0 = circumferential, 1 = axial
+  std::span<const double> parameters;  ///< of the model
+  std::span<const double> stretch;     ///< n entries: λ1
 
   /// Stretches at which the equilibrium is looked for first, to be interpolated to the rows: 8, or none.
   std::span<const double> nodes = {};
@@ -35,7 +35,7 @@ struct StripPath {
   std::span<const double> interpolation = {};
   std::size_t row_stride = 0;  ///< n rounded up to whole vectors
 
-  std::span<double> stress = {};        ///< n entries: σ, kPa
+  std::span<double> stress;             ///< n entries: σ, kPa
   std::span<double> lateral = {};       ///< n entries: y
   std::span<double> stress_dp = {};     ///< n_p·n entries: dσ/dp_j of row i at [j·n + i], y in equilibrium
   std::span<double> lateral_dp = {};    ///< n_p·n entries: dy/dp_j; wanted only together with stress_dp

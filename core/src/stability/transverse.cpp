@@ -38,7 +38,6 @@ std::string FreePath::strip_at(std::size_t row) const {
 Status FreePath::solve(StripPath path) const {
   std::size_t lost = StripPath::none;
   path.loaded = axis_;
-  path.stretch = at_;
   path.lost = &lost;
   start_.set(path);
   Status status = free_strip::solve(view_, path, thread_scratch());
@@ -65,8 +64,12 @@ Status FreePath::slopes(std::span<const double> parameters, std::span<double> sl
   thread_local std::vector<double> y, stress_by_l, stretch, u;
   y.resize(exact ? n : 0);
   stress_by_l.resize(n);
-  if (Status status =
-          solve({.parameters = parameters, .lateral = y, .stress_by_l = stress_by_l, .lateral_by_l = slope});
+  if (Status status = solve({.parameters = parameters,
+                             .stretch = at_,
+                             .stress = {},
+                             .lateral = y,
+                             .stress_by_l = stress_by_l,
+                             .lateral_by_l = slope});
       !status.ok())
     return status;
   std::size_t bad = n;
@@ -121,6 +124,7 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
   const std::size_t n = at_.size();
   std::vector<double> stress(n), y(n), stress_by_l(n), y_by_l(n);
   if (Status status = solve({.parameters = parameters,
+                             .stretch = at_,
                              .stress = stress,
                              .lateral = y,
                              .stress_by_l = stress_by_l,

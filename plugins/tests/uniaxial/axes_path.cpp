@@ -69,7 +69,8 @@ Status AxesPath::predict(const Strip& strip, const TestInput& input, const TestO
                      output.diagnostics.empty();
   Scratch& s = thread_scratch();
   std::size_t lost = StripPath::none;
-  StripPath path{.loaded = strip.loaded, .parameters = input.model_parameters, .stretch = stretch, .lost = &lost};
+  StripPath path{
+      .loaded = strip.loaded, .parameters = input.model_parameters, .stretch = stretch, .stress = {}, .lost = &lost};
   if (input.abscissae.empty()) start_.set(path);
   if (plain) {
     path.stress = output.values;

@@ -131,6 +131,7 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   StripPath path{.loaded = strip.loaded,
                  .parameters = input.model_parameters.first(elastic.describe().parameters.size()),
                  .stretch = stretch,
+                 .stress = {},
                  .lateral = m.u};
   if (input.abscissae.empty()) start_.set(path);
   if (Status status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return status;
