@@ -160,7 +160,9 @@ TEST(Uniaxial, AJumpIsNoEquilibrium) {
         const auto strip = make_strip({stretch}, {.channels = channels});
         const Prediction found = predict(*strip, *model, {mu, kappa, k1, k2, theta}, misalignment);
         EXPECT_EQ(found.status.ok(), !jumps(stretch)) << stretch << ' ' << misalignment << ' ' << found.status.reason();
-        if (jumps(stretch)) EXPECT_THAT(found.status.reason(), HasSubstr("jumps from one sign to the other"));
+        if (jumps(stretch)) {
+          EXPECT_THAT(found.status.reason(), HasSubstr("jumps from one sign to the other"));
+        }
       }
   EXPECT_TRUE(jumps(1.05) && jumps(1.2));
   EXPECT_FALSE(jumps(1) || jumps(1.8));
