@@ -98,8 +98,6 @@ experiment::Experiment with_noise_levels(experiment::Experiment experiment, cons
   return experiment;
 }
 
-}  // namespace
-
 /// A bound that keeps the model from the data looks like a cause. The model's own range is no such bound.
 std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const Fit& fit) {
   std::vector<std::string> bounds;
@@ -119,6 +117,8 @@ std::optional<Warning> bound_warning(const assembly::Assembly& assembly, const F
                              "that. Widen them and diagnose again, before anything else is believed",
                              text::joined(bounds))};
 }
+
+}  // namespace
 
 BaseFit fit_base(const Inquiry& inquiry, const Preparation& prepared) {
   const assembly::Assembly& assembly = *prepared.base;
