@@ -17,7 +17,8 @@ namespace {
 using execution::WarningKind;
 using Warnings = std::vector<execution::Warning>;
 
-/// The run of the same model under the same constraints, objective and tests that came clearly lower; none = null.
+/// The run of the same model under the same constraints, objective and tests that came clearly lower, and that a fresh
+/// process has not refuted; none = null.
 const RunSummary* lower_run(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own) {
   constexpr double clearly = 0.99;
   const auto same = [](const experiment::ConstraintEntry& a, const experiment::ConstraintEntry& b) {
@@ -26,7 +27,8 @@ const RunSummary* lower_run(const execution::Plan& plan, const std::vector<RunSu
   const auto constraints = [&](std::size_t run) -> const auto& { return plan.runs[run].entry->constraints; };
   const RunSummary* lowest = nullptr;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    if (runs[k].group != runs[own].group || runs[k].model != runs[own].model || !runs[k].status.ok()) continue;
+    if (runs[k].group != runs[own].group || runs[k].model != runs[own].model) continue;
+    if (!runs[k].status.ok() || runs[k].certificate.refuted()) continue;
     const auto &a = constraints(k), &b = constraints(own);
     if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) continue;
     if (runs[k].objective < clearly * (lowest != nullptr ? lowest : &runs[own])->objective) lowest = &runs[k];
