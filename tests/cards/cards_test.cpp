@@ -12,6 +12,7 @@ using cards::Target;
 using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 namespace {
@@ -117,6 +118,28 @@ TEST(Cards, RefuseWhatAProgramCannotExpressWithTheReason) {
   EXPECT_THAT(refused(Target::febio, switched(hgo, "none")), HasSubstr("fibre_switch is 'none'"));
   EXPECT_THAT(refused(Target::febio, switched(gho, "stretch")), HasSubstr("fibre_switch is 'stretch'"));
   EXPECT_THAT(refused(Target::calculix, {.type = "demiray"}), HasSubstr("no card is known for the model 'demiray'"));
+}
+
+TEST(Cards, ARefusalNamesOnlyProgramsThatTakeThisModel) {
+  const std::vector<std::pair<std::string, Target>> programs = {
+      {"FEBio", Target::febio}, {"Ansys", Target::ansys}, {"CalculiX", Target::calculix}, {"LS-DYNA", Target::lsdyna}};
+  std::size_t refusals = 0;
+  for (const auto& material : {gent, gho, hgo, dispersed, switched(hgo, "none"), switched(gho, "stretch"),
+                               switched(dispersed, "none"), switched(gho, "none")})
+    for (const auto& entry : cards::target_codes) {
+      const std::string said = refused(entry.value, material, {.density = 1000});
+      if (said == "accepted") continue;
+      ++refusals;
+      const std::string advice = said.substr(said.find("; ") + 2);
+      EXPECT_THAT(advice, Not(IsEmpty())) << said;
+      for (const auto& [name, target] : programs)
+        EXPECT_EQ(advice.find(name) != std::string::npos,
+                  target != entry.value && refused(target, material, {.density = 1000}) == "accepted")
+            << said << " and " << name;
+    }
+  EXPECT_GT(refusals, 15U);
+  EXPECT_THAT(refused(Target::ansys, gho), HasSubstr("export for FEBio or Abaqus"));
+  EXPECT_THAT(refused(Target::ansys, dispersed), HasSubstr("; export for Abaqus with --subroutine"));
 }
 
 TEST(Cards, OfDispersionZeroAreThoseOfAlignedFibres) {

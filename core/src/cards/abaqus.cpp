@@ -57,18 +57,15 @@ std::string by_subroutine(const Draft& draft) {
 std::string holzapfel(const Draft& draft) {
   const auto& material = draft.material;
   const FibreEnergy energy = fibre_energy(material);
-  const char* const subroutine = "use the user subroutine, tunica export --subroutine FILE.f";
   if (material.type == "four_fibre")
-    cannot_express("Abaqus", material, "the HOLZAPFEL energy has one k1 and one k2 for all families", subroutine);
+    throw CannotExpress{"the HOLZAPFEL energy has one k1 and one k2 for all families", ""};
   const FibreFamily& family = energy.families.front();
   if (!family.without_normal())
-    cannot_express("Abaqus", material, "the HOLZAPFEL energy lacks the stretch along the normal of the wall",
-                   subroutine);
+    throw CannotExpress{"the HOLZAPFEL energy lacks the stretch along the normal of the wall", ""};
   if (material.fibre_switch == "none" || (material.fibre_switch == "stretch" && family.A > 0))
-    cannot_express("Abaqus", material,
-                   fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
-                               material.fibre_switch),
-                   subroutine);
+    throw CannotExpress{fmt::format("the HOLZAPFEL energy switches fibres by their strain E, and fibre_switch is '{}'",
+                                    material.fibre_switch),
+                        ""};
   const std::vector<double> constants = {0.5 * draft.modulus("mu"), draft.d1(), draft.stress * family.k1, family.k2,
                                          family.A};
   return orientation(energy, false) +
@@ -81,7 +78,7 @@ std::string holzapfel(const Draft& draft) {
 
 }  // namespace
 
-std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms) {
+std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms) {
   const auto& material = draft.material;
   const double d1 = draft.d1();
   // U = C10 (Ī1 − 3) + (J − 1)²/D1,  C10 = μ/2
@@ -95,9 +92,8 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
   if (material.type == "ogden") {
     const auto terms = ogden_terms(material);
     if (terms.size() > most_ogden_terms)
-      cannot_express(program, material,
-                     fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
-                     "fit fewer terms, or export for another program");
+      throw CannotExpress{fmt::format("it takes {} terms at most, and these are {}", most_ogden_terms, terms.size()),
+                          "fit fewer terms"};
     std::vector<double> values;
     // U = Σ 2 μ_i/α_i² (λ̄1^α_i + λ̄2^α_i + λ̄3^α_i − 3) + Σ (J − 1)^2i/D_i: their μ_i is ½ μ_i α_i here
     for (const auto& term : terms) values.insert(values.end(), {0.5 * draft.stress * term.mu * term.alpha, term.alpha});
@@ -105,14 +101,13 @@ std::string hyperelastic_keyword(const Draft& draft, std::string_view program, s
     values.resize(3 * terms.size(), 0.0);
     return keyword_line(fmt::format("OGDEN, N={}", terms.size())) + data_lines(values);
   }
-  cannot_express(program, material, "it has no energy with a limit of extension of the chains",
-                 "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+  throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
 }
 
 std::string abaqus_card(const Draft& draft) {
   if (draft.settings.subroutine) return by_subroutine(draft);
   if (has_fibres(draft.material)) return holzapfel(draft);
-  return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperelastic_keyword(draft, "Abaqus", 6));
+  return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, hyperelastic_keyword(draft, 6));
 }
 
 }  // namespace tunica::cards

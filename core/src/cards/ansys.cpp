@@ -30,11 +30,10 @@ std::string ansys_card(const Draft& draft) {
   const auto& material = draft.material;
   const double d = draft.d1();
   if (has_fibres(material))
-    cannot_express(
-        "Ansys", material,
+    throw CannotExpress{
         "its anisotropic energies (TB,AHYPER) have no dispersion, and no documented switch for fibres that are "
         "shortened",
-        "export for FEBio, Abaqus or CalculiX");
+        ""};
   const std::string head = fmt::format("! Material number 1: {}\n", draft.settings.name);
   // W = μ/2 (Ī1 − 3) + (J − 1)²/d
   if (material.type == "neo_hooke") return head + table(2, "NEO", {draft.modulus("mu"), d});

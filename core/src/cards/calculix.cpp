@@ -37,14 +37,15 @@ void check_d1(const Draft& draft) {
 std::string elastic_fiber(const Draft& draft) {
   const auto& material = draft.material;
   const FibreEnergy energy = fibre_energy(material);
-  if (material.fibre_switch == "none")
-    cannot_express("CalculiX", material,
-                   "its fibres carry no load where they are shortened, and fibre_switch is 'none'",
-                   "fit with fibre_switch 'strain'");
+  const bool unswitched = material.fibre_switch == "none";
+  const std::string with_strain = unswitched ? " with fibre_switch 'strain'" : "";
   for (const auto& family : energy.families)
     if (family.A != 0 || !family.without_normal())
-      cannot_express("CalculiX", material, "its fibres have no dispersion (user material ELASTIC_FIBER)",
-                     "fit 'hgo' or 'four_fibre', or export for FEBio or Abaqus");
+      throw CannotExpress{"its fibres have no dispersion (user material ELASTIC_FIBER)",
+                          fmt::format("fit 'hgo' or 'four_fibre'{}", with_strain)};
+  if (unswitched)
+    throw CannotExpress{"its fibres carry no load where they are shortened, and fibre_switch is 'none'",
+                        "fit" + with_strain};
   std::vector<std::string> constants = {number(0.5 * draft.modulus("mu")), number(draft.d1())};
   for (const auto& family : energy.families) {
     const double angle = family.angle * std::numbers::pi / 180;
@@ -64,7 +65,7 @@ std::string elastic_fiber(const Draft& draft) {
 std::string calculix_card(const Draft& draft) {
   check_d1(draft);
   if (has_fibres(draft.material)) return elastic_fiber(draft);
-  const std::string keyword = hyperelastic_keyword(draft, "CalculiX", 3);
+  const std::string keyword = hyperelastic_keyword(draft, 3);
   return fmt::format("*MATERIAL, NAME={}\n{}", draft.settings.name, keyword);
 }
 

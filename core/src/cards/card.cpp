@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cards/comment.hpp"
 #include "cards/writers.hpp"
@@ -70,6 +71,58 @@ std::string paragraph_on_volume(const Draft& draft) {
       draft.bulk / 500, draft.settings.units.stress);
 }
 
+std::string card_of(Target target, const Draft& draft) {
+  switch (target) {
+    case Target::febio:
+      return febio_card(draft);
+    case Target::abaqus:
+      return abaqus_card(draft);
+    case Target::ansys:
+      return ansys_card(draft);
+    case Target::calculix:
+      return calculix_card(draft);
+    case Target::lsdyna:
+      return lsdyna_card(draft);
+  }
+  return "";
+}
+
+/// Whether the program has the model, whatever the settings. Units and bulk modulus are such that no program minds.
+bool can_express(Target target, const Material& material, bool subroutine) {
+  const CardSettings settings{.density = 1000, .subroutine = subroutine};
+  Draft draft{material, settings, settings.units.stress_per_kPa};
+  draft.bulk = draft.stress * bulk_of(target, material, settings);
+  try {
+    (void)card_of(target, draft);
+  } catch (const CannotExpress&) {
+    return false;
+  } catch (const InputError&) {
+  }
+  return true;
+}
+
+/// "export for FEBio or Abaqus": the other programs that have this model; "" where there is none.
+std::string other_programs(Target refused, const Material& material) {
+  std::vector<std::string> programs;
+  for (const auto& entry : target_codes) {
+    if (entry.value != refused && can_express(entry.value, material, false))
+      programs.emplace_back(program_of(entry.value));
+    else if (entry.value == Target::abaqus && has_fibres(material))
+      programs.emplace_back(refused == Target::abaqus ? "Abaqus' user subroutine (--subroutine FILE.f)"
+                                                      : "Abaqus with --subroutine FILE.f");
+  }
+  return programs.empty() ? "" : fmt::format("export for {}", fmt::join(programs, " or "));
+}
+
+[[noreturn]] void refuse(Target target, const Material& material, const CannotExpress& refusal) {
+  const std::string others = other_programs(target, material);
+  std::string cure = refusal.cure;
+  if (!others.empty()) cure += (cure.empty() ? "" : ", or ") + others;
+  if (cure.empty()) cure = "none of the programs of tunica export can; fit another model";
+  throw InputError(
+      fmt::format("{} cannot express the model '{}': {}; {}", program_of(target), material.type, refusal.reason, cure));
+}
+
 }  // namespace
 
 Target target_of(std::string_view name) {
@@ -80,11 +133,6 @@ Target target_of(std::string_view name) {
 }
 
 double Draft::modulus(const std::string& parameter) const { return stress * value_of(material, parameter); }
-
-void cannot_express(std::string_view program, const Material& material, std::string_view reason,
-                    std::string_view cure) {
-  throw InputError(fmt::format("{} cannot express the model '{}': {}; {}", program, material.type, reason, cure));
-}
 
 std::string joined_lines(std::span<const std::string> values) {
   std::string lines;
@@ -125,19 +173,14 @@ std::string write_card(Target target, const Material& material, const CardSettin
   remarks.insert(remarks.end(), {fmt::format("Units: {}, {}, {}, s.", settings.units.length, settings.units.force,
                                              settings.units.stress),
                                  paragraph_on_volume(draft)});
-  switch (target) {
-    case Target::febio:
-      return xml_comment(remarks) + febio_card(draft);
-    case Target::abaqus:
-      return comments("**", remarks) + abaqus_card(draft);
-    case Target::ansys:
-      return comments("!", remarks) + ansys_card(draft);
-    case Target::calculix:
-      return comments("**", remarks) + calculix_card(draft);
-    case Target::lsdyna:
-      return comments("$", remarks) + lsdyna_card(draft);
+  std::string card;
+  try {
+    card = card_of(target, draft);
+  } catch (const CannotExpress& refusal) {
+    refuse(target, material, refusal);
   }
-  return "";
+  if (target == Target::febio) return xml_comment(remarks) + card;
+  return comments(target == Target::ansys ? "!" : target == Target::lsdyna ? "$" : "**", remarks) + card;
 }
 
 }  // namespace tunica::cards

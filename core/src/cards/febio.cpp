@@ -57,13 +57,10 @@ std::string fibres(const Draft& draft) {
   const FibreFamily& family = energy.families.front();
   const std::string& chosen = draft.material.fibre_switch;
   if (!family.without_normal())
-    cannot_express("FEBio", draft.material,
-                   "its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall",
-                   "export for Abaqus with --subroutine");
+    throw CannotExpress{"its Holzapfel-Gasser-Ogden energy lacks the stretch along the normal of the wall", ""};
   if (chosen == "none" || (chosen == "stretch" && family.A > 0))
-    cannot_express("FEBio", draft.material,
-                   fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", chosen),
-                   "fit with fibre_switch 'strain', or export for Abaqus with --subroutine");
+    throw CannotExpress{fmt::format("it switches fibres by their strain E, and fibre_switch is '{}'", chosen),
+                        "fit with fibre_switch 'strain'"};
   return draft.material.type == "four_fibre" ? mixture(draft, energy) : holzapfel_gasser_ogden(draft, family);
 }
 

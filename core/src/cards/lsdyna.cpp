@@ -63,12 +63,9 @@ std::string polynomial(const Draft& draft, double c10, double c01, double c20, d
 
 std::string lsdyna_card(const Draft& draft) {
   const auto& material = draft.material;
-  if (has_fibres(material))
-    cannot_express("LS-DYNA", material, "tunica writes no card of its anisotropic energies (*MAT_295)",
-                   "export for FEBio or Abaqus");
+  if (has_fibres(material)) throw CannotExpress{"tunica writes no card of its anisotropic energies (*MAT_295)", ""};
   if (material.type == "gent")
-    cannot_express("LS-DYNA", material, "it has no energy with a limit of extension of the chains",
-                   "fit 'yeoh' or 'ogden', or export for FEBio or Ansys");
+    throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
   if (material.type == "neo_hooke") return polynomial(draft, 0.5 * draft.modulus("mu"), 0, 0, 0);
   if (material.type == "mooney_rivlin") return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), 0, 0);
   if (material.type == "yeoh")

@@ -23,16 +23,18 @@ struct Draft {
   [[nodiscard]] double modulus(const std::string& parameter) const;
 };
 
-/// Throws the refusal of a model, with the reason and what to do.
-[[noreturn]] void cannot_express(std::string_view program, const Material& material, std::string_view reason,
-                                 std::string_view cure);
+/// What a writer throws where its program cannot express the model. write_card() adds which programs can.
+struct CannotExpress {
+  std::string reason;
+  std::string cure;  ///< what to fit instead; "" = nothing
+};
 
 /// Values with commas, eight a line, each line ended.
 std::string data_lines(std::span<const double> values);
 std::string joined_lines(std::span<const std::string> values);
 
 /// *HYPERELASTIC of an isotropic model in the keywords that Abaqus and CalculiX share; "" for another model.
-std::string hyperelastic_keyword(const Draft& draft, std::string_view program, std::size_t most_ogden_terms);
+std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_terms);
 
 std::string calculix_card(const Draft& draft);
 std::string abaqus_card(const Draft& draft);
