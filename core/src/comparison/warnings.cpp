@@ -140,10 +140,11 @@ void warn_of_loose_parameters(const RunSummary& run, Warnings& warnings) {
     if (parameter.assessed && !parameter.identified && !parameter.held && parameter.at_bound == Estimate::Bound::none)
       names.push_back(parameter.name);
   if (names.empty()) return;
-  warnings.push_back({WarningKind::not_fixed_by_data,
-                      fmt::format("the data do not fix {}{}; see below what they do fix", text::joined(names),
-                                  names.size() > 1 ? " one by one" : ""),
-                      run.label, names});
+  warnings.push_back(
+      {WarningKind::not_fixed_by_data,
+       fmt::format("the data do not fix {}{}{}", text::joined(names), names.size() > 1 ? " one by one" : "",
+                   run.identifiability.empty() ? "" : "; see below what they do fix"),
+       run.label, names});
 }
 
 /// `of_model`: "model 'media': " where the run has several, else empty.
