@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -196,6 +198,13 @@ Json to_json(const RunEntry& run) {
   return json;
 }
 
+/// What every run has stands at the top level too, so that a run that is added or changed by hand has it as well.
+void add_shared_by_runs(Json& json, const Json& runs) {
+  for (const char* const key : {"objective", "constraints", "stop", "initial", "fewer_simulations"})
+    if (std::all_of(runs.begin(), runs.end(), [&](const Json& run) { return run.at(key) == runs.front().at(key); }))
+      json[key] = runs.front().at(key);
+}
+
 Json to_json(const Analysis& analysis) {
   Json json = Json::object();
   if (analysis.all_profiles)
@@ -245,7 +254,10 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const ModelEntry& entry : experiment.models) json["models"][entry.name] = writer.model(entry);
   for (const TestEntry& entry : experiment.tests) json["tests"][entry.name] = writer.test(entry);
   for (const OptimizerEntry& entry : experiment.optimizers) json["optimizers"][entry.name] = writer.optimizer(entry);
-  for (const RunEntry& run : experiment.runs) json["runs"].push_back(to_json(run));
+  Json runs = Json::array();
+  for (const RunEntry& run : experiment.runs) runs.push_back(to_json(run));
+  if (!runs.empty()) add_shared_by_runs(json, runs);
+  json["runs"] = std::move(runs);
   json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)},
                         {"max_rate", experiment.max_failure_rate}};
   json["keep_evaluations"] = text::code_of(kept_evaluations_names, experiment.kept_evaluations);
