@@ -170,7 +170,11 @@ class Scanner {
     if (decoded.is_discarded())
       fail(begin, fmt::format("the text {} has an escape that JSON does not know", excerpt(raw)),
            "Write a backslash as \\\\.");
-    return decoded.get<std::string>();
+    auto text = decoded.get<std::string>();
+    if (text.find('\0') != std::string::npos)
+      fail(begin, fmt::format("the text {} has a NUL character, where names and paths would end", excerpt(raw)),
+           "Take it out.");
+    return text;
   }
 
   void literal() {
