@@ -231,6 +231,16 @@ std::string could_hide(const std::vector<Detectable>& detectable) {
   return text;
 }
 
+/// Mechanisms that the base has: a second one of the same kind is no hypothesis of a diagnosis.
+std::string not_tried(const std::vector<Detectable>& detectable) {
+  std::vector<std::string> ids;
+  for (const Detectable& one : detectable)
+    if (one.absence == Absence::already_there) ids.push_back("a second " + one.id);
+  return ids.empty() ? ""
+                     : fmt::format("{} beside that of the base; give the base one more with \"as\" and run both",
+                                   fmt::join(ids, ", "));
+}
+
 }  // namespace
 
 std::vector<std::string> explanations(const Claim& claim) {
@@ -269,6 +279,8 @@ text::StyledText summary(const Diagnosis& d) {
   if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));
   if (d.prospects.next) line("Next:     ", d.prospects.next->description);
+  if (const std::string left_out = not_tried(d.prospects.detectable); wrong && !left_out.empty())
+    line("Not tried:", left_out);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
   return lines;
 }
