@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "declared.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "data/nearest.hpp"
+#include "data/units.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::python {
@@ -14,6 +18,28 @@ namespace {
 template <class T>
 T get(const py::handle& one, const char* key) {
   return one[key].cast<T>();
+}
+
+/// Throws InputError where the program does not know the unit.
+void check_unit(const std::string& unit, const std::string& of) {
+  if (data::is_unit(unit)) return;
+  try {
+    (void)data::convert(1, unit, "kPa");  // says which unit is nearest
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("{}: {}", of, problem.what()));
+  }
+}
+
+/// The host converts and checks columns of these kinds, in their base units.
+void check_base(const std::string& unit, std::string_view base, const std::string& of, std::string_view what) {
+  if (unit != base)
+    throw InputError(fmt::format("{}: found the unit '{}' for a {}, expected '{}'; data files may have any unit of it",
+                                 of, unit, what, base));
+}
+
+void check_word(const std::string& word, const std::vector<std::string>& known, const std::string& of) {
+  if (std::find(known.begin(), known.end(), word) == known.end())
+    throw InputError(fmt::format("{}: found '{}'. {}", of, data::excerpt(word), data::suggestion(word, known)));
 }
 
 Option::Value value_of(const py::handle& value) {
@@ -39,6 +65,7 @@ std::vector<Parameter> parameters_from(const py::list& declared, const std::stri
           fmt::format("{}: the parameter '{}' starts at {:g} within {:g} … {:g}; expected min ≤ initial ≤ "
                       "max, finite, and min > 0 on a logarithmic scale",
                       owner, parameter.name, parameter.initial, parameter.min, parameter.max));
+    check_unit(parameter.unit, fmt::format("{}: the parameter '{}'", owner, parameter.name));
     parameters.push_back(std::move(parameter));
   }
   return parameters;
@@ -66,6 +93,13 @@ std::vector<Observable> observables_from(const py::list& declared, const std::st
     const auto role = get<std::string>(one, "role"), kind = get<std::string>(one, "kind");
     Observable observable{get<std::string>(one, "name"), get<std::string>(one, "unit"), Observable::Role::channel,
                           false, ""};
+    const std::string of = fmt::format("{}: the observable '{}'", owner, observable.name);
+    check_word(role, {"abscissa", "channel", "time"}, of + ": role");
+    check_word(kind, {"plain", "stress", "stretch"}, of + ": kind");
+    check_unit(observable.unit, of);
+    if (role == "time") check_base(observable.unit, "s", of, "time");
+    if (kind == "stretch") check_base(observable.unit, "1", of, "stretch");
+    if (kind == "stress") check_base(observable.unit, "kPa", of, "stress");
     observable.role = role == "abscissa" ? Observable::Role::abscissa
                       : role == "time"   ? Observable::Role::time
                                          : Observable::Role::channel;

@@ -5,7 +5,11 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "data/csv.hpp"
+#include "experiment/json_document.hpp"
+#include "experiment/limits.hpp"
 #include "experiment/parse.hpp"
 #include "tunica/error.hpp"
 
@@ -61,15 +65,14 @@ std::shared_ptr<const plugins::Catalogue> Library::catalogue() const {
 }
 
 std::shared_ptr<Loaded> Library::read(const std::string& file) const {
-  auto known = catalogue();
-  auto experiment = experiment::read_experiment(file, *known);
-  return std::make_shared<Loaded>(Loaded{std::move(known), std::move(experiment), refusals_});
+  return parse(data::read_bytes(file, experiment::limits::file_bytes), file);
 }
 
 std::shared_ptr<Loaded> Library::parse(std::string text, const std::string& file) const {
   auto known = catalogue();
-  auto experiment = experiment::parse_experiment(std::move(text), file, *known);
-  return std::make_shared<Loaded>(Loaded{std::move(known), std::move(experiment), refusals_});
+  auto experiment = experiment::parse_experiment(text, file, *known);
+  std::string given = experiment::JsonDocument(file, std::move(text)).root().dump();
+  return std::make_shared<Loaded>(Loaded{std::move(known), std::move(experiment), refusals_, std::move(given)});
 }
 
 }  // namespace tunica::python

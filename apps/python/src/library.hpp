@@ -18,6 +18,7 @@ struct Loaded {
   std::shared_ptr<const plugins::Catalogue> catalogue;
   experiment::Experiment experiment;
   std::vector<std::string> refusals;  ///< of plugins, for the warnings of a run
+  std::string given_json = {};        ///< the experiment as it was given, without comments
 };
 
 /// The plugins of this process, and what Python code has defined beside them. Files are loaded once; a definition

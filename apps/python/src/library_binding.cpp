@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 
@@ -52,7 +54,10 @@ void add_library(py::module_& module) {
   py::class_<Loaded, std::shared_ptr<Loaded>>(module, "Experiment")
       .def_property_readonly("name", [](const Loaded& self) { return self.experiment.name; })
       .def_property_readonly("seed", [](const Loaded& self) { return self.experiment.seed; })
-      .def_property_readonly("input_json", [](const Loaded& self) { return self.experiment.input_json; });
+      .def_property_readonly("given_json", [](const Loaded& self) { return self.given_json; })
+      .def_property_readonly("folder", [](const Loaded& self) {
+        return std::filesystem::absolute(self.experiment.file).parent_path().lexically_normal().string();
+      });
   py::class_<Library>(module, "Library")
       .def(py::init<const std::vector<std::string>&, const std::string&, bool>())
       .def_property_readonly("refusals", &Library::refusals)

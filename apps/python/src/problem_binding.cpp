@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <optional>
 
 #include <pybind11/stl.h>
@@ -115,6 +116,22 @@ py::list parameters_of_problem(const RunProblem& problem) {
   return all;
 }
 
+/// A number of every fitted row, and `otherwise` for the rest.
+Array of_fitted_rows(const assembly::MeasuredChannel& channel, const std::vector<double>& values, double otherwise) {
+  std::vector<double> all(channel.count, otherwise);
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < channel.count; ++row)
+    if (channel.fitted[row] && k < values.size()) all[row] = values[k++];
+  return array_of(all);
+}
+
+/// The first row of a channel has none before it.
+std::vector<double> correlations_of(const assembly::MeasuredChannel& channel) {
+  std::vector<double> neighbours = channel.sigma.rows.neighbour;
+  if (!neighbours.empty()) neighbours.front() = 0;
+  return neighbours;
+}
+
 py::list channels_of_problem(const RunProblem& problem) {
   py::list all;
   for (const auto& channel : problem.layout().channels)
@@ -122,7 +139,10 @@ py::list channels_of_problem(const RunProblem& problem) {
                         "offset"_a = channel.offset, "measured"_a = array_of(channel.measured),
                         "abscissa"_a = array_of(channel.abscissa), "abscissa_name"_a = channel.abscissa_name,
                         "abscissa_unit"_a = channel.abscissa_unit, "fitted"_a = channel.fitted,
-                        "weight"_a = channel.weight));
+                        "weight"_a = channel.weight,
+                        "sigma"_a = of_fitted_rows(channel, channel.sigma.rows.sd, std::nan("")),
+                        "noise_origin"_a = text::code_of(assembly::noise_origin_codes, channel.sigma.origin),
+                        "correlation"_a = of_fitted_rows(channel, correlations_of(channel), 0)));
   return all;
 }
 

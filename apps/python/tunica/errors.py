@@ -11,7 +11,12 @@ class InputError(TunicaError, ValueError):
 
 
 class EvaluationError(TunicaError, ArithmeticError):
-    """The model cannot be evaluated there, or the base fit of a diagnosis failed."""
+    """The model cannot be evaluated there, the base fit of a diagnosis failed, or a calibration has no result: then
+    `directory` is the folder with its record, else None."""
+
+    def __init__(self, message="", directory=None):
+        super().__init__(message)
+        self.directory = directory
 
 
 class PluginFailure(TunicaError, RuntimeError):

@@ -14,6 +14,7 @@ import numpy
 
 from . import _core
 from ._installation import PLUGINS
+from .arguments import text
 from .errors import InputError
 
 _lock = threading.Lock()
@@ -42,7 +43,7 @@ def use_plugins(*paths, allow_world_writable=False):
     if _library is not None:
         raise InputError("the plugins of this process are loaded already; call use_plugins() right after the import, "
                          "or set TUNICA_PLUGIN_PATH")
-    _paths.extend(paths)
+    _paths.extend(text(path, "use_plugins()") for path in paths)
     _options["allow_world_writable"] |= allow_world_writable
 
 
@@ -97,6 +98,51 @@ def _with_files(experiment):
     return {**experiment, "tests": changed}
 
 
+class FileName(str):
+    """The name of a data file as an experiment file has it, with the folder that relative names of that file begin at."""
+
+    def __new__(cls, name, folder):
+        made = super().__new__(cls, name)
+        made.folder = folder
+        return made
+
+    def __reduce__(self):
+        return FileName, (str(self), self.folder)
+
+
+def _data_blocks(experiment):
+    """The block "data" of every test, those among them that a run defines for itself."""
+    runs = experiment.get("runs")
+    own = [run.get("tests") for run in runs if isinstance(run, dict)] if isinstance(runs, list) else []
+    for tests in [experiment.get("tests"), *own]:
+        for test in tests.values() if isinstance(tests, dict) else ():
+            if isinstance(test, dict) and isinstance(test.get("data"), dict):
+                yield test["data"]
+
+
+def _with_folder(experiment, folder):
+    """The experiment, whose names of data files remember their folder."""
+    for data in _data_blocks(experiment):
+        if isinstance(data.get("file"), str):
+            data["file"] = FileName(data["file"], folder)
+        if isinstance(data.get("files"), list):
+            data["files"] = [FileName(name, folder) for name in data["files"]]
+    return experiment
+
+
+def _base_of(experiment):
+    """Where relative names of a dictionary begin: at the folder of the file it was read from, or here."""
+    folders = set()
+    for data in _data_blocks(experiment):
+        several = data.get("files")
+        names = [data.get("file"), *(several if isinstance(several, list) else ())]
+        folders |= {name.folder for name in names if isinstance(name, FileName) and not os.path.isabs(name)}
+    if len(folders) > 1:
+        raise InputError(f"the tests come from files in several folders, {' and '.join(sorted(folders))}; write "
+                         "absolute names of their data files")
+    return folders.pop() if folders else "."
+
+
 class Experiment:
     """An experiment that has been read and checked: every name, unit and number in it is known to fit."""
 
@@ -113,29 +159,31 @@ class Experiment:
 
     @property
     def input(self):
-        """The experiment with every default filled in and numbers in base units, as input.json has it."""
-        return json.loads(self._loaded.input_json)
+        """The experiment as the file, or the dictionary, has it: a new dictionary to change and to run. Its data files
+        are found wherever it is run from. input.json of a result has the defaults filled in."""
+        return _with_folder(json.loads(self._loaded.given_json), self._loaded.folder)
 
     def __repr__(self):
         return f"<tunica.Experiment '{self.name}'>"
 
 
-def read(experiment, base="."):
+def read(experiment, base=None):
     """Reads an experiment: the path of a file, or a dictionary with the same keys, whose data files are relative to
-    the folder `base`; "table" in place of "file" is a frame or a dictionary of columns. What is an Experiment already
+    the folder `base`. Without it that is the current folder, or the one of the file that `input` came from. "table" in place of "file" is a frame or a dictionary of columns. What is an Experiment already
     is returned as it is. Raises InputError, which names file, line and key; a line of a dictionary counts the lines of
     `json.dumps(experiment, indent=2)`."""
     if isinstance(experiment, Experiment):
         return experiment
     if isinstance(experiment, dict):
+        folder = _base_of(experiment) if base is None else text(base, "base")
         try:
-            text = json.dumps({**({} if "name" in experiment else {"name": "experiment"}), **_with_files(experiment)},
-                              indent=2, default=_plain, allow_nan=False)
+            written = json.dumps({**({} if "name" in experiment else {"name": "experiment"}), **_with_files(experiment)},
+                                 indent=2, default=_plain, allow_nan=False)
         except (TypeError, ValueError) as problem:
             raise InputError(str(problem)) from None
-        return Experiment(library().parse(text, str(pathlib.Path(base) / "<dict>")))
+        return Experiment(library().parse(written, str(pathlib.Path(folder) / "<dict>")))
     if isinstance(experiment, (str, pathlib.PurePath)):
-        return Experiment(library().read(str(experiment)))
+        return Experiment(library().read(text(experiment, "experiment")))
     raise InputError(f"found an experiment of type {type(experiment).__name__}; expected the path of a file or a dict")
 
 

@@ -5,6 +5,7 @@ import json
 import numpy
 
 from . import _core
+from .arguments import finite
 from .errors import EvaluationError, InputError
 from .library import library
 
@@ -24,6 +25,8 @@ def deformation(C=None, F=None, stretches=None):
     shape = (3,) if name == "stretches" else (3, 3)
     if value.shape[-len(shape):] != shape or value.ndim > len(shape) + 1:
         raise InputError(f"{name}: found an array of shape {value.shape}, expected {shape} or (n, {str(shape)[1:]}")
+    if not numpy.isfinite(value).all():
+        raise InputError(f"{name}: found a number that is not finite, expected finite ones")
     value = value.reshape(-1, *shape)
     if name == "stretches":
         tensors = numpy.zeros((len(value), 3, 3))
@@ -98,14 +101,18 @@ class Material(Response):
 
     def __init__(self, model, **parameters):
         entry = {"type": model} if isinstance(model, str) else model
-        self._material = _core.Material(library(), json.dumps(entry, indent=2))
+        try:
+            written = json.dumps(entry, indent=2, allow_nan=False)
+        except ValueError:
+            raise InputError("the model has a number that is not finite; expected finite ones") from None
+        self._material = _core.Material(library(), written)
         self._about = self._material.parameters
         known = {about["name"]: about["initial"] for about in self._about}
         for name in parameters:
             if name not in known:
                 raise InputError(f"the model '{self.type}' has no parameter '{name}'; it has: {', '.join(known)}")
         #: {name: value} in base units
-        self.parameters = {**known, **{name: float(value) for name, value in parameters.items()}}
+        self.parameters = {**known, **{name: finite(value, f"the parameter '{name}'") for name, value in parameters.items()}}
 
     @property
     def type(self):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mechanisms written in Python: something that a simulation leaves out, with an amplitude that switches it off."""
 from . import _core
+from .arguments import finite
 from .declarations import head, method_of, parameters_of
 from .energies import Energy
 from .errors import InputError
@@ -39,8 +40,9 @@ def mechanism(name, parameters, *, acts_on, null=0.0, side="positive", plausible
             return Energy(method_of(definition, given, "energy"))
         largest = declared[0]["max"] - null if declared else 0
         _core.define_mechanism(library(), {
-            **head(name, definition, doc, reference, options), "parameters": declared, "null": float(null),
-            "side": side, "plausible": tuple(map(float, plausible or (0.01 * largest, largest))),
+            **head(name, definition, doc, reference, options), "parameters": declared, "null": finite(null, f"mechanism '{name}': null"),
+            "side": side, "plausible": tuple(finite(amplitude, f"mechanism '{name}': plausible")
+                                             for amplitude in plausible or (0.01 * largest, largest)),
             "applies_to": list(applies_to), "look_alikes": list(look_alikes), "isolated_by": isolated_by,
             "directional": directional, "principal_axes": principal_axes, "of_material": acts_on == "material",
             "make": energy if acts_on == "material" else readings_maker(name, definition)})

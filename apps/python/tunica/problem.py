@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional
 import numpy
 
 from . import _core
-from .errors import EvaluationError
+from .errors import EvaluationError, InputError
 from .library import read
 
 
@@ -21,6 +21,10 @@ class Evaluation(NamedTuple):
     jacobian: Optional[numpy.ndarray] = None
 
 
+def _beyond(name, value, low, high, unit):
+    return f"parameter '{name}' is {value:.17g}, outside its bounds {low:g} … {high:g}{'' if unit == '1' else ' ' + unit}"
+
+
 class Problem:
     """minimise Σ_b w_b ρ_b(‖r_b(p)‖²) over the parameters p between their bounds.
 
@@ -33,9 +37,12 @@ class Problem:
 
     residuals() are scaled by the weights of their blocks, so that their sum of squares is the objective wherever the
     objective is a sum of squares ("standardised_quadratic" and "least_squares").
+
+    Beyond a bound nothing is evaluated: evaluate() says "failed" and which parameter it was, objective() is infinite,
+    log_likelihood() −infinity, and the other functions raise EvaluationError. No value is moved to its bound.
     """
 
-    def __init__(self, experiment, run=None, *, base=".", coordinates="parameters"):
+    def __init__(self, experiment, run=None, *, base=None, coordinates="parameters"):
         if coordinates not in ("parameters", "unit"):
             raise ValueError(f"coordinates: found {coordinates!r}, expected 'parameters' or 'unit'")
         self._problem = _core.Problem(read(experiment, base)._loaded, run)
@@ -51,7 +58,8 @@ class Problem:
         self.names = [about["name"] for about in self._about]
         #: their base units
         self.units = [about["unit"] for about in self._about]
-        #: what was measured: dictionaries with test, channel, unit, measured, abscissa, fitted, offset
+        #: what was measured: dictionaries with test, channel, unit, measured, abscissa, fitted, offset, weight, and the
+        #: noise of the fitted rows: sigma, its noise_origin, and correlation with the row before
         self.channels = self._problem.channels
         #: blocks of residuals: offset, size, weight and loss, "quadratic" or "root"
         self.blocks = self._problem.blocks
@@ -83,16 +91,33 @@ class Problem:
         if unknown:
             raise KeyError(f"no free parameter is called {unknown[0]!r}; there are: {', '.join(self.names)}")
         free = numpy.array([float({**known, **values}[name]) for name in self.names])
+        for about, value in zip(self._about, free):
+            if not about["min"] <= value <= about["max"]:
+                raise InputError(_beyond(about["name"], value, about["min"], about["max"], about["unit"]))
         return self._problem.to_unit(free) if self._unit else free
 
+    def _outside(self, x):
+        """Which parameter of a vector lies beyond its bounds, or is no number; "" where none does."""
+        x = numpy.asarray(x, dtype=float)
+        if x.shape != (len(self.names),):  # the core says so
+            return ""
+        for name, unit, value, low, high in zip(self.names, self.units, x, *self.bounds):
+            if not low <= value <= high:
+                return _beyond(name, value, low, high, "of the unit box" if self._unit else unit)
+        return ""
+
     def _parameters(self, x):
+        if outside := self._outside(x):
+            raise EvaluationError(outside)
         return self._problem.from_unit(x) if self._unit else numpy.asarray(x, dtype=float)
 
     def _chained(self, jacobian, p):
         return jacobian * self._problem.unit_slopes(p) if self._unit else jacobian
 
     def evaluate(self, x, residuals=False, jacobian=False):
-        """An Evaluation, whatever happens there: nothing is raised for a point that fails."""
+        """An Evaluation, whatever happens there: nothing is raised for a point that fails, or lies beyond a bound."""
+        if outside := self._outside(x):
+            return Evaluation("failed", outside)
         p = self._parameters(x)
         found = self._problem.evaluate(p, residuals, jacobian)
         if found["status"] == "failed":
@@ -108,8 +133,38 @@ class Problem:
         return found
 
     def objective(self, x):
-        """The objective; infinity where the point fails, as samplers and derivative-free optimisers want it."""
+        """The objective; infinity where the point fails or lies beyond a bound, as samplers and derivative-free
+        optimisers want it."""
         return self.evaluate(x).objective
+
+    def log_likelihood(self, x):
+        """log L: the logarithm of the normal density of the fitted rows, all its constants included.
+
+            log L = −½ Σ [r_k² + log 2π + 2 log σ_k + log(1 − φ_k²)],
+            r_k = (e_k/σ_k − φ_k e_(k−1)/σ_(k−1))/√(1 − φ_k²),  e = prediction − measured
+
+        σ is the noise that the fit weighs rows by, `channels[i]["sigma"]`: as the file states it, else estimated from
+        the data before the search. It does not depend on x, and residuals do not widen it. φ is the stated correlation
+        with the row before. Held-out rows and channels of weight 0 are left out; other weights, the objective, priors
+        and constraints do not enter. With "least_squares", weights of 1 and no prior, log L + objective/2 is constant.
+        −infinity where the point fails or lies beyond a bound."""
+        if self._outside(x):
+            return -numpy.inf
+        found = self._problem.predict(self._parameters(x), False)
+        if found["status"] == "failed":
+            return -numpy.inf
+        total = 0.0
+        for channel in self.channels:
+            fitted = channel["fitted"]
+            if channel["weight"] == 0 or not numpy.any(fitted):
+                continue
+            rows = slice(channel["offset"], channel["offset"] + len(channel["measured"]))
+            sigma, correlation = channel["sigma"][fitted], channel["correlation"][fitted]
+            errors = (found["predictions"][rows] - channel["measured"])[fitted] / sigma
+            before = numpy.concatenate([[0.0], errors[:-1]])
+            left = 1 - correlation**2
+            total -= 0.5 * numpy.sum((errors - correlation * before)**2 / left + numpy.log(2 * numpy.pi * sigma**2 * left))
+        return float(total)
 
     def residuals(self, x):
         """The residuals, scaled by the root of their block's weight. Raises EvaluationError where the point fails."""

@@ -9,6 +9,7 @@ import re
 import numpy
 
 from . import _core
+from .arguments import finite, text
 from .errors import EvaluationError, InputError
 from .table import Table
 
@@ -57,7 +58,7 @@ class Estimate(float):
 
     @property
     def at_bound(self):
-        """"min" or "max" where the value lies at a bound, else None."""
+        """"lower" or "upper" where the value lies at a bound, else None."""
         return self.about.get("at_bound")
 
     def __repr__(self):
@@ -138,8 +139,17 @@ class Run:
     def best(self):
         """The best point as result.json has it."""
         if not self.found:
-            raise EvaluationError(f"the run '{self.name}' has no result; the first failure: {self.json['first_failure']}")
+            raise EvaluationError(self.no_result)
         return self.json["best"]
+
+    @property
+    def no_result(self):
+        """Why there is no best point, or "" where there is one."""
+        if self.found:
+            return ""
+        failure = self.json.get("first_failure")
+        why = f"the first failure: {failure}" if failure else f"it ended after {self.json['evaluations']} evaluations"
+        return f"the run '{self.name}' has no result; {why}"
 
     @property
     def objective(self):
@@ -171,6 +181,7 @@ class Run:
     @_once
     def fit(self):
         """{test: Table}: measured and predicted, row by row."""
+        self.best  # raises where there is none
         tables = Named("test")
         for test in self.json["tests"]:
             table = self._result.table("fit_" + re.sub(r"[^A-Za-z0-9_-]", "-", test))
@@ -182,10 +193,13 @@ class Run:
         and others that docs/export.md lists. model: where layers have several. density: "1000 kg/m3" or a number of
         kg/m³, for febio and lsdyna. subroutine: a new file for Abaqus' UANISOHYPER_INV, which the card then calls. Raises
         InputError with the reason for what the program cannot express."""
+        self.best  # raises where there is none
         if density is not None and not isinstance(density, str):
-            density = f"{float(density)!r} kg/m3"
-        return _core.export_card(str(self._result.directory), to, self.name, model, units, name, bulk_ratio, density or "",
-                                 str(subroutine))
+            density = f"{finite(density, 'density')!r} kg/m3"
+        words = {"to": to, "model": model, "units": units, "name": name, "density": density or "", "subroutine": subroutine}
+        to, model, units, name, density, subroutine = (text(value, what) for what, value in words.items())
+        return _core.export_card(str(self._result.directory), to, self.name, model, units, name,
+                                 finite(bulk_ratio, "bulk_ratio"), density, subroutine)
 
     def __repr__(self):
         if not self.found:
@@ -209,8 +223,8 @@ class Result(Folder):
         for entry in self.json["ranking"]:
             if entry["rank"] is not None:
                 return self.runs[entry["run"]]
-        raise EvaluationError(f"{self.directory}: no run has a result; the first failure: "
-                         f"{self.json['runs'][0]['first_failure']}")
+        raise EvaluationError(f"{self.directory}: no run has a result; {next(iter(self.runs.values())).no_result}",
+                              str(self.directory))
 
     @property
     def parameters(self):
@@ -247,8 +261,8 @@ class Judgement(Folder):
 
     @property
     def verdict(self):
-        """The code of the verdict, for example "clean", "named" or "discovered"; docs/diagnosis.md and docs/discovery.md
-        list them."""
+        """The code of the verdict, for example "nothing_detected", "named" or "discovered"; docs/diagnosis.md and
+        docs/discovery.md list them."""
         return self.json[self._found]["verdict"]
 
     @property
@@ -336,7 +350,7 @@ class Check(dict):
 
 def open_results(directory):
     """Results that were written before, by Python or by the command line."""
-    directory = pathlib.Path(directory)
+    directory = pathlib.Path(text(directory, "directory"))
     if not (directory / "result.json").exists():
         raise InputError(f"{directory}: there is no result.json; name the folder of a finished run, diagnosis or discovery")
     with open(directory / "result.json", encoding="utf-8") as stream:

@@ -8,8 +8,9 @@ import sys
 import tempfile
 
 from . import _core
+from .arguments import finite, path, text, texts
 from .declarations import modules
-from .errors import Interrupted, WriteFailure
+from .errors import EvaluationError, Interrupted, WriteFailure
 from .library import library, read
 from .results import Check, Diagnosis, Discovery, Result, Simulation
 
@@ -72,7 +73,7 @@ def _certify(folder, points):
     return answer.stdout, ""
 
 
-def run(experiment, directory=None, *, base=".", threads=None, seed=None, profiles=(), bootstrap=None, resume=False,
+def run(experiment, directory=None, *, base=None, threads=None, seed=None, profiles=(), bootstrap=None, resume=False,
         certificate=True, progress=None):
     """Calibrates every entry of "runs" and compares them, as `tunica run` does; returns a Result.
 
@@ -81,13 +82,14 @@ def run(experiment, directory=None, *, base=".", threads=None, seed=None, profil
     line on stderr, or a function that is called with the share that is done and a line of text.
 
     Ctrl-C raises Interrupted. Everything so far is saved, and the same call with its `directory` and resume=True goes
-    on to the identical result. Raises InputError for whatever does not fit, before anything is evaluated.
+    on to the identical result. Raises InputError for whatever does not fit, before anything is evaluated, and
+    EvaluationError where no run has a result; its `directory` has the record of the search.
     """
     found_experiment = read(experiment, base)
     listener = _listener(progress)
-    names = ["all"] if profiles == "all" else list(profiles)
+    names = ["all"] if profiles == "all" else texts(profiles, "profiles")
     try:
-        found = _core.run(found_experiment._loaded, None if directory is None else str(directory), resume,
+        found = _core.run(found_experiment._loaded, path(directory, "directory"), resume,
                           _threads(threads), seed, names, bootstrap, listener, _certify if certificate else None)
     finally:
         if isinstance(listener, _Line):
@@ -98,16 +100,21 @@ def run(experiment, directory=None, *, base=".", threads=None, seed=None, profil
     if found["ending"] == "write_failure":
         raise WriteFailure(f"{found['write_failure']}. Then go on with run(…, directory={found['directory']!r}, "
                            "resume=True)")
-    return Result(found["directory"])
+    result = Result(found["directory"])
+    if not any(run.found for run in result.runs.values()):
+        reasons = {run.no_result for run in result.runs.values()}
+        raise EvaluationError(f"no run has a result: {'; '.join(sorted(reasons))}. The record is in "
+                              f"{found['directory']}", found["directory"])
+    return result
 
 
-def check(experiment, *, base="."):
+def check(experiment, *, base=None):
     """A dry run, as `tunica check` does it: names, units, data, bounds, the initial point and identifiability. Returns
     a Check, a dictionary; its `in_order` says whether all is well. Writes nothing."""
     return Check(json.loads(_core.check(read(experiment, base)._loaded)))
 
 
-def simulate(experiment, model="", parameters=None, directory=None, *, base=".", run="", noise=0.0, seed=None,
+def simulate(experiment, model="", parameters=None, directory=None, *, base=None, run="", noise=0.0, seed=None,
              fields=()):
     """Predicts every test, as `tunica simulate` does; returns a Simulation.
 
@@ -126,15 +133,16 @@ def simulate(experiment, model="", parameters=None, directory=None, *, base=".",
             parameters = parameters.directory / "result.json"
         if isinstance(parameters, dict):
             file = pathlib.Path(scratch) / "parameters.json"
-            file.write_text(json.dumps({name: value if isinstance(value, str) else float(value)
+            file.write_text(json.dumps({name: value if isinstance(value, str) else finite(value, f"parameters: '{name}'")
                                         for name, value in parameters.items()}))
             parameters = file
-        found = _core.simulate(found_experiment._loaded, model, None if parameters is None else str(parameters), run,
-                               noise, seed, list(fields), None if directory is None else str(directory))
+        found = _core.simulate(found_experiment._loaded, text(model, "model"), path(parameters, "parameters"),
+                               text(run, "run"), finite(noise, "noise"), seed, texts(fields, "fields"),
+                               path(directory, "directory"))
     return Simulation(found, directory)
 
 
-def diagnose(experiment, directory=None, *, base=".", threads=None, seed=None, alpha=None, mechanisms=(), quick=False,
+def diagnose(experiment, directory=None, *, base=None, threads=None, seed=None, alpha=None, mechanisms=(), quick=False,
              progress=None):
     """Shows what the simulation gets wrong and names the cause, as `tunica diagnose` does; returns a Diagnosis.
 
@@ -142,12 +150,12 @@ def diagnose(experiment, directory=None, *, base=".", threads=None, seed=None, a
     quick: a first answer. Ctrl-C raises Interrupted, and leaves nothing behind.
     """
     found = _searched(experiment, base, progress, lambda loaded, listener: _core.diagnose(
-        loaded, None if directory is None else str(directory), _threads(threads), seed, alpha, list(mechanisms), quick,
-        listener))
+        loaded, path(directory, "directory"), _threads(threads), seed, finite(alpha, "alpha"),
+        texts(mechanisms, "mechanisms"), quick, listener))
     return Diagnosis(found["directory"])
 
 
-def discover(experiment, directory=None, *, base=".", threads=None, seed=None, alpha=None, model="", from_nothing=False,
+def discover(experiment, directory=None, *, base=None, threads=None, seed=None, alpha=None, model="", from_nothing=False,
              invariants=(), laws=(), most_terms=None, most_parameters=None, quick=False, progress=None):
     """Finds the terms that the energy lacks, or is made of, as `tunica discover` does; returns a Discovery.
 
@@ -155,11 +163,11 @@ def discover(experiment, directory=None, *, base=".", threads=None, seed=None, a
     laws: only these; most_terms, most_parameters: limits of a set. Ctrl-C raises Interrupted, and leaves nothing
     behind.
     """
-    options = {"seed": seed, "alpha": alpha, "model": model, "from_nothing": from_nothing,
-               "invariants": list(invariants), "laws": list(laws), "most_terms": most_terms,
+    options = {"seed": seed, "alpha": finite(alpha, "alpha"), "model": text(model, "model"),
+               "from_nothing": from_nothing, "invariants": texts(invariants, "invariants"), "laws": texts(laws, "laws"), "most_terms": most_terms,
                "most_parameters": most_parameters, "quick": quick}
     found = _searched(experiment, base, progress, lambda loaded, listener: _core.discover(
-        loaded, None if directory is None else str(directory), _threads(threads), options, listener))
+        loaded, path(directory, "directory"), _threads(threads), options, listener))
     return Discovery(found["directory"])
 
 
