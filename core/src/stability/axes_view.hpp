@@ -22,6 +22,10 @@ class AxesView final : public Model {
   bool solve_strip(const StripPath& strip, Status& status) const override {
     return has_axes() && model_.solve_strip(strip, status);
   }
+  /// Those of a model with history do not say what memory makes of the response.
+  [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override {
+    return has_axes() ? model_.parts() : std::span<const std::unique_ptr<EnergyPart>>{};
+  }
 
  private:
   [[nodiscard]] bool has_axes() const {

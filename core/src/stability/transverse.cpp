@@ -79,6 +79,10 @@ Status FreePath::slopes(std::span<const double> parameters, std::span<double> sl
   }
   if (bad < n) return Status::failed(strip_at(bad) + ": the slope of the transverse stretch overflows");
   if (slope_dp.empty()) return {};
+  if (free_strip::is_symmetric({view_, parameters, axis_}, at_)) {
+    std::fill(slope_dp.begin(), slope_dp.end(), 0.0);  // Ψ = 1 whatever the parameters
+    return {};
+  }
   if (!exact) return difference(parameters, slope_dp);
   // f'(l) ≈ [8 (f(l+δ) − f(l−δ)) − (f(l+2δ) − f(l−2δ))]/(12 δ), f = dy/dp; c has it with the opposite sign.
   static constexpr std::array<std::array<double, 2>, 4> stencil{{{-2, 1}, {-1, -8}, {1, 8}, {2, -1}}};

@@ -35,7 +35,7 @@ MechanismFactory adding(MechanismFactory mechanism, MakePart make) {
   mechanism.wrap_model = [parameters = mechanism.parameters, make = std::move(make)](
                              std::unique_ptr<Model> base, const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> shared(std::move(base));
-    if (shared->parts().empty())
+    if (shared->parts().empty() || shared->describe().history_size > 0)
       return std::make_unique<ModelSum>(
           shared, parameters, 0,
           std::make_unique<Hyperelastic>(ModelDescription{.parameters = parameters}, energy_parts(make())));

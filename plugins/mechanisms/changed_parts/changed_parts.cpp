@@ -115,6 +115,10 @@ MechanismFactory changing(MechanismFactory mechanism, const std::string& expecte
                           change = std::move(change)](std::unique_ptr<Model> given,
                                                       const Options&) -> std::unique_ptr<Model> {
     const std::shared_ptr<const Model> base(std::move(given));
+    if (base->describe().history_size > 0)
+      throw InputError(id + ": model '" + base->describe().type +
+                       "' has memory, which its parts do not carry; expected a model without memory; take the "
+                       "mechanism out or choose another model");
     std::vector<std::unique_ptr<EnergyPart>> parts;
     std::size_t changed = 0;
     for (const auto& part : base->parts()) {

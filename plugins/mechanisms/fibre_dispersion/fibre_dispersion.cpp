@@ -66,6 +66,10 @@ bool is_dispersed(const EnergyPart& part, const ModelDescription& model) {
 
 std::vector<std::unique_ptr<EnergyPart>> dispersed(const std::shared_ptr<const Model>& base) {
   const ModelDescription& model = base->describe();
+  if (model.history_size > 0)
+    throw InputError("fibre_dispersion: model '" + model.type +
+                     "' has memory, which its parts do not carry; expected a model without memory; take the mechanism "
+                     "out or choose another model");
   std::vector<std::unique_ptr<EnergyPart>> parts;
   std::size_t fibres = 0;
   for (const auto& part : base->parts()) {

@@ -33,8 +33,15 @@ Memory& thread_memory() {
 /// With them: total derivatives of σ11 and y.
 class Pass {
  public:
-  Pass(const Strip& strip, const TestInput& input, std::span<const double> stretch, Memory& memory)
-      : strip_(strip), stretch_(stretch), m_(memory), n_(stretch.size()), count_(input.model_parameters.size()) {
+  /// `symmetric`: the elastic response does not tell the lateral axes apart. Rows that memory leaves so stay at λ2 =
+  /// λ3.
+  Pass(const Strip& strip, const TestInput& input, std::span<const double> stretch, bool symmetric, Memory& memory)
+      : strip_(strip),
+        stretch_(stretch),
+        m_(memory),
+        n_(stretch.size()),
+        count_(input.model_parameters.size()),
+        symmetric_(symmetric) {
     m_.path.prepare(input.model, input.model_parameters, n_);
   }
 
@@ -80,8 +87,11 @@ class Pass {
     const double residual = c2 * g2[0] - c3 * g3[0];
     const double slope = c2 * (g2[0] + g2[1]) + c3 * (g3[0] - g3[1]);
     const double stress = 2 * (c1 * g1[0] - c3 * g3[0]), stress_by_y = 2 * (c1 * g1[1] + c3 * (g3[0] - g3[1]));
-    double step = -(residual + c2 * g2[2] - c3 * g3[2]) / slope;
-    sound_ = slope > 0 && std::abs(step) < 1e10;
+    const double at_step = residual + c2 * g2[2] - c3 * g3[2];
+    const bool rests = symmetric_ && std::abs(at_step) <=
+                                         free_strip::alike * c2 * (std::abs(g1[0]) + std::abs(g2[0]) + std::abs(g3[0]));
+    double step = rests ? 0 : -at_step / slope;
+    sound_ = rests || (slope > 0 && std::abs(step) < 1e10);
     largest_ = std::max(largest_, std::abs(step));
     step = std::clamp(step, -0.6, 1.5);
     // Where fibres switch, steps may go to and fro across the kink.
@@ -93,7 +103,7 @@ class Pass {
     const std::size_t first = path.parameter_place();
     for (std::size_t j = 0; parameters && j < count_; ++j) {
       const std::size_t k = first + j;
-      by[k] = -(c2 * g2[k] - c3 * g3[k]) / slope;
+      by[k] = rests ? 0 : -(c2 * g2[k] - c3 * g3[k]) / slope;
       m_.y_dp[i * count_ + j] = by[k];
       m_.stress_dp[i * count_ + j] = 2 * (c1 * g1[k] - c3 * g3[k]) + stress_by_y * by[k];
     }
@@ -104,7 +114,7 @@ class Pass {
   std::span<const double> stretch_;
   Memory& m_;
   std::size_t n_, count_;
-  bool sound_ = true;
+  bool symmetric_, sound_ = true;
   double largest_ = 0;
 };
 
@@ -137,7 +147,10 @@ Status MemoryPath::predict(const Strip& strip, const TestInput& input, const Tes
   if (Status status = free_strip::solve(elastic, path, m.elastic); !status.ok()) return status;
   for (double& u : m.u) u = std::exp(u);
 
-  Pass pass(strip, input, stretch, m);
+  const bool symmetric = free_strip::is_symmetric({elastic, path.parameters, path.loaded}, stretch);
+  if (symmetric)
+    for (std::size_t i = 0; i < n; ++i) m.u[i] = 1 / stretch[i];
+  Pass pass(strip, input, stretch, symmetric, m);
   const auto step_on = [&] {
     for (std::size_t i = 0; i < n; ++i) m.u[i] *= std::exp(m.step[i]);
   };

@@ -8,6 +8,7 @@
 
 #include "tunica/detail/free_strip.hpp"
 #include "tunica/detail/strip_start.hpp"
+#include "tunica/detail/symmetric_strip.hpp"
 #include "tunica/detail/vector_level.hpp"
 
 namespace tunica::free_strip {
@@ -90,9 +91,11 @@ inline Status solve_by_batches(const Model& model, const StripPath& path, Scratc
   return {};
 }
 
-/// Answers for any model with a principal-axes path: by its own solver where it has one, else by batches.
+/// Answers for any model with a principal-axes path: by symmetry where that gives the answer, by the model's own solver
+/// where it has one, else by batches.
 inline Status solve(const Model& model, const StripPath& path, Scratch& scratch) {
   Status status;
+  if (solve_symmetric({model, path.parameters, path.loaded}, path, scratch, status)) return status;
   if (model.solve_strip(path, status)) return status;
   return solve_by_batches(model, path, scratch);
 }

@@ -20,7 +20,8 @@ namespace tunica {
 class DecoratedModel final : public Hyperelastic {
  public:
   /// `own` are the mechanism's parameters, the amplitude first, and `null` is the null of the amplitude. `parts` make
-  /// up the whole changed energy; they count the parameters of the base, then those of the mechanism.
+  /// up the whole changed energy; they count the parameters of the base, then those of the mechanism. Throws
+  /// std::invalid_argument if the base has memory, which parts do not carry: ModelSum does.
   DecoratedModel(std::shared_ptr<const Model> base, const std::vector<Parameter>& own, double null,
                  std::vector<std::unique_ptr<EnergyPart>> parts)
       : Hyperelastic(described(*base, own), std::move(parts)),
@@ -53,6 +54,9 @@ class DecoratedModel final : public Hyperelastic {
  private:
   static ModelDescription described(const Model& base, const std::vector<Parameter>& own) {
     ModelDescription description = base.describe();
+    if (description.history_size > 0)
+      throw std::invalid_argument("the parts of model '" + description.type +
+                                  "' do not carry its memory, so that no energy can be rebuilt from them");
     description.parameters.insert(description.parameters.end(), own.begin(), own.end());
     description.parameter_derivatives = true;  // from the parts, whatever the base itself offers
     return description;

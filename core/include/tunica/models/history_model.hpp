@@ -16,6 +16,9 @@ namespace tunica {
 /// state. This class divides each call between the two; a subclass implements one step and sees only its own part.
 ///
 /// Parameter derivatives of a single step are refused, because the state depends on the parameters of earlier steps.
+/// parts() are those of the base, and add up to the energy of the response without memory. They serve who looks for
+/// directions or names of terms; a mechanism that rebuilds an energy from them would lose the memory, so that such
+/// mechanisms are applied to the base first (Stage), or leave the model whole and add to it (ModelSum).
 /// A subclass that says how many doubles it remembers in principal axes, and implements remember_step(), gets exact
 /// derivatives along whole paths in the tests that follow paths in principal axes. Elsewhere the host differences whole
 /// paths. evaluate_axes() is off: a single call knows no past.
@@ -23,6 +26,7 @@ namespace tunica {
 class HistoryModel : public Model {
  public:
   [[nodiscard]] const ModelDescription& describe() const override { return description_; }
+  /// Those of the base: the energy without memory.
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return base_->parts(); }
 
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const final {
