@@ -64,6 +64,18 @@ TEST_F(Layered, EveryTestSeesItsModelsInItsOrder) {
                                          {2.75, 6.0, 17.0, 1.5 * 1.35 + 3 * 6.0, 1.5 * 2.9 + 3 * 17.0}));
 }
 
+TEST_F(Layered, AFailureNamesTheLayerAndItsModel) {
+  bench.run.tests = {"stack"};
+  const double nothing = std::nan("");
+  const Assembly stacked = bench.assemble();  // v.p, v.q, v.r, m.a, m.b, m.c
+  std::vector<double> values(stacked.layout().prediction_count);
+  const auto room = stacked.evaluator().make_workspace();
+  const Status of_m = stacked.evaluator().predict(std::vector<double>{1, 1, 1, nothing, 1, 1}, values, {}, *room);
+  EXPECT_THAT(of_m.reason(), HasSubstr("(layer 2, model 'm')"));
+  const Status of_v = stacked.evaluator().predict(std::vector<double>{1, nothing, 1, 1, 1, 1}, values, {}, *room);
+  EXPECT_THAT(of_v.reason(), HasSubstr("(layer 1, model 'v')"));
+}
+
 TEST_F(Layered, TheJacobianAddsUpWhatLayersOfOneModelGive) {
   stack().parameters.clear();  // the gain is searched for too
   const Assembly assembly = bench.assemble();

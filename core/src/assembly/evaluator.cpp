@@ -2,6 +2,7 @@
 #include "assembly/evaluator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@
 #include "assembly/run_test.hpp"
 #include "assembly/secant.hpp"
 #include "assembly/workspace.hpp"
+#include "plugins/guarded_model.hpp"
 #include "text/escaped.hpp"
 #include "tunica/detail/vector_math.hpp"
 
@@ -23,6 +25,29 @@ namespace {
 std::string bounded(const std::string& reason) {
   constexpr std::size_t longest = 2000;  // bytes
   return reason.size() <= longest ? reason : text::excerpt(reason, longest);
+}
+
+/// Whether a model answers with numbers at rest.
+bool answers_at_rest(const Model& model, std::span<const double> parameters) {
+  constexpr std::array<double, 6> C{1, 1, 1, 0, 0, 0};
+  std::array<double, 6> S{};
+  return model.evaluate({1, C, parameters, {}, {}}, {{}, S, {}, {}, {}}).ok() &&
+         std::all_of(S.begin(), S.end(), [](double s) { return std::isfinite(s); });
+}
+
+/// Which of the materials of layers failed, behind the reason: the one whose call said so, or one that has no stress
+/// even at rest. Nothing where neither is seen, as where an energy overflows under load.
+std::string failed_layer(const RunTest& test, std::span<const double> materials) {
+  const Model* const failed = plugins::last_failed_model();
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < test.layers.size(); ++k) {
+    const std::size_t count = test.layers[k]->describe().parameters.size();
+    if (failed != nullptr ? failed == test.layers[k]
+                          : !answers_at_rest(*test.layers[k], materials.subspan(first, count)))
+      return fmt::format(" (layer {}, model '{}')", k + 1, test.layer_names[k]);
+    first += count;
+  }
+  return "";
 }
 
 /// Position of the first number that is not finite, or the size.
@@ -116,11 +141,14 @@ TestInput Evaluator::input(const RunTest& test, std::span<const double> at, Work
 
 Status Evaluator::call(const RunTest& test, std::span<const double> at, std::span<double> values,
                        std::span<double> jacobian, Workspace& workspace) const {
-  if (Status status = test.test->predict(input(test, at, workspace), {values, jacobian, {}, {}}); !status.ok())
-    return Status::failed(fmt::format("test '{}': {}", test.name, bounded(status.reason())));
+  const TestInput bound = input(test, at, workspace);
+  plugins::last_failed_model() = nullptr;
+  if (Status status = test.test->predict(bound, {values, jacobian, {}, {}}); !status.ok())
+    return Status::failed(fmt::format("test '{}': {}{}", test.name, bounded(status.reason()),
+                                      failed_layer(test, bound.model_parameters)));
   if (const std::size_t bad = first_not_finite(values); bad < values.size()) {
-    return Status::failed(
-        fmt::format("test '{}': the prediction is {} in {}", test.name, values[bad], place(test, bad)));
+    return Status::failed(fmt::format("test '{}': the prediction is {} in {}{}", test.name, values[bad],
+                                      place(test, bad), failed_layer(test, bound.model_parameters)));
   }
   return {};
 }

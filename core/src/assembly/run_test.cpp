@@ -42,6 +42,7 @@ void assign_models(RunTest& test, const experiment::TestEntry& entry, const std:
     const auto named = std::find_if(models.begin(), models.end(),
                                     [&layer](const RunModel& candidate) { return candidate.name == layer.model; });
     test.layers.push_back(named->model.get());
+    test.layer_names.push_back(named->name);
     add(*named);
   }
   test.model = test.layers.empty() ? models.front().model.get() : test.layers.front();

@@ -18,9 +18,10 @@ namespace tunica::assembly {
 struct RunTest {
   std::string name;
   std::unique_ptr<Test> test;
-  const Model* model = nullptr;      ///< of the first layer, where there are several
-  std::vector<const Model*> layers;  ///< empty = `model` alone
-  ParameterVector materials;         ///< the parameters of its models, layer after layer
+  const Model* model = nullptr;          ///< of the first layer, where there are several
+  std::vector<const Model*> layers;      ///< empty = `model` alone
+  std::vector<std::string> layer_names;  ///< of their models in the file
+  ParameterVector materials;             ///< the parameters of its models, layer after layer
   std::size_t rows = 0, channels = 0;
   std::size_t offset = 0;    ///< of its rows among all predictions, channel after channel
   ParameterVector own;       ///< the test's parameter vector

@@ -103,7 +103,7 @@ Verdict predictions_are_numbers(const Simulation& s, std::uint64_t) {
 
 Verdict values_do_not_depend_on_the_other_outputs(const Simulation& s, std::uint64_t) {
   Meter meter("values and diagnostics alone with those beside all other outputs", 1e-10);
-  const bool exact = s.model.describe().parameter_derivatives;
+  const bool exact = s.model.describe().parameter_derivatives && !s.test.describe().differencing;
   const Prediction all = predict(s.test, s.input(), {true, exact, false, true});
   if (!all.status.ok())
     return broken(meter.verdict().compared, "with a Jacobian the test answers '" + all.status.reason() + "'");

@@ -74,7 +74,7 @@ class SetupSampler {
       if (!map) continue;
       if (observable.role == Role::abscissa)
         guess.abscissae.emplace_back(observable.name, rising(observable, rows, size));
-      else if (observable.required)
+      else if (observable.required || no_abscissa())
         guess.time = rising(observable, rows, 1);
     }
     const bool all = attempt % 2 == 0;
@@ -85,6 +85,11 @@ class SetupSampler {
   }
 
  private:
+  /// Whether time is all that rows can have.
+  [[nodiscard]] bool no_abscissa() const {
+    return std::none_of(factory_.observables.begin(), factory_.observables.end(),
+                        [](const Observable& observable) { return observable.role == Role::abscissa; });
+  }
   bool coin() { return (engine_() & 1) != 0; }
   const TestFactory& factory_;
   Choices pinned_;
@@ -172,6 +177,8 @@ std::string OwnedSetup::words() const {
   std::vector<std::string> prescribed;
   for (const auto& [name, values] : abscissae)
     prescribed.push_back(fmt::format("{} from {:.3g} to {:.3g}", name, values.front(), values.back()));
+  if (prescribed.empty() && !time.empty())
+    prescribed.push_back(fmt::format("time from {:.3g} to {:.3g}", time.front(), time.back()));
   return fmt::format("{}, channels {}{}{}", fmt::join(prescribed, ", "), fmt::join(channels, ", "),
                      choices.empty() ? "" : "; ", words_of(choices));
 }

@@ -26,7 +26,10 @@ struct OwnedSetup {
   std::vector<std::string> channels;
   std::vector<std::pair<std::string, std::string>> choices = {};  ///< the options that are one of several words
 
-  [[nodiscard]] std::size_t count() const { return abscissae.empty() ? 1 : abscissae.front().second.size(); }
+  [[nodiscard]] std::size_t count() const {
+    if (!abscissae.empty()) return abscissae.front().second.size();
+    return time.empty() ? 1 : time.size();
+  }
   /// A view; valid while this object lives and is not changed.
   [[nodiscard]] TestSetup setup() const;
   /// "stretch from 1.01 to 1.2, channels stress; direction = axial": what was made up, in words.

@@ -72,6 +72,8 @@ struct Comparison {
 Verdict jacobian_matches_differences(const Simulation& s, std::uint64_t) {
   const std::size_t rows = size_of(s), models = s.model_parameters.size(), all = models + s.test_parameters.size();
   Meter meter("the Jacobian with differences of the predictions", tolerance);
+  if (s.test.describe().differencing)
+    return not_checked(meter.verdict().compared, "the test has no derivatives: the host differences it as stated");
   const auto [status, values, jacobian, by_abscissae, shown] = predict(s.test, s.input(), {.jacobian = true});
   if (!status.ok()) {
     if (!s.model.describe().parameter_derivatives)
@@ -97,6 +99,8 @@ Verdict abscissa_derivative_matches_differences(const Simulation& s, std::uint64
   const std::size_t rows = size_of(s), count = s.test.rows().abscissae.size();
   Meter meter("derivatives by the abscissae with differences of the predictions", tolerance);
   const auto [status, values, none, derivative, shown] = predict(s.test, s.input(), {.abscissa_derivative = true});
+  if (!status.ok() && s.test.describe().differencing)
+    return not_checked(meter.verdict().compared, "the test has no derivatives: " + status.reason());
   if (!status.ok()) return broken(meter.verdict().compared, "no derivative: " + status.reason());
   Comparison comparison;
   for (std::size_t k = 0; k < count; ++k) {

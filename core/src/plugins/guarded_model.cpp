@@ -92,6 +92,11 @@ std::uint64_t strip_key(const Call& call) {
 
 }  // namespace
 
+const Model*& last_failed_model() {
+  thread_local const Model* model = nullptr;
+  return model;
+}
+
 GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
     : model_(std::move(model)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
   description_ = guarded(plugin_, "describe", [this] { return &model_->describe(); });
@@ -105,7 +110,9 @@ Status GuardedModel::made(const Call& call, OverrunRecord::Function function, st
     mark(outputs, points);
     const CallScope scope(call);
     const UsualArithmetic arithmetic;
-    return verdict(contained(plugin_, body), outputs, plugin_, points);
+    Status status = verdict(contained(plugin_, body), outputs, plugin_, points);
+    if (!status.ok()) last_failed_model() = this;
+    return status;
   };
   const std::size_t kind = OverrunRecord::kind(function, outputs, points);
   if (!overruns_.is_new(kind)) return attempt();

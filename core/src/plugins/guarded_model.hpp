@@ -11,6 +11,10 @@ namespace tunica::plugins {
 
 struct Call;
 
+/// The model whose call was the last to fail on this thread; null = none since it was set to that. Of several guards
+/// around each other it is the outermost.
+const Model*& last_failed_model();
+
 /// A model of a plugin that the host need not trust. What it throws, an output that it does not write or writes beyond,
 /// and a call that has ended a process before are all a `failed` status which names the plugin. Costs a call some 20
 /// ns: the record of calls, and marks in the outputs.
