@@ -90,8 +90,15 @@ double Bridge::value_at(const double* x, double* gradient) {
     }
   }
   if (stop_ != Stop::none) value_ = worst_;
-  if (gradient != nullptr) std::ranges::copy(gradient_, gradient);
-  return value_;
+  if (!rules_.gradient) return value_;
+  // SLSQP begins with the Hessian 1: a slope of a million bounds would end its line search at once.
+  if (scale_ == 0) {
+    scale_ = 1;
+    for (const double slope : gradient_)
+      if (std::isfinite(slope)) scale_ = std::max(scale_, std::abs(slope));
+  }
+  if (gradient != nullptr) std::ranges::transform(gradient_, gradient, [this](double slope) { return slope / scale_; });
+  return value_ / scale_;
 }
 
 Status Bridge::evaluate(std::span<const double> x) {

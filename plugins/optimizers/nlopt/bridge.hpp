@@ -83,6 +83,7 @@ class Bridge {
   nlopt::opt* opt_ = nullptr;
   std::vector<double> x_, nearer_, residuals_, jacobian_, gradient_;
   double value_ = 0, worst_ = 0;
+  double scale_ = 0;    ///< what value and gradient are divided by; 0 = nothing was evaluated yet
   bool known_ = false;  ///< value_ and gradient_ belong to x_
   Point best_;
   double progress_from_ = std::numeric_limits<double>::infinity();
