@@ -276,11 +276,10 @@ text::StyledText summary(const Diagnosis& d) {
     line("Cause:    ", cause_line(claim.causes[k], explanation));
   for (const Cause& row : explanation.left_out) line("Cause:    ", cause_line(row, explanation));
   if (wrong && !claim.causes.empty()) line("Or else:  ", rivals_line(explanation));
+  if (wrong) line("Left out: ", not_tried(d.prospects.detectable));
   if (d.prospects.gain) line("Gain:     ", gain_line(*d.prospects.gain, claim.named > 1));
   line("Material: ", material_line(explanation.admissibility));
   if (d.prospects.next) line("Next:     ", d.prospects.next->description);
-  if (const std::string left_out = not_tried(d.prospects.detectable); wrong && !left_out.empty())
-    line("Not tried:", left_out);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
   return lines;
 }
