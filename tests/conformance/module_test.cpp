@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The means of comparison: a suite that is wrong itself would blame the plugins.
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include "conformance/model_properties.hpp"
 #include "conformance/partners.hpp"
 #include "conformance/test_cases.hpp"
+#include "conformance/test_properties.hpp"
 #include "support/loaded.hpp"
 
 namespace tunica::conformance {
@@ -109,6 +111,54 @@ TEST(TestBench, MakesUpRowsForEveryTestThatIsLoaded) {
     ASSERT_TRUE(bench.test) << type;
     EXPECT_GE(bench.test->rows().channels.size(), 1u) << type;
     EXPECT_EQ(bench.own.size(), bench.test->describe().parameters.size()) << type;
+  }
+}
+
+/// A test without derivatives, the rows of which have a time and no abscissa: relaxation at a held stretch.
+class Held final : public Test {
+ public:
+  explicit Held(const TestSetup& setup) : time_(setup.rows.time.begin(), setup.rows.time.end()) {
+    if (time_.empty() || setup.rows.count != time_.size())
+      throw InputError("held: " + std::to_string(setup.rows.count) + " rows, and " + std::to_string(time_.size()) +
+                       " times");
+    rows_ = {time_.size(), {}, setup.rows.channels, time_};
+    description_.differencing = Differencing{};
+  }
+  [[nodiscard]] const TestDescription& describe() const override { return description_; }
+  [[nodiscard]] const TestRows& rows() const override { return rows_; }
+  Status predict(const TestInput& input, const TestOutput& out) const override {
+    if (!out.jacobian.empty() || !out.abscissa_derivative.empty()) return Status::failed("held: no derivatives");
+    const std::array<double, 6> C{1.21, 1 / 1.1, 1 / 1.1, 0, 0, 0};
+    std::array<double, 6> S{};
+    if (Status status = input.model.evaluate({1, C, input.model_parameters, {}, {}}, {{}, S, {}, {}, {}}); !status.ok())
+      return status;
+    if (!std::isfinite(S[0] - S[2])) return Status::failed("held: the stress is no number at row 1");
+    for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] = (S[0] - S[2]) * (1 + std::exp(-time_[i]));
+    return {};
+  }
+
+ private:
+  std::vector<double> time_;
+  TestRows rows_;
+  TestDescription description_;
+};
+
+TEST(TestBench, HoldsNoWantOfDerivativesAgainstATestWhoseRowsHaveATimeOnly) {
+  using Role = Observable::Role;
+  for (const bool required : {true, false}) {
+    plugins::Catalogue::Entry<TestFactory> entry;
+    entry.factory = {"held",
+                     "Relaxation.",
+                     "",
+                     {},
+                     {{"time", "s", Role::time, required, "Since the stretch was set."},
+                      {"stress", "kPa", Role::channel, true, "Along the strip.", Observable::Kind::stress}},
+                     [](const TestSetup& setup) { return std::make_unique<Held>(setup); }};
+    const TestCase bench = synthetic_case(entry, 1);
+    EXPECT_EQ(bench.test->rows().count, 6u);
+    const Simulation simulation{*bench.test, *bench.material.model, bench.material.parameters, bench.own};
+    for (const TestProperty& property : test_properties())
+      EXPECT_EQ(property.check(simulation, 1).counter_example, "") << property.name;
   }
 }
 
