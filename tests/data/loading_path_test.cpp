@@ -2,6 +2,7 @@
 // What rows say of the past of a specimen, and rows put in an order of their own.
 #include "data/loading_path.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "data/strip.hpp"
@@ -49,6 +50,8 @@ TEST(LoadingPath, HasAnUnknownBeginningWhereItStartsFarFromRestAndUnloads) {
 TEST(LoadingPath, IsToldInWords) {
   EXPECT_EQ(path_words(read_strip(loop), strip_observables()),
             "stretch 1 → 1.5 → 1.02, 1 cycle, 5 rows; starts at rest");
+  EXPECT_THAT(path_words(read_strip("stretch,stress [kPa]\n1.045,1\n9,20\n18.09,60\n"), strip_observables()),
+              ::testing::HasSubstr("starts near rest"));
   EXPECT_EQ(path_words(read_strip("stretch,stress [kPa]\n1.5,20\n1.3,9\n1.1,2\n"), strip_observables()),
             "stretch 1.5 → 1.1, 3 rows; starts far from rest and unloads");
   const std::vector<double> cycles = {1, 1.5, 1.1, 1.5, 1.1, 1.5, 1.49, 1.5};

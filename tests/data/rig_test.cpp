@@ -337,5 +337,60 @@ TEST(RigData, NamesWhatIsMissing) {
             std::string::npos);
 }
 
+TEST(TablePlace, TakesNumbersForNamesAboveARowOfUnits) {
+  const auto place = find_table(
+      "MTS793|MPT|DEU|1|2|,|.|:|A\nDatum\t30.6.2023\nTag\tLaufzeit\tKraft\tWeg\t1470533\nd\ts\tkN\tmm\tmm\n"
+      "45107\t22,89\t-1,27\t38,0\t-0,5\n45107\t23,89\t-1,85\t38,1\t-0,6\n45107\t24,89\t-3,01\t38,2\t-0,7\n",
+      {});
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->header, 3u);
+  EXPECT_EQ(place->delimiter, '\t');
+}
+
+TEST(RigData, StrainsAreWhatTheyAreDeclaredAs) {
+  const double e = std::log(1.2), green = 0.5 * (1.2 * 1.2 - 1);
+  const std::string text = fmt::format("log,green,stress [kPa]\n0,0,0\n{},{},1\n{},{},2\n", e / 2, green / 2, e, green);
+  const Dataset of_log = read_strip(text, {{"true_strain", "log"}, {"stress", "stress"}});
+  const Dataset of_green = read_strip(text, {{"green_strain", "green"}, {"stress", "stress"}});
+  EXPECT_NEAR(of_log.abscissae[0].second[2], 1.2, 1e-14);
+  EXPECT_NEAR(of_green.abscissae[0].second[2], 1.2, 1e-14);
+  EXPECT_NE(strip_refusal("green,stress [kPa]\n0,0\n-0.5,1\n", {{"green_strain", "green"}, {"stress", "stress"}})
+                .find("line 3, column 1 ('green'): found the Green strain -0.5"),
+            std::string::npos);
+}
+
+TEST(RigData, CompressionMayBePositive) {
+  const std::string text = "strain,stress [kPa]\n0,0\n0.1,1\n0.2,3\n";
+  DataRequest request;
+  request.compression.all = true;
+  const Dataset all = read_strip(text, {{"strain", "strain"}, {"stress", "stress"}}, request);
+  EXPECT_NEAR(all.abscissae[0].second[2], 0.8, 1e-15);
+  EXPECT_EQ(all.channels[0].values[2], -3);
+  request.compression = {false, {"stress"}};
+  const Dataset one = read_strip(text, {{"strain", "strain"}, {"stress", "stress"}}, request);
+  EXPECT_NEAR(one.abscissae[0].second[2], 1.2, 1e-15);
+  EXPECT_EQ(one.channels[0].values[2], -3);
+  request.compression = {false, {"stretch"}};
+  EXPECT_NE(strip_refusal("stretch,stress [kPa]\n1,0\n1.1,1\n", {}, request)
+                .find("\"compression\" names this column, and it is not read as"),
+            std::string::npos);
+}
+
+TEST(RigData, RowsOfEmptyCellsAreBlankLines) {
+  const Dataset dataset = read_strip("stretch,stress [kPa],\n1,0,\n1.1,2,\n,,\n, , \n1.2,3,\n,,\n");
+  EXPECT_EQ(dataset.count, 3u);
+}
+
+TEST(RigData, TextOfOtherEncodingsIsReadAndWorkbooksAreNot) {
+  std::string wide = "\xFF\xFE";
+  for (const char letter : std::string("stretch,stress [kPa]\n1,0\n1.1,2\n")) {
+    wide += letter;
+    wide += '\0';
+  }
+  EXPECT_EQ(read_strip(wide).channels[0].values[1], 2);
+  EXPECT_NE(strip_refusal(std::string("PK\x03\x04\x14\0", 6)).find("this is a workbook"), std::string::npos);
+  EXPECT_NE(strip_refusal("\xD0\xCF\x11\xE0\xA1").find("this is a workbook"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tunica::data

@@ -57,6 +57,7 @@ struct DataRequest {
   std::string cycles_from;           ///< column that counts cycles; empty: from the turning points
   BranchChoice branch = BranchChoice::both;
   std::optional<Preload> preload;
+  CompressionPositive compression;
   std::optional<std::size_t> resample;  ///< points of each branch
   bool sorted = false;                  ///< rows by their values, whatever their order in the file; for a diagnosis
 };

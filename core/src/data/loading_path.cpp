@@ -13,6 +13,7 @@ namespace tunica::data {
 namespace {
 
 constexpr double far_from_rest = 0.5, clearly_moved = 0.1, turned = 0.05;
+constexpr double at_rest = 0.01;  ///< of a stretch, from 1
 
 const Observable* observable_of(const std::string& name, const std::vector<Observable>& observables) {
   for (const Observable& observable : observables)
@@ -49,8 +50,9 @@ std::string start_words(const std::vector<double>& path, double rest) {
   const std::vector<double> distance = distances(path, rest);
   if (starts_unloading(path, rest)) return "starts far from rest and unloads";
   if (starts_far(distance)) return "starts far from rest";
-  return distance.front() <= turned * *std::max_element(distance.begin(), distance.end()) ? "starts at rest"
-                                                                                          : "starts near rest";
+  const double farthest = *std::max_element(distance.begin(), distance.end());
+  const double near = rest == 0 ? turned * farthest : std::min(turned * farthest, at_rest);
+  return distance.front() <= near ? "starts at rest" : "starts near rest";
 }
 
 }  // namespace

@@ -43,6 +43,8 @@ std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
       add(observable, stretch_word, "displacement", From::displacement, "mm");
       add(observable, stretch_word, "length", From::length, "mm");
       add(observable, stretch_word, "strain", From::strain, "1");
+      add(observable, stretch_word, "true_strain", From::true_strain, "1");
+      add(observable, stretch_word, "green_strain", From::green_strain, "1");
     }
     if (observable.kind == Observable::Kind::stress) add(observable, stress_word, "force", From::force, "mN");
   }
@@ -77,6 +79,11 @@ std::vector<std::string> directions_of(const std::vector<Observable>& observable
       directions.push_back(direction);
   }
   return directions;
+}
+
+bool is_signed(const Quantity& quantity) {
+  if (quantity.kind == From::own) return quantity.observable->kind == Observable::Kind::stress;
+  return quantity.kind != From::length;
 }
 
 const Observable* stretch_beside(const Observable& stress, const std::vector<Observable>& observables) {

@@ -11,13 +11,13 @@
 
 /// What a testing machine measures, and the observables of a test that follow from it with the sizes of the specimen.
 ///
-/// The name of the quantity is that of the observable with one word replaced: `displacement`, `length` or `strain`
-/// gives a prescribed `stretch`, and `force` gives a `stress`. So `force_axial` gives `stress_axial`, and
+/// The name of the quantity is that of the observable with one word replaced: `displacement`, `length`, `strain`,
+/// `true_strain` or `green_strain` gives a prescribed `stretch`, and `force` gives a `stress`. So `force_axial` gives `stress_axial`, and
 /// `axial_length` gives `axial_stretch`.
 namespace tunica::data {
 
 struct Quantity {
-  enum class Kind { own, displacement, length, strain, force };
+  enum class Kind { own, displacement, length, strain, true_strain, green_strain, force };
   const Observable* observable;  ///< of the test: what it is, or what follows from it
   Kind kind = Kind::own;         ///< own: the column has the observable itself
   std::string unit;              ///< base unit of the column
@@ -38,6 +38,9 @@ Sizes sizes_along(const Specimen& specimen, std::string_view observable);
 
 /// Directions that sizes can be given for: what stands beside "stretch" in the names of observables.
 std::vector<std::string> directions_of(const std::vector<Observable>& observables);
+
+/// Whether the quantity is greater than zero in tension and less in compression.
+bool is_signed(const Quantity& quantity);
 
 /// The stretch that turns the nominal stress of this observable into another measure; none where the test has none.
 const Observable* stretch_beside(const Observable& stress, const std::vector<Observable>& observables);

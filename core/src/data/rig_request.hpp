@@ -55,6 +55,12 @@ struct Preload {
   bool is_force = true;
 };
 
+/// Columns that count compression positive: their values are read with the opposite sign.
+struct CompressionPositive {
+  bool all = false;                  ///< every mapped column that has a sign in tension and compression
+  std::vector<std::string> columns;  ///< these; as in "columns"
+};
+
 /// 3 of "#3", the name of the third column where names are missing or do not matter.
 std::optional<std::size_t> column_position(std::string_view name);
 

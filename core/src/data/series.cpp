@@ -94,6 +94,25 @@ class Reader {
                                         quantity.unit));
     }
     decimal_ = csv_.decimal_mark(indices);
+    turn_signs();
+  }
+
+  /// Tension is positive here, whatever the file says.
+  void turn_signs() {
+    const CompressionPositive& compression = request_.compression;
+    for (std::size_t k = 0; k < quantities_.size(); ++k)
+      series_.columns[k].turned = compression.all && is_signed(quantities_[k]);
+    for (const std::string& name : compression.columns) {
+      const std::size_t index = csv_.column(name);
+      bool found = false;
+      for (std::size_t k = 0; k < quantities_.size(); ++k)
+        if (series_.columns[k].index == index && is_signed(quantities_[k])) found = series_.columns[k].turned = true;
+      if (!found)
+        throw InputError(fmt::format(
+            "{}: \"compression\" names this column, and it is not read as a force, a stress, a displacement "
+            "or a strain. Leave it out there, or correct \"columns\".",
+            csv_.place(csv_.header_line, index)));
+    }
   }
 
   // The factor is asked for once a cell: units like degrees Celsius have an offset.
@@ -110,7 +129,8 @@ class Reader {
   }
 
   double value(std::size_t k, const Csv::Row& row) const {
-    return in_base_unit(k, csv_.number(row, series_.columns[k].index, decimal_));
+    const double value = in_base_unit(k, csv_.number(row, series_.columns[k].index, decimal_));
+    return series_.columns[k].turned ? -value : value;
   }
 
   static bool is_empty(const std::string& cell) { return cell.empty() || cell == "NaN" || cell == "nan"; }
@@ -173,6 +193,11 @@ class Reader {
 
   bool has_length(std::size_t k) const {
     return quantities_[k].kind == From::length || quantities_[k].kind == From::displacement;
+  }
+
+  bool is_strain(std::size_t k) const {
+    const From kind = quantities_[k].kind;
+    return kind == From::strain || kind == From::true_strain || kind == From::green_strain;
   }
 
   void require_length() const {
@@ -276,19 +301,30 @@ class Reader {
                                  series_.header_place(series_.columns[k]), request_.columns[k].first, key));
   }
 
-  /// λ = 1 + ΔL/L, ℓ/L or 1 + ε, with the gauge length L.
+  /// λ = 1 + ΔL/L or ℓ/L with the gauge length L; 1 + ε, exp ε of a true strain, √(1 + 2E) of Green's.
   double stretch(std::size_t k, double value) const {
     const From kind = quantities_[k].kind;
     if (kind == From::strain) return 1 + value;
+    if (kind == From::true_strain) return std::exp(value);
+    if (kind == From::green_strain) return std::sqrt(1 + 2 * value);
     const double gauge = series_.columns[k].gauge_length;
     return kind == From::length ? value / gauge : 1 + (value - offsets_[k]) / gauge;
   }
 
   void derive_stretches() {
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
-      if (has_length(k) || quantities_[k].kind == From::strain) {
-        series_.columns[k].elongation = quantities_[k].kind != From::length;
-        for (double& value : series_.columns[k].values) value = stretch(k, value);
+      if (has_length(k) || is_strain(k)) {
+        const From kind = quantities_[k].kind;
+        series_.columns[k].elongation = kind == From::displacement || kind == From::strain;
+        for (std::size_t row = 0; row < series_.columns[k].values.size(); ++row) {
+          double& value = series_.columns[k].values[row];
+          if (kind == From::green_strain && !(1 + 2 * value > 0))
+            throw InputError(fmt::format(
+                "{}: found the Green strain {:g}, and none is -0.5 or less. Correct the cell or the unit, or "
+                "map the column to 'strain' or 'true_strain'.",
+                series_.place(row, series_.columns[k]), value));
+          value = stretch(k, value);
+        }
       }
   }
 

@@ -19,6 +19,7 @@ struct Series {
     std::vector<double> values;  ///< one per row
     bool derived = false;        ///< from another quantity in the column, with the sizes of the specimen
     bool elongation = false;     ///< a stretch from a displacement or a strain
+    bool turned = false;         ///< counts compression positive; values have the opposite sign
     double gauge_length = 0;     ///< mm, of a stretch from a length or a displacement; 0 = none
   };
   std::filesystem::path file;

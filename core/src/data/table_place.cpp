@@ -97,6 +97,14 @@ Run largest_run(const std::vector<CellLine>& lines) {
   return best;
 }
 
+/// Whether most numbers of a run stand under text: channels that nobody named have their number for a name.
+bool names_most(const Run& run, const std::vector<Cell>& cells) {
+  std::ptrdiff_t named = 0;
+  for (std::size_t c = 0; c < run.cells.size(); ++c)
+    named += run.cells[c] == Cell::number && cells[c] == Cell::text ? 1 : 0;
+  return named > 0 && 2 * named >= run.numbers();
+}
+
 /// Above a run, past rows that it lost to a text in a column of numbers, and past a row of units.
 std::optional<std::size_t> header_of(const Run& run, const std::vector<TextLine>& texts,
                                      const std::vector<CellLine>& lines, char delimiter) {
@@ -108,7 +116,9 @@ std::optional<std::size_t> header_of(const Run& run, const std::vector<TextLine>
       names = names && (run.cells[c] != Cell::number || cells[c] == Cell::text);
     for (const std::string_view cell : cells_of(texts[k].text, delimiter))
       units = units && (cell.empty() || stated_unit(cell).has_value());
-    if (names && !(units && k > 0 && lines[k - 1].cells.size() >= run.cells.size())) return k;
+    const bool above = k > 0 && lines[k - 1].cells.size() >= run.cells.size();
+    if (names && units && above && names_most(run, lines[k - 1].cells)) return k - 1;
+    if (names && !(units && above)) return k;
   }
   return std::nullopt;
 }

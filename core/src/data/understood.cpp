@@ -12,7 +12,8 @@ namespace {
 using From = Quantity::Kind;
 
 std::string source_of(const Series::Column& column) {
-  return fmt::format("'{}'{}", column.name, column.unit.empty() ? "" : " in " + column.unit);
+  return fmt::format("'{}'{}{}", column.name, column.unit.empty() ? "" : " in " + column.unit,
+                     column.turned ? ", which counts compression positive" : "");
 }
 
 /// "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm".
@@ -31,6 +32,10 @@ std::string formula(const Series::Column& column, const Quantity& quantity, cons
       return fmt::format("{} = length / {}, from {}", name, gauge, source);
     case From::strain:
       return fmt::format("{} = 1 + strain, from {}", name, source);
+    case From::true_strain:
+      return fmt::format("{} = exp(true strain), from {}", name, source);
+    case From::green_strain:
+      return fmt::format("{} = √(1 + 2 Green strain), from {}", name, source);
     case From::force:
       break;
   }
@@ -68,7 +73,7 @@ std::vector<std::string> understood(const Series& series, const DataRequest& req
                                     const std::vector<Observable>& observables) {
   std::vector<std::string> found;
   const bool derived = std::any_of(series.columns.begin(), series.columns.end(),
-                                   [](const Series::Column& column) { return column.derived; });
+                                   [](const Series::Column& column) { return column.derived || column.turned; });
   for (std::size_t k = 0; derived && k < series.columns.size(); ++k)
     found.push_back(formula(series.columns[k], *quantity_named(request.columns[k].first, observables), request));
   std::vector<std::string> conditions;

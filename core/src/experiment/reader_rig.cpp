@@ -139,6 +139,20 @@ data::CycleChoice read_cycle(const Node& node) {
   return choice;
 }
 
+/// "positive", or column → "positive" | "negative".
+data::CompressionPositive read_compression(const Node& node) {
+  static const std::vector<std::string> signs = {"positive", "negative"};
+  data::CompressionPositive compression;
+  if (node.is_text()) {
+    compression.all = node.one_of(signs, "sign of compression") == "positive";
+    return compression;
+  }
+  for (const auto& [column, sign] :
+       node.members("\"positive\", \"negative\", or an object of columns and these words,"))
+    if (sign.one_of(signs, "sign of compression") == "positive") compression.columns.push_back(column);
+  return compression;
+}
+
 data::Preload read_preload(const Node& node, const std::vector<Observable>& observables,
                            const data::DataRequest& data) {
   const bool force = std::any_of(data.columns.begin(), data.columns.end(), [&](const auto& column) {
@@ -154,8 +168,9 @@ data::Preload read_preload(const Node& node, const std::vector<Observable>& obse
 }  // namespace
 
 const std::vector<std::string>& rig_keys() {
-  static const std::vector<std::string> keys = {"skip_lines", "delimiter",   "decimal", "units",   "specimen",
-                                                "cycle",      "cycles_from", "branch",  "preload", "resample"};
+  static const std::vector<std::string> keys = {"skip_lines", "delimiter", "decimal",     "units",
+                                                "specimen",   "cycle",     "cycles_from", "branch",
+                                                "preload",    "resample",  "compression"};
   return keys;
 }
 
@@ -184,6 +199,7 @@ void read_where(const Node& node, data::DataRequest& data) {
 void read_rig_keys(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
                    data::DataRequest& data) {
   read_layout(block, data);
+  if (const auto node = block.find("compression")) data.compression = read_compression(*node);
   if (const auto node = block.find("preload")) data.preload = read_preload(*node, observables, data);
   if (const auto node = block.find("specimen"))
     read_specimen(*node, data.preload.has_value(), observables, data.specimen);

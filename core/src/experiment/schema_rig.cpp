@@ -54,6 +54,12 @@ void define_rig_keys(Json& definitions) {
       {"maximum", limits::resampled}};
   definitions["branch"] = {{"description", "Only the loading, or the unloading, of the cycles (default both)."},
                            {"enum", names_in(data::branch_names)}};
+  const Json sign = {{"enum", {"positive", "negative"}}};
+  definitions["compression"] = {
+      {"description",
+       "Sign that forces, stresses, displacements and strains of the file have in compression (default negative); of "
+       "all columns, or column → sign."}};
+  definitions["compression"]["anyOf"] = Json::array({sign, {{"type", "object"}, {"additionalProperties", sign}}});
   definitions["preload"] = quantity_schema(
       "Load at which the test begins: a force, or a stress where no force is mapped; rows below are left out.");
 }
@@ -68,8 +74,8 @@ Json specimen_schema(const std::vector<Observable>& observables) {
 }
 
 void add_rig_properties(Json& properties, const std::vector<Observable>& observables) {
-  for (const char* name :
-       {"skip_lines", "delimiter", "decimal", "units", "cycle", "cycles_from", "branch", "preload", "resample"})
+  for (const char* name : {"skip_lines", "delimiter", "decimal", "units", "cycle", "cycles_from", "branch", "preload",
+                           "resample", "compression"})
     properties[name] = reference(name);
   properties["specimen"] = specimen_schema(observables);
 }

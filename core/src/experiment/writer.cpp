@@ -91,6 +91,8 @@ void add_rig_keys(Json& json, const data::DataRequest& data) {
   if (!data.cycles_from.empty()) json["cycles_from"] = column_name(data.cycles_from);
   if (data.branch != data::BranchChoice::both) json["branch"] = text::code_of(data::branch_names, data.branch);
   if (data.preload) json["preload"] = data.preload->value;
+  if (data.compression.all) json["compression"] = "positive";
+  for (const std::string& column : data.compression.columns) json["compression"][column] = "positive";
   if (data.resample) json["resample"] = *data.resample;
 }
 
