@@ -15,10 +15,12 @@
 #include <unistd.h>
 
 #include "answer.hpp"
+#include "calibration/examination.hpp"
 #include "data/dataset.hpp"
 #include "data/units.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "importing/joined.hpp"
 #include "importing/proposal.hpp"
 #include "messages.hpp"
 #include "text/aside.hpp"
@@ -35,8 +37,9 @@ using importing::Question;
 
 struct ImportOptions {
   Answers answers;
-  std::vector<std::string> files, options, columns, units, where;
+  std::vector<std::string> files, options, columns, units, where, directions, compressions;
   std::string table, output;
+  bool join = false;
 };
 
 importing::Pairs pairs(const std::vector<std::string>& texts, std::string_view option) {
@@ -53,10 +56,11 @@ importing::Pairs pairs(const std::vector<std::string>& texts, std::string_view o
 /// Asks on the terminal until the answer makes sense.
 std::string ask_on_terminal(const Question& question) {
   for (;;) {
-    text::aside("{} (for example {}): ", question.text, question.example);
+    text::aside("{} ({} {}): ", question.text, question.likely ? "Enter for" : "for example", question.example);
     std::string answer;
     if (!std::getline(std::cin, answer))
       throw InputError(fmt::format("no answer to '{}'. Give {}", question.text, question.option));
+    if (answer.empty() && question.likely) return question.example;
     if (answer.empty()) continue;
     if (!question.length || answer == "preload") return answer;
     try {
@@ -81,6 +85,32 @@ void check_length(std::string& answer, const char* option) {
   if (answer.find_first_not_of("0123456789.+-eE ") != std::string::npos) return;
   answer += " mm";
   say_wrapped_warning(fmt::format("{}: no unit is given; {} is assumed", option, answer));
+}
+
+/// "axial" for all, or "TEST=axial" for one.
+void sort_out(const std::vector<std::string>& texts, std::string_view option, const std::vector<std::string>& words,
+              std::string& all, importing::Pairs& single) {
+  for (const std::string& text : texts) {
+    const std::size_t at = text.rfind('=');
+    const std::string value = at == std::string::npos ? text : text.substr(at + 1);
+    if (std::find(words.begin(), words.end(), value) == words.end())
+      throw InputError(
+          fmt::format("{} {}: expected {}, or NAME=VALUE with one of them", option, text, fmt::join(words, " or ")));
+    if (at == std::string::npos)
+      all = value;
+    else
+      single.emplace_back(text.substr(0, at), value);
+  }
+}
+
+void check_area(const std::string& area) {
+  if (area.empty()) return;
+  try {
+    if (data::parse_quantity(area, "mm2") > 0) return;
+  } catch (const InputError& problem) {
+    throw InputError(fmt::format("--area is no area: {}", problem.what()));
+  }
+  throw InputError(fmt::format("--area {}: it must be greater than zero. Correct it", area));
 }
 
 [[noreturn]] void refuse_unanswered(const std::vector<Question>& questions) {
@@ -122,24 +152,52 @@ std::optional<std::string> toe_of(const data::Dataset& dataset) {
       abscissa, path[row], dataset.channels.front().observable);
 }
 
-/// What was written is read as `tunica check` will read it; what it refuses is taken back.
-std::vector<std::string> warnings_about(const std::filesystem::path& file, const Session& session) {
+/// What was written is checked as `tunica check` will; what that refuses is taken back. Whether all is in order.
+bool checked(const std::filesystem::path& file, const Session& session) {
   try {
-    std::vector<std::string> warnings;
     const auto experiment = session.read(file);
+    const auto examined = calibration::examine(experiment, session.catalogue());
+    for (const auto& warning : examined.warnings) say_wrapped_warning(warning.text());
     for (const auto& test : experiment.tests) {
-      data::Dataset dataset =
+      if (test.data.preload || test.data.files.empty()) continue;
+      const data::Dataset dataset =
           data::read_dataset(test.data, session.catalogue().tests().find(test.type)->second.factory.observables);
-      if (!test.data.preload)
-        if (auto toe = toe_of(dataset)) dataset.warnings.push_back(std::move(*toe));
-      for (const std::string& warning : dataset.warnings)
-        warnings.push_back(fmt::format("test '{}': {}", test.name, warning));
+      if (const auto toe = toe_of(dataset)) say_wrapped_warning(fmt::format("test '{}': {}", test.name, *toe));
     }
-    return warnings;
+    for (const auto& problem : examined.problems)
+      if (problem.initial.status.kind() == Status::Kind::failed)
+        say_wrapped_warning(fmt::format("{}: the initial point cannot be evaluated: {}", problem.title,
+                                        problem.initial.status.reason()));
+    return examined.good();
   } catch (const InputError&) {
     std::filesystem::remove(file);
     throw;
   }
+}
+
+/// A file that is removed unless it is kept.
+struct TakenBack {
+  std::filesystem::path file;
+  mutable bool keep = false;
+  ~TakenBack() {
+    std::error_code ignored;
+    if (!keep && !file.empty()) std::filesystem::remove(file, ignored);
+  }
+};
+
+/// The two files of a sheet become one beside the experiment; its path, or nothing.
+std::filesystem::path join_files(ImportOptions& options, const std::filesystem::path& experiment) {
+  if (!options.join) return {};
+  std::filesystem::path joined = experiment;
+  joined.replace_extension(".csv");
+  if (std::filesystem::exists(joined))
+    throw InputError(
+        fmt::format("--join: there is a file {} already. Name another experiment with -o FILE", joined.string()));
+  execution::write_atomically(joined, importing::joined_table(options.answers));
+  options.answers.files = {joined};
+  options.answers.delimiter = options.answers.decimal = options.answers.skip_lines = "";
+  if (options.answers.test.empty()) options.answers.test = "biaxial";
+  return joined;
 }
 
 int import(const GlobalOptions& global, ImportOptions options) {
@@ -152,11 +210,20 @@ int import(const GlobalOptions& global, ImportOptions options) {
   check_length(answers.gauge_length, "--gauge-length");
   if (answers.gauge_length == "preload" && (answers.preload.empty() || answers.preload == "none"))
     throw InputError("--gauge-length preload: at which load? Add --preload, for example --preload 0.1N");
+  check_length(answers.diameter, "--diameter");
+  check_area(answers.area);
+  const bool sides = !answers.width.empty() || (!answers.area.empty() && !answers.diameter.empty());
+  if ((!answers.area.empty() || !answers.diameter.empty()) && sides)
+    throw InputError("--width, --area and --diameter each give the section. Leave out all but one");
+  sort_out(options.directions, "--direction", {"circumferential", "axial"}, answers.direction, answers.directions);
+  sort_out(options.compressions, "--compression", {"positive", "negative"}, answers.compression, answers.compressions);
   answers.options = pairs(options.options, "--set");
   answers.columns = pairs(options.columns, "--column");
   answers.units = pairs(options.units, "--unit");
   answers.where = pairs(options.where, "--where");
   const std::filesystem::path file = output_of(options);
+  const std::filesystem::path joined = join_files(options, file);
+  const TakenBack table_of_both{joined};
   std::vector<Question> unanswered;
   const bool terminal = isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
   const importing::Ask ask = [&](const Question& question) {
@@ -168,10 +235,12 @@ int import(const GlobalOptions& global, ImportOptions options) {
   const auto proposal = importing::propose(answers, folder, session.catalogue(), ask);
   if (!unanswered.empty()) refuse_unanswered(unanswered);
   execution::write_atomically(file, proposal.experiment.dump(2) + '\n');
-  for (const std::string& warning : warnings_about(file, session)) say_wrapped_warning(warning);
+  const bool in_order = checked(file, session);
+  table_of_both.keep = true;
   for (const std::string& note : proposal.notes) answer("{}\n", text::hanging("", note));
   const auto& first = proposal.experiment["tests"].front();
-  answer("\n\"data\": {}\n\n{}\nNext: tunica check {}\n", first["data"].dump(2), file.string(), file.string());
+  answer("\n\"data\": {}\n\n{}: {}\nNext: tunica check {}\n", first["data"].dump(2), file.string(),
+         in_order ? "checked, in order" : "checked, not in order: see above", file.string());
   return done;
 }
 
@@ -196,20 +265,37 @@ void add_import(CLI::App& app, GlobalOptions& global, Action& action) {
   text("--gauge-length", answers.gauge_length, "Length at stretch 1; \"preload\": the length there", "LENGTH");
   text("--specimens", options->table, "Table of sizes: a row that has the name of the file, columns width, thickness",
        "FILE");
-  text("--direction", answers.direction, "Direction of a strip", "circumferential|axial");
+  text("--area", answers.area, "Area of the section, in place of width and thickness", "AREA");
+  text("--diameter", answers.diameter, "Diameter of a cylinder, in place of width and thickness", "LENGTH");
+  text("--strain-measure", answers.strain_measure, "Definition of strains in the file", "engineering|true|green");
   text("--stress-measure", answers.stress_measure, "Measure of stresses in the file",
        "cauchy|first_piola_kirchhoff|second_piola_kirchhoff");
   text("--cycle", answers.cycle, "last, all, none, or a number", "CYCLE");
   text("--branch", answers.branch, "Branch of the cycles", "loading|unloading|none");
   text("--preload", answers.preload, "Load at which the test begins", "LOAD");
   text("--each", answers.each, "A test for each value of this column", "COLUMN");
+  text("--delimiter", answers.delimiter, "What stands between cells (default: found)", ",|;|tab|space");
+  text("--decimal", answers.decimal, "Decimal mark (default: found)", ".|,");
+  text("--skip-lines", answers.skip_lines, "Lines above the header (default: found)", "N");
+  text("--rows", answers.rows, "Rows to use, from 0, the last exclusive", "FIRST:LAST:STEP");
+  for (const auto& [name, words] : std::initializer_list<std::pair<const char*, std::vector<std::string>>>{
+           {"--strain-measure", {"engineering", "true", "green"}},
+           {"--delimiter", {",", ";", "tab", "space"}},
+           {"--decimal", {".", ","}}})
+    verb->get_option(name)->check(CLI::IsMember(words));
+  verb->get_option("--skip-lines")->check(CLI::Range(0, 1000000));
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* doc, const char* type) {
     verb->add_option(name, values, doc)->type_name(type)->allow_extra_args(false);
   };
   list("--column", options->columns, "Column of a quantity; may be repeated", "QUANTITY=COLUMN");
   list("--unit", options->units, "Unit of a column; may be repeated", "COLUMN=UNIT");
   list("--where", options->where, "Use only rows that match; may be repeated", "COLUMN=VALUE");
+  list("--direction", options->directions, "Direction of every strip, or of one test; may be repeated",
+       "[TEST=]circumferential|axial");
+  list("--compression", options->compressions,
+       "Sign that compression has in the file, or in one column; may be repeated", "[COLUMN=]positive|negative");
   list("--set", options->options, "Option of the test; may be repeated", "KEY=VALUE");
+  verb->add_flag("--join", options->join, "The two files are the two directions of one sheet, row by row");
   verb->footer(
       "Examples:\n"
       "  tunica import strip.csv --width 5mm --thickness 1.2mm --gauge-length 20mm\n"

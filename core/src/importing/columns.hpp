@@ -13,11 +13,21 @@ namespace tunica::importing {
 
 struct ColumnGuess {
   std::string name;                 ///< as "columns" takes it: the name, or "#3"
+  std::string title;                ///< as the file has it, in UTF-8
   std::string quantity;             ///< "force", "displacement", "pressure", …; empty = nothing that is known
+  std::string kind;                 ///< in words, also of what no test takes: "change of diameter"; empty = not known
   std::string direction;            ///< "circumferential", "axial" or empty
+  std::string measure;              ///< of a strain or a stress, where the name says it: "true", "green", "cauchy", …
   std::string unit;                 ///< as the file has it; empty = none
   bool unit_from_name = false;      ///< "Force_N": the file does not say it in a way that the data block reads
+  bool indexed = false;             ///< "E11", "exx": a component of a tensor, and no word says of which
+  bool compression = false;         ///< the name speaks of compression
+  bool set_point = false;           ///< what the machine was told, not what it measured
   bool numeric = false;             ///< nearly every cell is a number
+  int rank = 0;                     ///< among columns of one quantity the least is taken
+  double largest = 0;               ///< of the numbers, without sign
+  std::size_t filled = 0;           ///< cells that are not empty
+  std::size_t different = 0;        ///< values, counted to 50
   std::vector<std::string> values;  ///< of a column that is not numeric: the different ones, at most 50
 };
 
@@ -26,6 +36,9 @@ std::vector<ColumnGuess> guess_columns(const data::Csv& csv);
 
 /// A column whose name says cycle, and whose cells hold numbers: "2", or "2-Stretch".
 bool counts_cycles(const ColumnGuess& column);
+
+/// Whether a column of text parts the rows: each of its values stands in three rows or more.
+bool parts_rows(const ColumnGuess& column, std::size_t rows);
 
 /// The type of test whose quantities these are: a tube, a sheet, else a strip.
 std::string likely_test(const std::vector<ColumnGuess>& columns);

@@ -2,6 +2,7 @@
 #include "importing/proposal.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,7 +13,10 @@
 #include "data/quantities.hpp"
 #include "data/row_choice.hpp"
 #include "importing/columns.hpp"
+#include "importing/mapping.hpp"
+#include "importing/options.hpp"
 #include "importing/sizes.hpp"
+#include "importing/words.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::importing {
@@ -50,7 +54,7 @@ class File {
         answers_(answers),
         ask_(ask),
         notes_(notes),
-        csv_(data::parse_csv(file, data::read_bytes(file), layout(answers))),
+        csv_(data::parse_csv(file, data::read_bytes(file), layout_of(answers))),
         columns_(guess_columns(csv_)),
         type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
     factory_ = &registered(catalogue.tests(), "test", type_).factory;
@@ -67,35 +71,43 @@ class File {
   std::vector<std::pair<std::string, Json>> tests(const std::filesystem::path& folder) {
     std::error_code error;
     const auto relative = std::filesystem::relative(file_, folder, error);
-    Json data = Json::object();
-    data["file"] = error || relative.empty() ? std::filesystem::absolute(file_).string() : relative.generic_string();
-    data["columns"] = map_columns();
-    if (!units_.empty()) data["units"] = units_;
+    Json common = Json::object();
+    common["file"] = error || relative.empty() ? std::filesystem::absolute(file_).string() : relative.generic_string();
+    common["columns"] = map_columns();
+    if (!units_.empty()) common["units"] = units_;
+    add_layout(common, answers_);
+    add_compression(common);
     const Json where = conditions();
     std::vector<std::pair<std::string, Json>> found;
     for (const std::string& value : values_of_each()) {
-      Json own = where;
+      Json own = where, data = common;
       if (!answers_.each.empty()) own[answers_.each] = value;
       if (!own.empty()) data["where"] = own;
       add_sizes(data, own);
       add_cycles(data, own);
       add_measure(data);
       Json entry = {{"type", type_}};
-      add_options(entry);
+      const std::string name = as_name(answers_.each.empty() ? file_.stem().string() : value);
+      add_options(entry, name);
       entry["data"] = data;
-      found.emplace_back(answers_.each.empty() ? as_name(file_.stem().string()) : as_name(value), std::move(entry));
+      found.emplace_back(name, std::move(entry));
     }
     return found;
   }
 
  private:
-  static data::TableLayout layout(const Answers& answers) {
-    data::TableLayout layout;
-    layout.units = answers.units;
-    layout.by_position = !answers.columns.empty() &&
-                         std::all_of(answers.columns.begin(), answers.columns.end(),
-                                     [](const auto& one) { return data::column_position(one.second).has_value(); });
-    return layout;
+  /// No file of forces and ways tells a pull from a press whose values are positive.
+  void add_compression(Json& data) {
+    for (const auto& [column, sign] : answers_.compressions) data["compression"][column] = sign;
+    if (!answers_.compressions.empty()) return;
+    std::string sign = answers_.compression;
+    if (sign.empty() && compression_)
+      sign = ask_({"Sign of the values in compression: positive or negative", "--compression SIGN", "positive"});
+    if (sign == "positive") data["compression"] = sign;
+    if (sign.empty() && type_ == "uniaxial")
+      note(
+          "tension counts as positive; of a specimen that is pressed, with positive values, say --compression "
+          "positive");
   }
 
   template <class... Arguments>
@@ -104,89 +116,20 @@ class File {
         fmt::format("{}: {}", file_.filename().string(), fmt::format(text, std::forward<Arguments>(arguments)...)));
   }
 
-  /// The observable, or what it follows from, that a guessed column gives to this test.
-  std::string name_for(const ColumnGuess& column) const {
-    const auto knows = [&](const std::string& name) {
-      return data::quantity_named(name, factory_->observables).has_value();
-    };
-    for (const std::string& name :
-         {column.direction.empty() ? column.quantity : column.quantity + "_" + column.direction, column.quantity,
-          "axial_" + column.quantity})
-      if (!column.quantity.empty() && knows(name)) return name;
-    return {};
-  }
-
-  void take_unit(const ColumnGuess& column, const std::string& name) {
-    const auto quantity = data::quantity_named(name, factory_->observables);
-    if (column.unit_from_name)
-      units_[column.name] = column.unit;
-    else if (column.unit.empty() && quantity->unit != "1")
-      units_[column.name] = ask_({fmt::format("Unit of the column '{}' ({})", column.name, name),
-                                  fmt::format("--unit '{}=UNIT'", column.name), quantity->unit});
-  }
-
   Json map_columns() {
-    Json mapped = Json::object();
-    std::set<std::string> given;
-    const auto map = [&](const std::string& name, const std::string& column) {
-      const auto quantity = data::quantity_named(name, factory_->observables);
-      if (!quantity || !given.insert(quantity->observable->name).second) return false;
-      mapped_.emplace_back(name, column);
+    Mapping mapping = importing::map_columns(csv_, columns_, type_, *factory_, answers_, ask_);
+    for (const std::string& one : mapping.notes) note("{}", one);
+    mapped_ = std::move(mapping.columns);
+    units_ = std::move(mapping.units);
+    measure_ = std::move(mapping.stress_measure);
+    compression_ = mapping.compression || has_any(words_of(file_.stem().string()), {"compres", "stauch"});
+    Json columns = Json::object();
+    for (const auto& [name, column] : mapped_)
       if (const auto position = data::column_position(column))
-        mapped[name] = *position;
+        columns[name] = *position;
       else
-        mapped[name] = column;
-      return true;
-    };
-    for (const auto& [name, column] : answers_.columns) {
-      if (!data::quantity_named(name, factory_->observables)) refuse_name(name);
-      const ColumnGuess& guess = columns_[csv_.column(column)];
-      if (map(name, column)) take_unit(guess, name);
-    }
-    for (const auto& [column, unit] : answers_.units) units_[column] = unit;
-    // A displacement has its zero at rest, so it goes before a length.
-    for (const bool lengths : {false, true})
-      for (const ColumnGuess& column : columns_) {
-        if ((column.quantity == "length") != lengths) continue;
-        const std::string name = name_for(column);
-        if (name.empty() || !map(name, column.name)) continue;
-        if (!std::any_of(answers_.units.begin(), answers_.units.end(),
-                         [&](const auto& one) { return one.first == column.name; }))
-          take_unit(column, name);
-      }
-    refuse_gaps(given);
-    std::vector<std::string> given_by;
-    for (const auto& [name, column] : mapped_) given_by.push_back(fmt::format("{} = '{}'", name, column));
-    note("{}", fmt::join(given_by, ", "));
-    return mapped;
-  }
-
-  [[noreturn]] void refuse_name(const std::string& name) const {
-    std::vector<std::string> known;
-    for (const Observable& observable : factory_->observables) known.push_back(observable.name);
-    for (const data::RawName& raw : data::raw_names(factory_->observables)) known.push_back(raw.name);
-    throw InputError(fmt::format("--column {}: a test of type '{}' has no such quantity. {}", name, type_,
-                                 data::suggestion(name, known)));
-  }
-
-  void refuse_gaps(const std::set<std::string>& given) const {
-    std::vector<std::string> names;
-    for (const ColumnGuess& column : columns_) names.push_back("'" + column.name + "'");
-    bool channel = false;
-    for (const Observable& observable : factory_->observables) {
-      channel = channel || (observable.role == Observable::Role::channel && given.contains(observable.name));
-      if (observable.required && !given.contains(observable.name))
-        throw InputError(
-            fmt::format("{}, line {}: no column is known to give '{}' of a test of type '{}'. Columns: {}. "
-                        "Name one with --column, for example --column '{}=COLUMN', or another --test.",
-                        file_.string(), csv_.header_line, observable.name, type_, fmt::join(names, ", "),
-                        observable.kind == Observable::Kind::stretch ? "displacement" : observable.name));
-    }
-    if (!channel)
-      throw InputError(
-          fmt::format("{}, line {}: no column is known to be measured in a test of type '{}'. Columns: {}. Name "
-                      "one with --column, for example --column 'force=COLUMN'.",
-                      file_.string(), csv_.header_line, type_, fmt::join(names, ", ")));
+        columns[name] = column;
+    return columns;
   }
 
   Json conditions() {
@@ -194,20 +137,29 @@ class File {
     for (const auto& [column, value] : answers_.where) where[column] = value;
     for (const ColumnGuess& column : columns_) {
       if (where.contains(column.name) || column.name == answers_.each) continue;
-      if (cycle_column_.empty() && counts_cycles(column)) {
-        cycle_column_ = column.name;
+      if (counts_cycles(column)) {
+        if (cycle_column_.empty() && column.different > 1) cycle_column_ = column.name;
         continue;
       }
-      if (column.numeric) continue;
-      if (column.values.size() < 2 || column.values.size() >= 50) continue;
-      where[column.name] = column.values.front();
+      if (column.numeric || column.different < 2) continue;
+      if (!parts_rows(column, csv_.rows.size())) {
+        note("'{}' has {} texts in {} of {} rows and is taken for remarks: all rows are used", column.title,
+             column.different < 50 ? std::to_string(column.different) : "50 or more", column.filled, csv_.rows.size());
+        continue;
+      }
+      const auto first = std::find_if_not(column.values.begin(), column.values.end(), preconditions);
+      where[column.name] = first == column.values.end() ? column.values.front() : *first;
       note(
-          "'{}' has several values ({}); the first is taken. Choose with --where '{}=VALUE', or make a test of each "
+          "'{}' has several values ({}); '{}' is taken. Choose with --where '{}=VALUE', or make a test of each "
           "with "
           "--each '{}'",
-          column.name, listed(column.values), column.name, column.name);
+          column.name, listed(column.values), where[column.name].get<std::string>(), column.name, column.name);
     }
     return where;
+  }
+
+  static bool preconditions(const std::string& value) {
+    return has_any(words_of(value), {"precon", "precyc", "vorkond"});
   }
 
   std::vector<const data::Csv::Row*> rows(const Json& where) const {
@@ -216,7 +168,7 @@ class File {
     return data::rows_where(csv_, request);
   }
 
-  std::vector<std::string> values_of_each() const {
+  std::vector<std::string> values_of_each() {
     if (answers_.each.empty()) return {""};
     const std::size_t index = csv_.column(answers_.each);
     Json where = Json::object();
@@ -225,7 +177,12 @@ class File {
     for (const data::Csv::Row* row : rows(where))
       if (std::find(values.begin(), values.end(), row->cells[index]) == values.end())
         values.push_back(row->cells[index]);
-    return values;
+    std::vector<std::string> measured, before;
+    for (const std::string& value : values) (preconditions(value) ? before : measured).push_back(value);
+    if (measured.empty() || before.empty()) return values;
+    note("{} = {} is left out as preconditioning; to fit it too, import it with --where '{}={}'", answers_.each,
+         listed(before), answers_.each, before.front());
+    return measured;
   }
 
   bool needs(std::initializer_list<From> kinds) const {
@@ -244,41 +201,60 @@ class File {
                           const Question& question) {
       specimen[key] = !given.empty() ? given : !found.empty() ? found : ask_(question);
     };
-    if (needs({From::force})) {
+    direction_ = table.direction;
+    if (needs({From::force}) && !answers_.area.empty()) {
+      specimen["area"] = answers_.area;
+    } else if (needs({From::force}) && !answers_.diameter.empty()) {
+      specimen["area"] = circle(answers_.diameter);
+    } else if (needs({From::force})) {
       size("width", answers_.width, table.width,
-           {fmt::format("Width of the specimen of {} across the force, with its unit", file_.filename().string()),
+           {fmt::format(
+                "Width of the specimen of {} across the force, with its unit; of a cylinder --diameter, of another "
+                "section --area",
+                file_.filename().string()),
             "--width", "10 mm", true});
       size("thickness", answers_.thickness, table.thickness,
            {"Its thickness, with its unit", "--thickness", "1.5 mm", true});
     }
     if (needs({From::displacement, From::length})) {
-      const std::string at_rest =
-          answers_.gauge_length.empty() && table.gauge_length.empty() ? gauge_from_lengths(where) : "";
-      size("gauge_length", answers_.gauge_length, table.gauge_length.empty() ? at_rest : table.gauge_length,
-           {"Gauge length, that is the length at stretch 1, with its unit; or \"preload\"", "--gauge-length", "20 mm",
-            true});
+      const bool known = !answers_.gauge_length.empty() || !table.gauge_length.empty();
+      const auto at_rest = known ? Pairs() : gauges_from_lengths(where);
+      if (type_ == "biaxial" && !at_rest.empty() && !at_rest.front().first.empty())
+        for (const auto& [direction, gauge] : at_rest) specimen[direction]["gauge_length"] = gauge;
+      else
+        size("gauge_length", answers_.gauge_length,
+             !table.gauge_length.empty() ? table.gauge_length
+             : at_rest.empty()           ? ""
+                                         : at_rest.front().second,
+             {"Gauge length, that is the length at stretch 1, with its unit; or \"preload\"", "--gauge-length", "20 mm",
+              true});
     }
     if (!specimen.empty()) data["specimen"] = specimen;
   }
 
-  /// Of files that have a length beside the displacement.
-  std::string gauge_from_lengths(const Json& where) {
-    const auto length = std::find_if(columns_.begin(), columns_.end(),
-                                     [](const ColumnGuess& column) { return column.quantity == "length"; });
-    const auto way = std::find_if(mapped_.begin(), mapped_.end(), [&](const auto& one) {
-      return data::quantity_named(one.first, factory_->observables)->kind == From::displacement;
-    });
-    if (length == columns_.end() || way == mapped_.end()) return {};
-    const auto unit_of = [&](const std::string& name) {
-      if (units_.contains(name)) return units_[name].get<std::string>();
-      return columns_[csv_.column(name)].unit;
-    };
-    const std::string unit = length->unit;
-    if (unit.empty() || unit != unit_of(way->second)) return {};
-    const auto rest = length_at_rest(csv_, length->name, way->second, rows(where));
-    if (!rest) return {};
-    note("gauge length {} {}: '{}' less '{}' in most rows", *rest, unit, length->name, way->second);
-    return fmt::format("{} {}", *rest, unit);
+  /// Of files that have a length beside the displacement: direction, or nothing, and the gauge length; or none.
+  Pairs gauges_from_lengths(const Json& where) {
+    Pairs found;
+    for (const auto& [name, column] : mapped_) {
+      const auto quantity = data::quantity_named(name, factory_->observables);
+      if (quantity->kind != From::displacement) continue;
+      const std::string direction = name.ends_with("circumferential") ? "circumferential"
+                                    : name.ends_with("axial")         ? "axial"
+                                                                      : "";
+      const auto length = std::find_if(columns_.begin(), columns_.end(), [&](const ColumnGuess& one) {
+        return one.numeric && one.quantity == "length" && (direction.empty() || one.direction == direction);
+      });
+      if (length == columns_.end()) return {};
+      const std::string unit = length->unit;
+      const std::string of_way =
+          units_.contains(column) ? units_[column].get<std::string>() : columns_[csv_.column(column)].unit;
+      if (unit.empty() || unit != of_way) return {};
+      const auto rest = length_at_rest(csv_, length->name, column, rows(where));
+      if (!rest) return {};
+      note("gauge length {} {}: '{}' less '{}' in most rows", *rest, unit, length->title, column);
+      found.emplace_back(direction, fmt::format("{} {}", *rest, unit));
+    }
+    return found;
   }
 
   void add_cycles(Json& data, const Json& where) {
@@ -289,13 +265,27 @@ class File {
       const Json number = Json::parse(cycle, nullptr, false);
       data["cycle"] = number.is_discarded() ? Json(cycle) : number;
       if (answers_.branch.empty() && cycle != "all") data["branch"] = "loading";
-      if (answers_.cycle.empty() && answers_.branch.empty())
+      if (answers_.cycle.empty() && answers_.branch.empty() && cycle_column_.empty() && loads_once(where))
+        note("the loading is taken, and the unloading left out: --branch unloading takes that, --cycle all both");
+      else if (answers_.cycle.empty() && answers_.branch.empty())
         note(
             "several cycles: the last loading is taken. Choose with --cycle and --branch, or take all as history with "
             "--cycle all");
     }
     if (!answers_.branch.empty() && answers_.branch != "none") data["branch"] = answers_.branch;
     if (!answers_.preload.empty() && answers_.preload != "none") data["preload"] = answers_.preload;
+  }
+
+  /// One cycle, by the turning points of what is prescribed.
+  bool loads_once(const Json& where) const {
+    std::size_t most = 0;
+    for (const auto& [name, column] : mapped_) {
+      const auto quantity = data::quantity_named(name, factory_->observables);
+      if (quantity->observable->role != Observable::Role::abscissa) continue;
+      const bool stretch = quantity->kind == From::own && quantity->observable->kind == Observable::Kind::stretch;
+      most = std::max(most, importing::cycles(csv_, column, rows(where), stretch ? 1 : 0));
+    }
+    return most < 2;
   }
 
   /// Whether every prescribed quantity that changes comes back.
@@ -317,7 +307,9 @@ class File {
       return data::quantity_named(one.first, factory_->observables)->observable->kind == Observable::Kind::stress;
     });
     if (!stress) return;
-    if (!answers_.stress_measure.empty())
+    if (!measure_.empty())
+      data["stress_measure"] = measure_;
+    else if (!answers_.stress_measure.empty())
       data["stress_measure"] = answers_.stress_measure;
     else if (needs({From::force}))
       data["stress_measure"] = "first_piola_kirchhoff";
@@ -327,29 +319,35 @@ class File {
                 "--stress-measure", "first_piola_kirchhoff"});
   }
 
-  void add_options(Json& entry) {
-    for (const auto& [key, value] : answers_.options) entry[key] = value;
+  std::string direction_of(const std::string& test) const {
+    for (const auto& [name, direction] : answers_.directions)
+      if (name == test) return direction;
+    return !answers_.direction.empty() ? answers_.direction : direction_;
+  }
+
+  void add_options(Json& entry, const std::string& test) {
+    for (const auto& [key, value] : answers_.options) entry[key] = option_value(*factory_, type_, key, value);
+    const std::string direction = direction_of(test);
     for (const Option& option : factory_->options) {
-      if (option.name == "direction" && !answers_.direction.empty()) entry["direction"] = answers_.direction;
+      if (option.name == "direction" && !direction.empty()) entry["direction"] = direction;
       if (option.fallback || entry.contains(option.name)) continue;
       if (option.name == "direction") {
-        entry["direction"] = "circumferential";
-        note(
-            "the strip is taken as cut along the circumferential direction; an isotropic model does not ask. Say "
-            "--direction axial where it matters");
+        const std::string named = direction_named(test);
+        entry["direction"] = named.empty() ? "circumferential" : named;
+        if (!named.empty())
+          note("'{}' is taken as cut along the {} direction, by its name", test, named);
+        else
+          note(
+              "'{}' is taken as cut along the circumferential direction; a model without fibres does not ask. Say "
+              "--direction axial, or --direction '{}=axial', where it matters",
+              test, test);
       }
     }
-    if (type_ != "thick_wall_pressurisation" && type_ != "fe_pressurisation") return;
-    if (!answers_.thickness.empty() && !entry.contains("thickness")) entry["thickness"] = answers_.thickness;
-    const char* const sizes[] = {"outer_radius", "inner_radius", "thickness"};
-    const auto given =
-        std::count_if(std::begin(sizes), std::end(sizes), [&](const char* key) { return entry.contains(key); });
-    if (given >= 2) return;
-    if (!entry.contains("thickness"))
-      entry["thickness"] = ask_({"Thickness of the unloaded wall, with its unit", "--thickness", "0.8 mm", true});
-    if (!entry.contains("outer_radius"))
-      entry["outer_radius"] =
-          ask_({"Outer radius of the unloaded tube, with its unit", "--set outer_radius=LENGTH", "2.3 mm", true});
+    const bool stretched = std::any_of(mapped_.begin(), mapped_.end(), [&](const auto& one) {
+      return data::quantity_named(one.first, factory_->observables)->observable->name == "axial_stretch";
+    });
+    if (type_ == "thick_wall_pressurisation" || type_ == "fe_pressurisation")
+      add_tube_options(entry, *factory_, answers_, stretched, ask_);
   }
 
   std::filesystem::path file_;
@@ -362,7 +360,9 @@ class File {
   const TestFactory* factory_ = nullptr;
   Pairs mapped_;
   Json units_ = Json::object();
-  std::string cycle_column_;
+  std::string cycle_column_, measure_;
+  std::string direction_;     ///< from the table of specimens
+  bool compression_ = false;  ///< names speak of it
 };
 
 }  // namespace

@@ -22,12 +22,18 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 struct Answers {
   std::vector<std::filesystem::path> files;
   std::filesystem::path table;         ///< of specimens
-  std::string test, direction, model;  ///< types
+  std::string test, model;             ///< types
+  std::string direction;               ///< of every strip
+  Pairs directions;                    ///< test → direction
   Pairs options;                       ///< of the test, "outer_radius" → "2.3 mm"
   Pairs columns, units, where;         ///< as in "data"
   std::string each;                    ///< a column: one test for each of its values
   std::string cycle, branch, preload;  ///< as in "data"; "none" = leave out
-  std::string width, thickness, gauge_length, stress_measure;
+  std::string width, thickness, gauge_length, area, diameter, stress_measure;
+  std::string strain_measure;                        ///< "engineering", "true" or "green"
+  std::string compression;                           ///< "positive" or "negative", of all columns
+  Pairs compressions;                                ///< column → "positive" or "negative"
+  std::string delimiter, decimal, skip_lines, rows;  ///< as in "data"
 };
 
 /// Something that no file says. `option` is what gives it on the command line.
@@ -36,6 +42,7 @@ struct Question {
   std::string option;   ///< "--width"
   std::string example;  ///< "10 mm"
   bool length = false;  ///< the answer is a length
+  bool likely = false;  ///< the example is the likely answer, which no answer at all takes
 };
 
 /// Answers a question.

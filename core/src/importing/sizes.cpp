@@ -9,7 +9,9 @@
 #include "data/cycles.hpp"
 #include "data/nearest.hpp"
 #include "data/table_place.hpp"
+#include "data/units.hpp"
 #include "importing/columns.hpp"
+#include "importing/words.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::importing {
@@ -29,6 +31,13 @@ bool begins_like(std::string name, std::string_view word) {
 
 }  // namespace
 
+std::string direction_named(std::string_view name) {
+  const auto words = words_of(name);
+  if (has_any(words, {"axial", "longitudinal", "=long", "langs"})) return "axial";
+  if (has_any(words, {"circ", "transverse", "=trans", "hoop", "umfang", "=quer"})) return "circumferential";
+  return {};
+}
+
 KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string& specimen) {
   const data::Csv csv = data::parse_csv(table, data::read_bytes(table));
   const auto row = std::find_if(csv.rows.begin(), csv.rows.end(), [&](const data::Csv::Row& one) {
@@ -42,6 +51,14 @@ KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string&
   KnownSizes sizes;
   for (std::size_t k = 0; k < csv.columns.size(); ++k) {
     const data::Csv::Column& column = csv.columns[k];
+    if (begins_like(column.name, "direction") && !row->cells[k].empty()) {
+      sizes.direction = direction_named(row->cells[k]);
+      sizes.sources.push_back(
+          sizes.direction.empty()
+              ? fmt::format("the direction '{}' in {}, line {}, is neither axial nor circumferential, and is not used",
+                            data::excerpt(row->cells[k]), table.filename().string(), row->line)
+              : fmt::format("direction {} from {}, line {}", sizes.direction, table.filename().string(), row->line));
+    }
     std::string* const size = begins_like(column.name, "width")          ? &sizes.width
                               : begins_like(column.name, "thickness")    ? &sizes.thickness
                               : begins_like(column.name, "gauge length") ? &sizes.gauge_length
@@ -76,16 +93,37 @@ std::optional<double> length_at_rest(const data::Csv& csv, const std::string& le
   return rounded;
 }
 
-std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
-                                    const std::vector<const data::Csv::Row*>& rows, double rest) {
+namespace {
+
+std::vector<double> numbers_of(const data::Csv& csv, const std::string& column,
+                               const std::vector<const data::Csv::Row*>& rows) {
   const std::size_t index = csv.column(column);
   const char decimal = csv.decimal_mark({index});
   std::vector<double> path;
   for (const data::Csv::Row* row : rows)
     if (data::looks_like_number(row->cells[index], decimal == ',')) path.push_back(csv.number(*row, index, decimal));
+  return path;
+}
+
+}  // namespace
+
+std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
+                                    const std::vector<const data::Csv::Row*>& rows, double rest) {
+  const std::vector<double> path = numbers_of(csv, column, rows);
   if (path.empty() || *std::max_element(path.begin(), path.end()) == *std::min_element(path.begin(), path.end()))
     return std::nullopt;
   return data::returns_in(path, data::branches_of(path, rest)) > 0;
+}
+
+std::size_t cycles(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
+                   double rest) {
+  const std::vector<double> path = numbers_of(csv, column, rows);
+  return path.empty() ? 0 : data::cycles_in(data::branches_of(path, rest));
+}
+
+std::string circle(const std::string& diameter) {
+  const double length = data::parse_quantity(diameter, "mm");
+  return fmt::format("{:.6g} mm2", std::acos(-1.0) / 4 * length * length);
 }
 
 }  // namespace tunica::importing

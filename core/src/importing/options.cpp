@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "importing/options.hpp"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "data/nearest.hpp"
+#include "tunica/error.hpp"
+
+namespace tunica::importing {
+
+Json option_value(const TestFactory& factory, const std::string& type, const std::string& key,
+                  const std::string& text) {
+  using Kind = Option::Kind;
+  const auto option =
+      std::find_if(factory.options.begin(), factory.options.end(), [&](const Option& one) { return one.name == key; });
+  if (option == factory.options.end()) {
+    std::vector<std::string> names;
+    for (const Option& one : factory.options) names.push_back(one.name);
+    throw InputError(
+        fmt::format("--set {}: a test of type '{}' has no such option. {}", key, type, data::suggestion(key, names)));
+  }
+  if (option->kind == Kind::choice || option->kind == Kind::text) return text;
+  const auto value = Json::parse(text, nullptr, false);
+  if (option->kind == Kind::quantity) return value.is_number() ? value : Json(text);
+  const bool fits = option->kind == Kind::flag      ? value.is_boolean()
+                    : option->kind == Kind::integer ? value.is_number_integer()
+                    : option->kind == Kind::number  ? value.is_number()
+                                                    : !value.is_discarded();
+  if (!fits)
+    throw InputError(fmt::format("--set {}={}: expected {}. Correct it", key, data::excerpt(text),
+                                 option->kind == Kind::flag      ? "true or false"
+                                 : option->kind == Kind::integer ? "a whole number"
+                                 : option->kind == Kind::number  ? "a number"
+                                                                 : "JSON"));
+  return value;
+}
+
+data::TableLayout layout_of(const Answers& answers) {
+  static const std::map<std::string, char> marks = {{",", ','}, {";", ';'}, {"tab", '\t'}, {"space", ' '}};
+  data::TableLayout layout;
+  layout.units = answers.units;
+  layout.by_position = !answers.columns.empty() &&
+                       std::all_of(answers.columns.begin(), answers.columns.end(),
+                                   [](const auto& one) { return data::column_position(one.second).has_value(); });
+  if (const auto mark = marks.find(answers.delimiter); mark != marks.end()) layout.delimiter = mark->second;
+  if (!answers.decimal.empty()) layout.decimal = answers.decimal.front();
+  if (!answers.skip_lines.empty()) layout.skip_lines = std::stoul(answers.skip_lines);
+  return layout;
+}
+
+void add_layout(Json& data, const Answers& answers) {
+  if (!answers.delimiter.empty()) data["delimiter"] = answers.delimiter;
+  if (!answers.decimal.empty()) data["decimal"] = answers.decimal;
+  if (!answers.skip_lines.empty()) data["skip_lines"] = std::stoul(answers.skip_lines);
+  if (!answers.rows.empty()) data["rows"] = answers.rows;
+}
+
+void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,
+                      const Ask& ask) {
+  if (!answers.thickness.empty() && !entry.contains("thickness")) entry["thickness"] = answers.thickness;
+  if (!stretch_in_column && !entry.contains("axial_stretch"))
+    entry["axial_stretch"] =
+        option_value(factory, entry["type"], "axial_stretch",
+                     ask({"Axial stretch that is held; 1 = the unloaded length", "--set axial_stretch=NUMBER", "1.2"}));
+  const char* const sizes[] = {"outer_radius", "inner_radius", "thickness"};
+  const auto given =
+      std::count_if(std::begin(sizes), std::end(sizes), [&](const char* key) { return entry.contains(key); });
+  if (given >= 2) return;
+  if (!entry.contains("thickness"))
+    entry["thickness"] = ask({"Thickness of the unloaded wall, with its unit", "--thickness", "0.8 mm", true});
+  if (!entry.contains("outer_radius"))
+    entry["outer_radius"] =
+        ask({"Outer radius of the unloaded tube, with its unit", "--set outer_radius=LENGTH", "2.3 mm", true});
+}
+
+}  // namespace tunica::importing

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "data/rig_request.hpp"
+#include "importing/proposal.hpp"
+#include "tunica/test.hpp"
+
+namespace tunica::importing {
+
+/// The value of an option of a test as it stands in an experiment file: a number where the option is one. Throws
+/// InputError where the test has no such option, or the text is no such value.
+Json option_value(const TestFactory& factory, const std::string& type, const std::string& key, const std::string& text);
+
+/// How the table stands in its file, as far as the answers say it.
+data::TableLayout layout_of(const Answers& answers);
+void add_layout(Json& data, const Answers& answers);
+
+/// The sizes of a tube, and its axial stretch unless a column has that; what is missing is asked.
+void add_tube_options(Json& entry, const TestFactory& factory, const Answers& answers, bool stretch_in_column,
+                      const Ask& ask);
+
+}  // namespace tunica::importing
