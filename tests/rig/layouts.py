@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""layouts.py TUNICA SOURCES FOLDER: what `tunica import` makes of the layouts of testing machines, what it asks and what
+it refuses. Layouts are those of public readers and files (see docs/rig-layouts.md); the values are made up."""
+import json
+import pathlib
+import shutil
+import sys
+
+sys.dont_write_bytecode = True  # nothing is left beside the sources
+import rig
+
+program, sources, out = sys.argv[1:4]
+folder = rig.fresh_folder(out)
+layouts = pathlib.Path(sources) / "tests" / "rig" / "layouts"
+STRIP = ("--width", "5 mm", "--thickness", "1.5 mm")
+GAUGED = (*STRIP, "--gauge-length", "20 mm")
+FORCE = {"time", "displacement", "force"}
+
+# file, options, columns that are right, unit entries that are right (a part), words that must be said
+ACCEPTED = [
+    ("instron_bluehill.csv", GAUGED, {"time": "Time", "displacement": "Extension", "force": "Load"}, {}, "12 rows"),
+    ("instron_compression.csv", (*GAUGED, "--compression", "positive"),
+     {"time": "Time", "displacement": "Compressive extension", "force": "Compressive load"}, {}, ""),
+    ("mts_testsuite.csv", GAUGED, {"time": "Running Time", "displacement": "Axial Displacement", "force": "Axial Force"}, {},
+     "'Axial Displacement Command' (set point)"),
+    ("mts_german.dat", GAUGED, {"time": "Laufzeit", "force": "Ch 1 Kraft", "displacement": "Ch 1 Weg"}, {},
+     "'Ch 1 Kraft Sollwert' (set point)"),
+    ("mti.txt", GAUGED, {"time": "Time", "force": "Load", "displacement": "Disp"}, {}, "'Stress' (stress), 'Strain' (strain)"),
+    ("zwick_testxpert.csv", GAUGED, {"time": 1, "displacement": "Standardweg", "force": "Standardkraft"}, {}, "12 rows"),
+    ("zwick_utf16.txt", GAUGED, {"time": "Prüfzeit", "displacement": "Traversenweg", "force": "Standardkraft"}, {}, ""),
+    ("shimadzu_trapezium.csv", GAUGED, {"time": "Time", "force": "Force", "displacement": "Stroke"}, {}, "12 rows"),
+    ("electroforce_wintest.txt", GAUGED, {"time": "Elapsed Time", "displacement": "Disp", "force": "Load"}, {}, "'Points'"),
+    ("cellscale_univert.csv", STRIP, {"time": "Time_S", "displacement": "Displacement_mm", "force": "Force_N"},
+     {"Displacement_mm": "mm", "Force_N": "N", "Time_S": "s"}, "gauge length 20"),
+    ("cellscale_biotester.csv", ("--each", "SetName", "--thickness", "0.8 mm", "--width", "5 mm"),
+     {"time": "Time_S", "displacement_circumferential": "XDisplacement_um", "displacement_axial": "YDisplacement_um",
+      "force_circumferential": "XForce_mN", "force_axial": "YForce_mN"}, {}, "left out as preconditioning"),
+    ("vasotracker.csv", ("--thickness", "20um", "--set", "outer_radius=55um", "--set", "axial_stretch=1.2", "--unit",
+                         "Outer Diameter=um", "--unit", "Inner Diameter=um"),
+     {"time": "Time", "outer_diameter": "Outer Diameter", "inner_diameter": "Inner Diameter",
+      "pressure": "Avg Pressure"}, {}, "'Set Pressure' (set point)"),
+    ("admet.csv", GAUGED, {"displacement": "Position", "force": "Load"}, {}, "'Stress' (stress), 'Strain' (strain)"),
+    ("mecmesin.csv", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Load"}, {}, "'Peak Load' (force)"),
+    ("tinius_olsen.csv", GAUGED, {"time": "Time", "displacement": "Position", "force": "Force"}, {}, "'Extension' (strain)"),
+    ("labview.lvm", (*GAUGED, "--column", "time=X_Value", "--unit", "X_Value=s"),
+     {"time": "X_Value", "displacement": "Displacement", "force": "Force"}, {}, "12 rows"),
+    ("lloyd_nexygen.csv", GAUGED, {"time": "Time", "displacement": "Extension", "force": "Load"}, {}, "'Index'"),
+    ("testresources.csv", GAUGED, {"time": "Time", "displacement": "Position", "force": "Load"}, {}, "'Command' (set point)"),
+    ("hegewald.csv", GAUGED, {"time": "Zeit", "displacement": "Traversenweg", "force": "Kraft"}, {}, "'Dehnung' (strain)"),
+    ("vic_strain.csv", (*STRIP, "--column", "green_strain=eyy", "--unit", "eyy=1"),
+     {"time": "time", "green_strain": "eyy", "force": "Load"}, {}, "'exy' (shear strain)"),
+    ("aramis.csv", (), {"true_strain": "True strain", "stress": "True stress"}, {}, "is a cauchy stress"),
+    ("planar_pk2.csv", ("--strain-measure", "green", "--stress-measure", "second_piola_kirchhoff", "--unit", "E11=1", "--unit",
+                        "E22=1"),
+     {"green_strain_circumferential": "E11", "green_strain_axial": "E22", "stress_circumferential": "S11",
+      "stress_axial": "S22"}, {}, ""),
+    ("numbered_axes.csv", ("--thickness", "1 mm", "--width", "10 mm", "--gauge-length", "10 mm"),
+     {"force_circumferential": "Force 1", "force_axial": "Force 2", "displacement_circumferential": "Disp 1",
+      "displacement_axial": "Disp 2"}, {}, ""),
+    ("french.csv", GAUGED, {"time": "Temps", "displacement": "Déplacement", "force": "Force"}, {}, "'Consigne' (set point)"),
+    ("spanish.csv", ("--stress-measure", "first_piola_kirchhoff"), {"time": "Tiempo", "strain": "Deformación", "stress": "Esfuerzo"},
+     {}, ""),
+    ("ccfatigue.csv", GAUGED, {"force": "Machine_Load_kN", "displacement": "Machine_Displacement_mm"},
+     {"Machine_Load_kN": "kN"}, "'exx' (strain)"),
+    ("phalanx.txt", (*GAUGED, "--column", "displacement=Z/m", "--unit", "Z/m=m"),
+     {"time": "time/s", "displacement": "Z/m", "force": "force/N"}, {"force/N": "N", "time/s": "s"}, ""),
+    ("percent.csv", ("--stress-measure", "cauchy", "--unit", "Strain=%"), {"strain": "Strain", "stress": "Stress"},
+     {"Strain": "%"}, ""),
+]
+for name, options, columns, units, words in ACCEPTED:
+    shutil.copy(layouts / name, folder / name)
+    target = folder / (name + ".json")
+    printed, said = rig.tunica(program, "import", folder / name, *options, "-o", target)
+    said = " ".join((printed + said).split())
+    block = next(iter(json.loads(target.read_text())["tests"].values()))["data"]
+    assert block["columns"] == columns, f"{name}: {block['columns']}"
+    assert units.items() <= block.get("units", {}).items(), f"{name}: {block.get('units')}"
+    assert words in said, f"{name}: '{words}' is not said:\n{said}"
+    rig.tunica(program, "check", target)
+
+# file, options, what it asks or says in refusing
+REFUSED = [
+    ("instron_compression.csv", GAUGED, "--compression SIGN"),
+    ("living_systems.csv", ("--thickness", "30um", "--set", "outer_radius=80um", "--set", "axial_stretch=1"),
+     "Is 'Diameter' the outer_diameter or the inner_diameter"),
+    ("vasotracker.csv", ("--thickness", "20um", "--set", "outer_radius=55um"), "Axial stretch that is held"),
+    ("dmt_labchart.txt", (), "no column is known to give"),
+    ("aurora.txt", GAUGED, "no column is known to give 'stretch'"),
+    ("vic_strain.csv", STRIP, "Column along the force: 'exx' or 'eyy'"),
+    ("aramis.csv", ("--stress-measure", "first_piola_kirchhoff"), "the column 'True stress' says cauchy"),
+    ("aramis.csv", ("--strain-measure", "engineering"), "the column 'True strain' says true"),
+    ("planar_pk2.csv", (), "--strain-measure"),
+    ("percent.csv", ("--stress-measure", "cauchy"), "1 or %"),
+    ("stretch_squared.csv", (), "'Stretch squared' (squared stretch)"),
+    ("total_force.csv", ("--thickness", "80um", "--set", "outer_radius=350um", "--set", "axial_stretch=1", "--column",
+                         "axial_force=Total axial force", "--set", "axial_strech=1"), "no such option"),
+    ("diameter_change.csv", ("--test", "thick_wall_pressurisation", "--thickness", "80um", "--set", "outer_radius=350um",
+                             "--set", "axial_stretch=1"), "'Diameter change' (change of diameter)"),
+    ("phalanx.txt", GAUGED, "no column is known to give 'stretch'"),
+    ("sheet.xlsx", (), "a workbook"),
+]
+for name, options, words in REFUSED:
+    shutil.copy(layouts / name, folder / name)
+    target = folder / "refused.json"
+    printed, said = rig.tunica(program, "import", folder / name, *options, "-o", target, code=2)
+    said = " ".join(said.split())
+    assert words in said and not target.exists(), f"{name}: '{words}' is not said:\n{said}"
+
+# A total force is said to be none of the test's; the pressures and diameters make the test.
+shutil.copy(layouts / "total_force.csv", folder)
+printed, _ = rig.tunica(program, "import", folder / "total_force.csv", "--thickness", "80um", "--set", "outer_radius=350um",
+                        "--set", "axial_stretch=1", "-o", folder / "total.json")
+assert "the test takes the reduced one" in " ".join(printed.split()), printed
+
+# True strain and Cauchy stress of made-up rows come to the stretch and the stress that they were made of.
+printed, _ = rig.tunica(program, "check", folder / "aramis.csv.json")
+largest = float(" ".join(printed.split()).split("over stretch 1 … ")[1].split()[0].rstrip(","))
+assert abs(largest - (1 + 2.75 / 20)) < 1e-3, printed
+# The direction of a strip: from the table of specimens, from the name of a file, from an option for one test.
+for stem in ("a", "Longitudinal_2", "c"):
+    shutil.copy(layouts / "admet.csv", folder / f"{stem}.csv")
+(folder / "specimens.csv").write_text("specimen,width,thickness,gauge length,direction\na,5,1.5,20,axial\n"
+                                      "Longitudinal_2,5,1.5,20,\nc,5,1.5,20,oblique\n")
+printed, _ = rig.tunica(program, "import", *(folder / f"{stem}.csv" for stem in ("a", "Longitudinal_2", "c")),
+                        "--specimens", folder / "specimens.csv", "--direction", "c=axial", "-o", folder / "directions.json")
+assert "'oblique'" in printed and "and is not used" in " ".join(printed.split()), printed
+tests = json.loads((folder / "directions.json").read_text())["tests"]
+assert all(test["direction"] == "axial" for test in tests.values()), tests
+
+# A sheet in two files; rows that do not go together are refused, and no table is left.
+for axis, scale in (("axial", 1.0), ("circ", 0.8)):
+    (folder / f"sheet_{axis}.csv").write_text("Time (s),Force (N),Displacement (mm)\n" + "".join(
+        f"{k},{scale * 0.1 * k * k:.3f},{0.1 * k:.1f}\n" for k in range(10)))
+both = (folder / "sheet_circ.csv", folder / "sheet_axial.csv", "--join", "--thickness", "1 mm", "--width", "10 mm",
+        "--gauge-length", "10 mm", "-o", folder / "joined.json")
+rig.tunica(program, "import", *both)
+test = json.loads((folder / "joined.json").read_text())["tests"]["joined"]
+assert test["type"] == "biaxial" and test["data"]["columns"] == {
+    "time": "Time", "force_circumferential": "Force circumferential", "displacement_circumferential":
+    "Displacement circumferential", "force_axial": "Force axial", "displacement_axial": "Displacement axial"}, test
+for made in ("joined.json", "joined.csv"):
+    (folder / made).unlink()
+(folder / "sheet_axial.csv").write_text("Time (s),Force (N),Displacement (mm)\n" + "".join(
+    f"{k + 0.5},{0.1 * k * k:.3f},{0.1 * k:.1f}\n" for k in range(10)))
+_, said = rig.tunica(program, "import", *both, code=2)
+assert "Bring both to the same times" in " ".join(said.split()) and not (folder / "joined.csv").exists(), said
+print(f"{len(ACCEPTED)} layouts are read, {len(REFUSED)} cases are asked about or refused")
