@@ -67,12 +67,12 @@ TEST_F(Layered, EveryTestSeesItsModelsInItsOrder) {
 TEST_F(Layered, AFailureNamesTheLayerAndItsModel) {
   bench.run.tests = {"stack"};
   const double nothing = std::nan("");
-  const Assembly stacked = bench.assemble();  // v.p, v.q, v.r, m.a, m.b, m.c
+  const Assembly stacked = bench.assemble();  // m.a, m.b, m.c, v.p, v.q, v.r
   std::vector<double> values(stacked.layout().prediction_count);
   const auto room = stacked.evaluator().make_workspace();
-  const Status of_m = stacked.evaluator().predict(std::vector<double>{1, 1, 1, nothing, 1, 1}, values, {}, *room);
+  const Status of_m = stacked.evaluator().predict(std::vector<double>{nothing, 1, 1, 1, 1, 1}, values, {}, *room);
   EXPECT_THAT(of_m.reason(), HasSubstr("(layer 2, model 'm')"));
-  const Status of_v = stacked.evaluator().predict(std::vector<double>{1, nothing, 1, 1, 1, 1}, values, {}, *room);
+  const Status of_v = stacked.evaluator().predict(std::vector<double>{1, 1, 1, 1, nothing, 1}, values, {}, *room);
   EXPECT_THAT(of_v.reason(), HasSubstr("(layer 1, model 'v')"));
 }
 

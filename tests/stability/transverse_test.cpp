@@ -91,6 +91,16 @@ TEST(TransverseStability, IsJudgedUnderCompressionTooWhereThatWasMeasured) {
   EXPECT_FALSE(rubber.first_unstable_pressed);
 }
 
+// Ψ = 1 by symmetry, whatever the parameters: these soften so far that W has no minimum at λ2 = λ3.
+TEST(TransverseStability, OfAnIsotropicMaterialNeedsNoMinimumOfTheEnergy) {
+  const auto yeoh = testing::model("yeoh");
+  const std::vector<double> p{106, -4.65, 0.0332}, stretch{2, 5, 9, 18};
+  std::vector<double> slope(4, 1), slope_dp(12, 1);
+  ASSERT_TRUE(FreePath(*yeoh, 0, stretch).slopes(p, slope, slope_dp).ok());
+  for (const double value : slope) EXPECT_EQ(value, 0);
+  for (const double value : slope_dp) EXPECT_EQ(value, 0);
+}
+
 TEST(TransverseStability, IsNoVerdictWhereNothingIsAskedOrTheResponseEnds) {
   const auto gent = testing::model("gent");
   const std::vector<double> p{10, 3};  // I1 < 6: a strip ends at stretch 2.3
