@@ -94,8 +94,8 @@ void sort_out(const std::vector<std::string>& texts, std::string_view option, co
     const std::size_t at = text.rfind('=');
     const std::string value = at == std::string::npos ? text : text.substr(at + 1);
     if (std::find(words.begin(), words.end(), value) == words.end())
-      throw InputError(
-          fmt::format("{} {}: expected {}, or NAME=VALUE with one of them", option, text, fmt::join(words, " or ")));
+      throw InputError(fmt::format("{} {}: expected {}. Write one of these words, or NAME=VALUE with one", option, text,
+                                   fmt::join(words, " or ")));
     if (at == std::string::npos)
       all = value;
     else
