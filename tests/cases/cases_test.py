@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small public cases. Each folder has the data, an experiment and a line on the source; the right values are known from
+numpy, scipy or a publication, as the tests say."""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = ""
+CASES = pathlib.Path(__file__).parent
+
+
+class Cases(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def case(self, name):
+        shutil.copytree(CASES / name, self.folder, dirs_exist_ok=True)
+
+    def tunica(self, *arguments):
+        """The exit code and all that was printed, without line breaks."""
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              check=False, timeout=240)
+        return done.returncode, " ".join((done.stdout + done.stderr).split())
+
+    def in_order(self, experiment="experiment.json"):
+        """What check says of an experiment that is in order."""
+        code, said = self.tunica("check", experiment)
+        self.assertEqual(0, code, said)
+        return said
+
+    def changed(self, **tests):
+        """The experiment with other keys in the data of its tests."""
+        file = self.folder / "experiment.json"
+        experiment = json.loads(file.read_text())
+        for name, data in tests.items():
+            experiment["tests"][name]["data"].update(data)
+        file.write_text(json.dumps(experiment))
+
+    def best(self, *arguments, experiment="experiment.json"):
+        code, said = self.tunica("run", experiment, "-o", "out", "--no-certificate", *arguments)
+        self.assertEqual(0, code, said)
+        run = json.loads((self.folder / "out" / "result.json").read_text())["runs"][0]
+        self.values = {name: about["value"] for name, about in run["best"]["parameters"].items()}
+        return run
+
+    def assert_values(self, tolerance, **right):
+        for name, value in right.items():
+            self.assertLess(abs(self.values[name] / value - 1), tolerance, f"{name} = {self.values[name]}")
+
+    def test_an_isotropic_strip_to_stretch_10_is_a_linear_problem(self):
+        self.case("isotropic-holes-yeoh-large-stretch")
+        run = self.best("-j", 1)
+        self.assertEqual(0, run["failures"])
+        self.assert_values(1e-3, c10=19.6179520, c20=-0.0793856822, c30=8.86046894e-4)  # numpy.linalg.lstsq
+
+    def test_two_constants_of_mooney_and_rivlin_are_found_and_a_third_one_is_found_or_refused(self):
+        self.case("mooney-rivlin-three-terms")
+        code, said = self.tunica("check", "experiment.json")
+        if code == 2:
+            self.assertIn("terms", said)
+            return
+        self.best()
+        self.assert_values(1e-3, c10=1283.033, c01=593.477, c11=-6.902)  # numpy.linalg.lstsq, absolute weights
+
+    def test_a_compression_that_is_written_positive_is_read_with_negative_units(self):
+        self.case("compression-positive-load")
+        self.best(experiment="with_negative_units.json")
+        self.assert_values(0.01, mu_1=2.0, alpha_1=9.0)  # the data were made with them
+
+    def test_two_axes_of_a_cellscale_file_give_fungs_constants(self):
+        self.case("cellscale-import")
+        self.best()
+        self.assert_values(0.01, c=8.0, a1=6.0, a2=3.0, a4=1.2)  # the data were made with them
+
+    def test_a_tube_of_vasotracker_gives_demirays_constants(self):
+        self.case("vasotracker-import")
+        self.best()
+        self.assert_values(0.02, m_mu=12.0, m_b=3.0)  # the data were made with them
+
+    def test_a_second_prony_branch_is_tried_or_said_to_be_left_out(self):
+        self.case("diagnose-second-prony-branch")
+        code, said = self.tunica("diagnose", "experiment.json", "-o", "why", "--quick")
+        found = json.loads((self.folder / "why" / "result.json").read_text())["diagnosis"]
+        if [cause["id"] for cause in found["causes"]] != ["viscoelasticity"]:
+            self.assertIn("Left out: a second viscoelasticity beside that of the base", said)
+        self.assertIn(code, (0, 1))
+
+
+if __name__ == "__main__":
+    PROGRAM = sys.argv.pop(1)
+    unittest.main(verbosity=2)
