@@ -92,6 +92,46 @@ class Cases(unittest.TestCase):
         self.assertIn(code, (0, 1))
 
 
+    def test_percent_without_a_unit_is_asked_about(self):
+        self.case("percent-strain-no-unit")
+        code, said = self.tunica("import", "pct.csv", "--stress-measure", "cauchy", "--unit", "Stress=kPa", "-o",
+                                 "e.json")
+        self.assertEqual(2, code, said)
+        self.assertIn("Strain", said)
+
+    def test_a_german_file_of_mts_is_imported(self):
+        self.case("mts-german-locale")
+        (self.folder / "experiment.json").unlink()
+        code, said = self.tunica("import", "u.dat", "--set", "direction=axial", "--area", "7651mm2",
+                                 "--gauge-length", "299.5mm", "-o", "e.json")
+        self.assertEqual(0, code, said)
+        data = next(iter(json.loads((self.folder / "e.json").read_text())["tests"].values()))["data"]
+        self.assertEqual({"time": "Laufzeit", "force": "Ch 1 Kraft", "displacement": "Ch 1 Weg"}, data["columns"])
+
+    def test_rows_of_empty_cells_are_blank_lines(self):
+        self.case("spreadsheet-empty-tail")
+        self.assertIn("27", self.in_order())
+
+    def test_import_makes_a_biaxial_test_of_two_axes(self):
+        self.case("cellscale-import")
+        (self.folder / "experiment.json").unlink()
+        code, said = self.tunica("import", "bio.csv", "--each", "SetName", "--thickness", "0.8mm", "--width", "5mm",
+                                 "--gauge-length", "5mm", "-o", "e.json")
+        self.assertEqual(0, code, said)
+        tests = json.loads((self.folder / "e.json").read_text())["tests"]
+        self.assertEqual({"biaxial"}, {test["type"] for test in tests.values()})
+        self.in_order("e.json")
+
+    def test_import_makes_an_experiment_of_a_vasotracker_file(self):
+        self.case("vasotracker-import")
+        (self.folder / "experiment.json").unlink()
+        code, said = self.tunica("import", "vt.csv", "--thickness", "20um", "--set", "outer_radius=55um", "--set",
+                                 "axial_stretch=1.2", "--unit", "Outer Diameter=um", "--unit", "Inner Diameter=um",
+                                 "-o", "e.json")
+        self.assertEqual(0, code, said)
+        self.assertIn("52", self.in_order("e.json"))
+
+
 if __name__ == "__main__":
     PROGRAM = sys.argv.pop(1)
     unittest.main(verbosity=2)
