@@ -181,8 +181,11 @@ void print(const calibration::Examination& checked, const std::string& file) {
     print_parameters(*problem.run->assembly);
     print_initial_point(problem);
   }
-  answer("\n{}\n", checked.good() ? fmt::format("In order. Next: tunica run {}", file)
-                                  : std::string("Not in order: see above. `tunica run` would still start."));
+  answer("\n{}\n", checked.good() && experiment.only_predicts
+                       ? "In order. `tunica simulate` and `tunica stability` read it as it is; to fit, add "
+                         "\"optimizers\" and \"runs\""
+                   : checked.good() ? fmt::format("In order. Next: tunica run {}", file)
+                                    : std::string("Not in order: see above. `tunica run` would still start."));
 }
 
 /// The data as they were understood, as one HTML file.
@@ -202,7 +205,7 @@ void write_data_page(const experiment::Experiment& experiment, const plugins::Ca
 
 int check(const GlobalOptions& global, const std::string& file, bool as_json, const std::string& page) {
   const Session session(global);
-  const auto experiment = session.read(file);
+  const auto experiment = session.read(file, experiment::Purpose::prediction);
   if (!page.empty()) write_data_page(experiment, session.catalogue(), page);
   const auto checked = calibration::examine(experiment, session.catalogue());
   if (as_json)

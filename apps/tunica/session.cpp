@@ -109,9 +109,9 @@ std::vector<std::string> Session::refusals() const {
   return lines;
 }
 
-experiment::Experiment Session::read(const std::filesystem::path& file) const {
+experiment::Experiment Session::read(const std::filesystem::path& file, experiment::Purpose purpose) const {
   try {
-    return experiment::read_experiment(file, catalogue_);
+    return experiment::read_experiment(file, catalogue_, purpose);
   } catch (const InputError& problem) {
     if (refused_.empty()) throw;
     const auto types = types_named_in(file);

@@ -44,7 +44,8 @@ class Session {
 
   /// Reads the experiment. Where it asks for a type that a refused plugin would probably have brought, the refusal is
   /// the error.
-  [[nodiscard]] experiment::Experiment read(const std::filesystem::path& file) const;
+  [[nodiscard]] experiment::Experiment read(const std::filesystem::path& file,
+                                            experiment::Purpose purpose = experiment::Purpose::search) const;
 
  private:
   plugins::Catalogue catalogue_;

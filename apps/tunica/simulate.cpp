@@ -32,7 +32,7 @@ struct SimulateOptions {
 
 int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   const Session session(global);
-  const auto experiment = session.read(options.subject.file);
+  const auto experiment = session.read(options.subject.file, experiment::Purpose::prediction);
   auto request = request_of(options.subject);
   request.noise = options.noise;
   request.seed = options.seed.value_or(experiment.seed);

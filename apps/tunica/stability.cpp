@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,19 @@ void print(const comparison::Subject& subject, const comparison::StabilitySummar
   for (const auto& file : files) answer("{}\n", file);
 }
 
+/// Whether the response could be followed anywhere: without, nothing was judged.
+bool any_assessed(const comparison::StabilitySummary& found) {
+  const auto reached = [](const auto& followed) {
+    return std::any_of(followed.begin(), followed.end(), [](const auto& path) { return path.to > 1; });
+  };
+  return std::any_of(found.models.begin(), found.models.end(), [&](const auto& model) {
+    const auto& strips = model.verdict.transverse;
+    const bool pulled = std::any_of(strips.begin(), strips.end(),
+                                    [](const auto& strip) { return strip.checked_from < 1 || strip.checked_to > 1; });
+    return pulled || reached(model.verdict.ellipticity.followed);
+  });
+}
+
 /// As `best.stability` of result.json, with the parameters that were judged.
 nlohmann::ordered_json json_of(const comparison::Subject& subject, const comparison::StabilitySummary& found,
                                const std::vector<std::string>& files) {
@@ -68,7 +82,7 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   if (!options.map.empty() && options.directory.empty())
     throw InputError("--map writes a file: name a new folder for it with -o DIR");
   const Session session(global);
-  const auto experiment = session.read(options.subject.file);
+  const auto experiment = session.read(options.subject.file, experiment::Purpose::prediction);
   const auto subject = comparison::subject_of(experiment, session.catalogue(), request_of(options.subject));
   const std::optional<double> to = options.to > 1 ? std::optional(options.to) : std::nullopt;
   // A map that cannot be drawn, or a folder that is there already, is said before anything else.
@@ -89,7 +103,7 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
     print_json(json_of(subject, found, files));
   else
     print(subject, found, files);
-  return done;
+  return any_assessed(found) ? done : not_converged;
 }
 
 }  // namespace

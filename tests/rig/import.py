@@ -48,7 +48,7 @@ assert "mm is assumed" in said and "last loading is taken" in said, said
 printed, _ = rig.tunica(program, "check", folder / "strip.json", "--page", folder / "data.html")
 assert "5 rows" in printed, printed
 assert "stretch = 1 + displacement / 20 mm, from 'Weg' in mm" in words(printed), printed
-assert "stress = force / (5 mm × 1.5 mm): nominal stress, from 'Kraft' in N" in words(printed), printed
+assert "stress = force / (5 mm × 1.5 mm): first Piola-Kirchhoff stress (nominal), from 'Kraft' in N" in words(printed), printed
 assert "rows: the last cycle, loading only" in words(printed), printed
 page = (folder / "data.html").read_text(encoding="utf-8")
 assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page

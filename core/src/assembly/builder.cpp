@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/channels.hpp"
+#include "assembly/record.hpp"
 #include "data/nearest.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
@@ -139,6 +140,8 @@ void Builder::compose() {
   refuse_one_name_for_two(names, run_.tests);
   for (const std::string& name : names) {
     const std::string prefix = names.size() > 1 ? name + "." : "";
+    const auto& findings = experiment_.model(name).findings;
+    parts_.layout.findings.insert(parts_.layout.findings.end(), findings.begin(), findings.end());
     ComposedModel model = compose_model(experiment_.model(name), catalogue_, prefix);
     parts_.models.push_back({name, std::move(model.plugin), std::move(model.model), {}});
     slots_.push_back(std::move(model.slots));
@@ -182,6 +185,12 @@ void Builder::add_test(std::size_t number) {
   add_stretches(*test.test, observables, entry.name, parts_.strips, parts_.largest_stretch);
   for (const std::string& warning : dataset.warnings)
     layout.warnings.push_back(fmt::format("test '{}': {}", entry.name, warning));
+  layout.findings.insert(layout.findings.end(), entry.findings.begin(), entry.findings.end());
+  std::vector<data::Finding> findings = dataset.findings;
+  look_at_unloaded_tube(entry, dataset, findings);
+  look_at_noise(entry, dataset, findings);
+  for (const data::Finding& finding : findings)
+    layout.findings.push_back({finding.kind, fmt::format("test '{}': {}", entry.name, finding.text)});
   for (std::size_t k = 0; k < dataset.sha256.size(); ++k) {
     const std::string file = k < entry.data.files.size() ? entry.data.files[k].filename().string() : entry.name;
     layout.data_hashes.push_back(fmt::format("{} sha256:{}", file, dataset.sha256[k]));

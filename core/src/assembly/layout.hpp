@@ -83,14 +83,15 @@ struct Layout {
   /// Known invariances of the models, arguments as indices into `parameters`; value() takes the free values.
   std::vector<Combination> combinations;
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;        ///< what should be known, and worries nobody
-  std::vector<std::string> data_hashes;  ///< "circ.csv sha256:…"
-  std::size_t test_count = 0;            ///< tests of the run: entries of per_test
-  std::size_t prediction_count = 0;      ///< Σ channel counts, held-out rows included
-  std::size_t residual_count = 0;        ///< fitted rows and priors
-  bool jacobian_is_exact = true;         ///< false: some test's predictions are differenced
-  bool derivatives_missing = false;      ///< some test is differenced that does not say how, see Differencing
-  bool has_costly_tests = false;         ///< some fitted test declares itself costly
+  std::vector<data::Finding> findings = {};  ///< about the records of the tests, and about the file
+  std::vector<std::string> notes;            ///< what should be known, and worries nobody
+  std::vector<std::string> data_hashes;      ///< "circ.csv sha256:…"
+  std::size_t test_count = 0;                ///< tests of the run: entries of per_test
+  std::size_t prediction_count = 0;          ///< Σ channel counts, held-out rows included
+  std::size_t residual_count = 0;            ///< fitted rows and priors
+  bool jacobian_is_exact = true;             ///< false: some test's predictions are differenced
+  bool derivatives_missing = false;          ///< some test is differenced that does not say how, see Differencing
+  bool has_costly_tests = false;             ///< some fitted test declares itself costly
 };
 
 }  // namespace tunica::assembly

@@ -10,7 +10,7 @@ namespace tunica::assembly {
 namespace {
 
 constexpr double settled = 1e-5;  ///< of ln s_g
-constexpr double next_to_none = 1e-9;
+constexpr double hardly_any_freedom = 1e-9;
 
 }  // namespace
 
@@ -69,7 +69,7 @@ RestrictedVariance restricted_variance(const VarianceProblem& problem, std::size
     double moved = 0;
     if (step == steps) break;
     for (std::size_t g = 0; g < groups; ++g) {
-      if (!(found.freedom[g] > next_to_none)) continue;
+      if (!(found.freedom[g] > hardly_any_freedom)) continue;
       const double before = found.variance[g];
       const double now = std::max({before * squares[g] / found.freedom[g], least(g), 1e-12 * before});
       found.at_least[g] = now <= least(g);

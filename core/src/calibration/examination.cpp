@@ -121,11 +121,12 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
   }
   std::set<std::string> posed;
   for (const auto& run : found.plan.runs) {
-    for (const auto& sentence : run.assembly->layout().warnings) {
-      const auto same = [&](const auto& warning) { return warning.sentence == sentence; };
-      if (std::none_of(warnings.begin(), warnings.end(), same))
-        warnings.push_back({execution::WarningKind::set_up, sentence});
-    }
+    const auto add = [&](execution::Warning added) {
+      const auto same = [&](const auto& warning) { return warning.sentence == added.sentence; };
+      if (std::none_of(warnings.begin(), warnings.end(), same)) warnings.push_back(std::move(added));
+    };
+    for (const auto& finding : run.assembly->layout().findings) add(execution::warning_of(finding));
+    for (const auto& sentence : run.assembly->layout().warnings) add({execution::WarningKind::set_up, sentence});
     for (const auto& note : run.assembly->layout().notes)
       if (std::find(found.notes.begin(), found.notes.end(), note) == found.notes.end()) found.notes.push_back(note);
     std::string problem =

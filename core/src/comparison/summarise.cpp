@@ -190,8 +190,10 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   for (const auto& warning : own) add(warning);
   for (const auto& refusal : refusals) add({execution::WarningKind::plugin_refused, refusal});
   for (const auto& warning : plan.warnings) add(warning);
-  for (const auto& run : plan.runs)
+  for (const auto& run : plan.runs) {
+    for (const auto& finding : run.assembly->layout().findings) add(execution::warning_of(finding));
     for (const auto& warning : run.assembly->layout().warnings) add({execution::WarningKind::set_up, warning});
+  }
   return summary;
 }
 

@@ -13,6 +13,7 @@
 #include "data/loading_path.hpp"
 #include "data/nearest.hpp"
 #include "data/quantities.hpp"
+#include "data/record.hpp"
 #include "data/series.hpp"
 #include "tunica/error.hpp"
 
@@ -123,6 +124,7 @@ Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& 
   for (const std::filesystem::path& file : request.files) {
     replicates.push_back(read_series(file, request, observables, dataset.warnings));
     check_series(replicates.back(), dataset.warnings);
+    look_at_record(replicates.back(), request, dataset.findings);
     if (auto warning = cycles_as_one_curve(replicates.back(), request))
       dataset.warnings.insert(dataset.warnings.begin(), *std::move(warning));
     dataset.sha256.push_back(replicates.back().sha256);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/finding.hpp"
 #include "data/rig_request.hpp"
 #include "text/codes.hpp"
 #include "tunica/test.hpp"
@@ -83,8 +84,9 @@ struct Dataset {
   /// Row of the file, counted behind `where` and `rows`, that each row is; empty = in the order of the file.
   std::vector<std::size_t> file_rows;
   std::vector<std::string> warnings;
+  std::vector<Finding> findings = {};        ///< what does not go together with physics
   std::vector<std::string> sha256;           ///< of each file, for the provenance
-  std::vector<std::string> understood = {};  ///< lines on what was made of columns of a rig, and which rows were taken
+  std::vector<std::string> understood = {};  ///< lines on what every column was taken for, and which rows were taken
   /// Column names and units of the source, by observable, so that `simulate` writes what it read.
   std::vector<std::pair<std::string, std::pair<std::string, std::string>>> source_columns;
 

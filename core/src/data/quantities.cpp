@@ -19,6 +19,8 @@ std::string replaced(std::string_view name, std::string_view word, std::string_v
   return std::string(name.substr(0, at)) + std::string(by) + std::string(name.substr(end));
 }
 
+}  // namespace
+
 std::string direction_of(std::string_view observable) {
   for (const std::string_view word : {stretch_word, stress_word}) {
     std::string rest = replaced(observable, word, "");
@@ -27,8 +29,6 @@ std::string direction_of(std::string_view observable) {
   }
   return {};
 }
-
-}  // namespace
 
 std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
   std::vector<RawName> names;

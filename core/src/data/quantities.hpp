@@ -36,6 +36,9 @@ std::optional<Quantity> quantity_named(std::string_view name, const std::vector<
 /// Sizes along the direction that the name of an observable ends or begins with, filled up with those of all.
 Sizes sizes_along(const Specimen& specimen, std::string_view observable);
 
+/// What stands beside "stretch" or "stress" in the name of an observable: "axial"; empty = nothing.
+std::string direction_of(std::string_view observable);
+
 /// Directions that sizes can be given for: what stands beside "stretch" in the names of observables.
 std::vector<std::string> directions_of(const std::vector<Observable>& observables);
 

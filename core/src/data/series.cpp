@@ -41,6 +41,24 @@ std::vector<double> time_along(const std::vector<double>& path, double rest, dou
   return time;
 }
 
+/// The step between values that are whole multiples of it, within what a conversion of units leaves of a digit.
+Grid grid_of(std::vector<double> values, const std::string& unit) {
+  constexpr double same = 1e-9, off = 0.01;
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  std::sort(values.begin(), values.end());
+  if (values.empty()) return {};
+  const double range = values.back() - values.front();
+  const auto equal = [&](double a, double b) { return b - a <= same * range; };
+  values.erase(std::unique(values.begin(), values.end(), equal), values.end());
+  double step = range;
+  for (std::size_t k = 1; k < values.size(); ++k) step = std::min(step, values[k] - values[k - 1]);
+  for (const double value : values) {
+    const double steps = (value - values.front()) / step;
+    if (!(std::abs(steps - std::round(steps)) <= off)) return {};
+  }
+  return {step, range, values.size(), unit};
+}
+
 /// One file on its way to a series.
 class Reader {
  public:
@@ -66,6 +84,10 @@ class Reader {
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
       for (const std::size_t row : selected) series_.columns[k].values.push_back(value_or_nan(k, *rows_[row]));
     series_.used_lines = series_.lines;
+    series_.file_rows = csv_.rows.size();
+    for (std::size_t k = 0; k < series_.columns.size(); ++k)
+      if (series_.columns[k].observable->role == Role::channel)
+        series_.columns[k].grid = grid_of(series_.columns[k].values, quantities_[k].unit);
     take_time(selected);
     derive_stretches();
     derive_stresses();
@@ -122,8 +144,10 @@ class Reader {
     try {
       return convert(value, column.unit.empty() ? quantity.unit : column.unit, quantity.unit);
     } catch (const InputError& error) {
+      std::string reason = error.what();
+      while (!reason.empty() && reason.back() == '.') reason.pop_back();
       throw InputError(fmt::format(
-          "{}: {}. The {} '{}' is in {}: correct the unit in the header.", series_.header_place(column), error.what(),
+          "{}: {}. The {} '{}' is in {}: correct the unit in the header.", series_.header_place(column), reason,
           quantity.kind == From::own ? "observable" : "quantity", request_.columns[k].first, quantity.unit));
     }
   }

@@ -10,6 +10,13 @@
 
 namespace tunica::data {
 
+/// Values that stand a step apart: what a device resolves, or an export rounds to.
+struct Grid {
+  double step = 0, range = 0;  ///< step 0 = there is none
+  std::size_t values = 0;      ///< how many different ones there are
+  std::string unit = {};
+};
+
 /// The mapped columns of one data file in base units, the selected rows in loading order.
 struct Series {
   struct Column {
@@ -21,6 +28,7 @@ struct Series {
     bool elongation = false;     ///< a stretch from a displacement or a strain
     bool turned = false;         ///< counts compression positive; values have the opposite sign
     double gauge_length = 0;     ///< mm, of a stretch from a length or a displacement; 0 = none
+    Grid grid = {};              ///< of a channel, as the file has it
   };
   std::filesystem::path file;
   std::string sha256;
@@ -29,6 +37,7 @@ struct Series {
   std::vector<std::size_t> lines;                           ///< one per row
   std::vector<double> time;                                 ///< from `time_from`; empty = none
   std::vector<std::size_t> used_lines = {};                 ///< of the rows that were read
+  std::size_t file_rows = 0;                                ///< of the table, whatever was chosen
   std::vector<std::pair<std::string, Noise>> scatter = {};  ///< by channel, where it was resampled
 
   /// "circ.csv, line 7, column 2 ('stress')".
@@ -43,8 +52,8 @@ Series read_series(const std::filesystem::path& file, const DataRequest& request
 /// a fraction, time that runs backwards) and warns of what probably is none. Throws InputError.
 void check_series(const Series& series, std::vector<std::string>& warnings);
 
-/// What was made of the columns, in lines such as "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm"; and which
-/// rows were taken. Empty for a file whose columns are the observables and whose rows are all taken.
+/// What every column was taken for, with the measure of a stress and the definition of a strain, in lines such as
+/// "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm"; and which rows were taken, where some were not.
 std::vector<std::string> understood(const Series& series, const DataRequest& request,
                                     const std::vector<Observable>& observables);
 

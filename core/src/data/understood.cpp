@@ -16,6 +16,12 @@ std::string source_of(const Series::Column& column) {
                      column.turned ? ", which counts compression positive" : "");
 }
 
+std::string measure_of(const DataRequest& request) {
+  return request.stress_measure == "cauchy"                  ? "Cauchy stress (true)"
+         : request.stress_measure == "first_piola_kirchhoff" ? "first Piola-Kirchhoff stress (nominal)"
+                                                             : "second Piola-Kirchhoff stress";
+}
+
 /// "stretch = 1 + displacement / 17.48 mm, from 'Way' in mm".
 std::string formula(const Series::Column& column, const Quantity& quantity, const DataRequest& request) {
   const std::string& name = column.observable->name;
@@ -25,13 +31,17 @@ std::string formula(const Series::Column& column, const Quantity& quantity, cons
       fmt::format("{:.5g} mm{}", column.gauge_length, measured ? ", the gauge length at the preload" : "");
   switch (quantity.kind) {
     case From::own:
+      if (column.observable->kind == Observable::Kind::stress)
+        return fmt::format("{}: {}, from {}", name, measure_of(request), source);
+      if (column.observable->kind == Observable::Kind::stretch && column.observable->role != Observable::Role::time)
+        return fmt::format("{}: 1 at rest, from {}", name, source);
       return fmt::format("{} from {}", name, source);
     case From::displacement:
       return fmt::format("{} = 1 + displacement / {}, from {}", name, gauge, source);
     case From::length:
       return fmt::format("{} = length / {}, from {}", name, gauge, source);
     case From::strain:
-      return fmt::format("{} = 1 + strain, from {}", name, source);
+      return fmt::format("{} = 1 + strain (engineering strain), from {}", name, source);
     case From::true_strain:
       return fmt::format("{} = exp(true strain), from {}", name, source);
     case From::green_strain:
@@ -44,11 +54,10 @@ std::string formula(const Series::Column& column, const Quantity& quantity, cons
   const std::string area =
       specimen.area ? fmt::format("{:.5g} mm²", *specimen.area)
                     : fmt::format("({:.5g} mm × {:.5g} mm)", width.value_or(0), specimen.thickness.value_or(0));
-  const char* const measure = request.stress_measure == "cauchy" ? ", times the stretch: Cauchy stress"
-                              : request.stress_measure == "first_piola_kirchhoff"
-                                  ? ": nominal stress"
-                                  : ", over the stretch: second Piola–Kirchhoff stress";
-  return fmt::format("{} = force / {}{}, from {}", name, area, measure, source);
+  const char* const factor = request.stress_measure == "cauchy"                  ? ", times the stretch"
+                             : request.stress_measure == "first_piola_kirchhoff" ? ""
+                                                                                 : ", over the stretch";
+  return fmt::format("{} = force / {}{}: {}, from {}", name, area, factor, measure_of(request), source);
 }
 
 std::string cycles_of(const DataRequest& request) {
@@ -72,9 +81,7 @@ std::string cycles_of(const DataRequest& request) {
 std::vector<std::string> understood(const Series& series, const DataRequest& request,
                                     const std::vector<Observable>& observables) {
   std::vector<std::string> found;
-  const bool derived = std::any_of(series.columns.begin(), series.columns.end(),
-                                   [](const Series::Column& column) { return column.derived || column.turned; });
-  for (std::size_t k = 0; derived && k < series.columns.size(); ++k)
+  for (std::size_t k = 0; k < series.columns.size(); ++k)
     found.push_back(formula(series.columns[k], *quantity_named(request.columns[k].first, observables), request));
   std::vector<std::string> conditions;
   for (const auto& [column, value] : request.where) conditions.push_back(fmt::format("{} = {}", column, value));
@@ -85,6 +92,9 @@ std::vector<std::string> understood(const Series& series, const DataRequest& req
     rows += fmt::format("{}time from a rate of {:g}/s", rows.empty() ? "" : "; ", *request.time_rate);
   if (request.resample)
     rows += fmt::format("{}{} points a branch by local regression", rows.empty() ? "" : "; ", *request.resample);
+  if (series.used_lines.size() < series.file_rows)
+    rows = fmt::format("{} of the {} in the file{}{}", series.used_lines.size(), series.file_rows,
+                       rows.empty() ? "" : ": ", rows);
   if (!rows.empty()) found.push_back("rows: " + rows);
   return found;
 }

@@ -139,6 +139,8 @@ const char* code_of(WarningKind kind) {
       return "memory_not_looked_for";
     case WarningKind::order_assumed:
       return "order_assumed";
+    case WarningKind::record:
+      return "record";
     case WarningKind::run_differs_in_noise:
       return "run_differs_in_noise";
     case WarningKind::run_keeps_gross_rows:

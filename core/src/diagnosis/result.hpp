@@ -64,6 +64,7 @@ enum class WarningKind {
   noise_vanishes,
   memory_not_looked_for,
   order_assumed,
+  record,
   run_differs_in_noise,
   run_keeps_gross_rows
 };

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/finding.hpp"
 #include "text/codes.hpp"
 
 namespace tunica::execution {
@@ -44,10 +45,21 @@ enum class WarningKind {
   equal_realisations,
   plugin_refused,
   order_assumed,
+  record_broken,
+  record_jump,
+  record_repeated,
+  record_coarse,
+  record_sign,
+  record_time,
+  record_short,
+  record_percent,
+  record_size,
+  record_angle,
+  record_noise,
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 34> warning_codes{
+inline constexpr text::Codes<WarningKind, 45> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
@@ -81,6 +93,17 @@ inline constexpr text::Codes<WarningKind, 34> warning_codes{
      {WarningKind::equal_realisations, "equal_realisations"},
      {WarningKind::plugin_refused, "plugin_refused"},
      {WarningKind::order_assumed, "order_assumed"},
+     {WarningKind::record_broken, "record_broken"},
+     {WarningKind::record_jump, "record_jump"},
+     {WarningKind::record_repeated, "record_repeated"},
+     {WarningKind::record_coarse, "record_coarse"},
+     {WarningKind::record_sign, "record_sign"},
+     {WarningKind::record_time, "record_time"},
+     {WarningKind::record_short, "record_short"},
+     {WarningKind::record_percent, "record_percent"},
+     {WarningKind::record_size, "record_size"},
+     {WarningKind::record_angle, "record_angle"},
+     {WarningKind::record_noise, "record_noise"},
      {WarningKind::set_up, "set_up"}}};
 
 static_assert(static_cast<std::size_t>(WarningKind::set_up) + 1 == warning_codes.size());
@@ -96,5 +119,8 @@ struct Warning {
   /// "gho/es: mu lies at …".
   [[nodiscard]] std::string text() const;
 };
+
+/// The codes of a finding are kinds of a warning.
+Warning warning_of(const data::Finding& finding);
 
 }  // namespace tunica::execution

@@ -54,11 +54,37 @@ std::string Experiment::model_name(const RunEntry& run) const {
   return run.model.empty() ? fmt::format("{}", fmt::join(models_of(run), "+")) : run.model;
 }
 
-Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
-  return parse_experiment(data::read_bytes(file, limits::file_bytes), file, catalogue);
+Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue, Purpose purpose) {
+  return parse_experiment(data::read_bytes(file, limits::file_bytes), file, catalogue, purpose);
 }
 
-Experiment parse_experiment(std::string text, const std::filesystem::path& file, const plugins::Catalogue& catalogue) {
+namespace {
+
+std::vector<OptimizerEntry> default_optimizers(const plugins::Catalogue& catalogue) {
+  const JsonDocument document("the default optimizer", R"({"lm": {"type": "ceres_lm"}})");
+  return read_optimizers(Node(document), catalogue);
+}
+
+/// A run of every model over all tests; one alone where every test names its models in layers.
+void add_default_runs(const RunDefaults& defaults, Experiment& experiment) {
+  RunEntry run;
+  run.optimizer = experiment.optimizers.front().name;
+  run.tests = defaults.tests;
+  const bool layered = std::all_of(experiment.tests.begin(), experiment.tests.end(),
+                                   [](const TestEntry& test) { return !test.layers.empty(); });
+  if (layered) experiment.runs.push_back(run);
+  for (const ModelEntry& model : experiment.models) {
+    if (layered) break;
+    run.model = model.name;
+    experiment.runs.push_back(run);
+  }
+  experiment.only_predicts = true;
+}
+
+}  // namespace
+
+Experiment parse_experiment(std::string text, const std::filesystem::path& file, const plugins::Catalogue& catalogue,
+                            Purpose purpose) {
   const JsonDocument document(file, std::move(text));
   const Node root(document);
   if (!root.is_object()) root.fail_expected("an experiment, { \"format\": 1, … },");
@@ -88,7 +114,10 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
     experiment.tests.push_back(
         read_test(name, entry, file.parent_path(), entry_names(experiment.models), catalogue, shared));
   if (experiment.tests.empty()) tests.fail("no test is given", "Give at least one, with its data.");
-  experiment.optimizers = read_optimizers(root.require("optimizers", "the experiment file"), catalogue);
+  const bool without_runs = purpose == Purpose::prediction && !root.find("runs");
+  experiment.optimizers = without_runs && !root.find("optimizers")
+                              ? default_optimizers(catalogue)
+                              : read_optimizers(root.require("optimizers", "the experiment file"), catalogue);
   RunDefaults defaults;
   defaults.tests = entry_names(experiment.tests);
   if (const auto node = root.find("objective")) defaults.objective = read_objective(*node);
@@ -98,7 +127,10 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   if (const auto node = root.find("fewer_simulations")) defaults.fewer_simulations = read_fewer_simulations(*node);
   if (const auto node = root.find("keep_evaluations")) experiment.kept_evaluations = read_kept_evaluations(*node);
   if (const auto node = root.find("on_failure")) read_on_failure(*node, experiment);
-  read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
+  if (without_runs)
+    add_default_runs(defaults, experiment);
+  else
+    read_runs(root.require("runs", "the experiment file"), defaults, catalogue, shared, experiment);
   check_shared(shared);
   if (const auto node = root.find("analysis")) read_analysis(*node, experiment);
   if (const auto node = root.find("diagnosis")) experiment.diagnosis = read_diagnosis(*node, experiment, catalogue);

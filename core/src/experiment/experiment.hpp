@@ -50,6 +50,7 @@ struct ModelEntry {
   Options options;
   ParameterSettings parameters;
   std::vector<MechanismEntry> mechanisms;
+  std::vector<data::Finding> findings = {};  ///< what the entry says and hardly means
 };
 
 /// Rows kept out of the fit and of the naming: none, all, or a range.
@@ -75,6 +76,7 @@ struct TestEntry {
   HoldOut hold_out;
   bool measured = true;               ///< false: no measured quantity is mapped, so that its rows are predicted only
   std::filesystem::path folder = {};  ///< where files that options name are looked for, absolute
+  std::vector<data::Finding> findings = {};  ///< what the entry says and hardly means
 };
 
 enum class ObjectiveType { standardised_quadratic, least_squares, sum_of_norms };
@@ -197,7 +199,8 @@ struct Experiment {
   Analysis analysis;
   std::optional<DiagnosisEntry> diagnosis;
   std::optional<DiscoveryEntry> discovery;
-  std::string input_json;  ///< the file with defaults filled in: input.json
+  std::string input_json;      ///< the file with defaults filled in: input.json
+  bool only_predicts = false;  ///< the file has no runs: those here stand in for them
 
   [[nodiscard]] const ModelEntry& model(std::string_view name) const;
   [[nodiscard]] const TestEntry& test(std::string_view name) const;
@@ -211,9 +214,14 @@ struct Experiment {
 /// Without the tests that have no measured value, and the runs that are left without a test.
 Experiment measured_only(Experiment experiment);
 
+/// What an experiment is read for. A search needs optimizers and runs; a prediction needs models and tests only, and
+/// where the file has no runs, every model gets one over all tests.
+enum class Purpose { search, prediction };
+
 /// Parses, validates and types an experiment file. Throws InputError: each message quotes what was found, names JSON
 /// pointer and line, and says what is expected; unknown names list the nearest valid one.
-Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue);
+Experiment read_experiment(const std::filesystem::path& file, const plugins::Catalogue& catalogue,
+                           Purpose purpose = Purpose::search);
 
 /// The JSON Schema (draft 7) of experiment files, composed from what the loaded plugins declare; JSON text.
 std::string compose_schema(const plugins::Catalogue& catalogue);

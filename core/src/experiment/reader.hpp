@@ -51,6 +51,11 @@ ParameterSettings read_mentioned_parameters(const Node& entry, const std::vector
                                             std::string_view owner, std::vector<SharedParameter>& shared);
 void check_shared(const std::vector<SharedParameter>& shared);
 
+// angles.cpp
+/// Angles of an entry that stand without a unit and look like radians.
+std::vector<data::Finding> bare_angles(const Node& entry, const std::vector<Option>& options,
+                                       const std::vector<Parameter>& parameters, std::string_view owner);
+
 // reader_models.cpp
 ModelEntry read_model(const std::string& name, const Node& entry, const plugins::Catalogue& catalogue,
                       std::vector<SharedParameter>& shared);

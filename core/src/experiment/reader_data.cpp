@@ -151,6 +151,28 @@ void read_time_from(const Node& node, const std::vector<Observable>& observables
   data.time_rate = value;
 }
 
+/// Keys that another key, or what is mapped, leaves without effect.
+void refuse_idle_keys(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
+                      const data::DataRequest& data) {
+  const auto maps = [&](auto is) {
+    return std::any_of(data.columns.begin(), data.columns.end(),
+                       [&](const auto& column) { return is(observable_of(observables, column.first)); });
+  };
+  const bool timed = data.time_rate || maps([](const Observable& one) { return one.role == Role::time; });
+  if (const auto node = block.find("order"); node && data.order == data::Order::unknown && (data.cycle || timed))
+    node->fail(fmt::format("\"order\" is \"unknown\", and {} gives the order of the rows in {}",
+                           data.cycle ? "\"cycle\"" : "the time", owner),
+               "Leave one of the two out.");
+  const bool measured = maps([](const Observable& one) { return one.role == Role::channel; });
+  if (const auto node = block.find("stress_measure");
+      node && measured && !maps([](const Observable& one) { return one.kind == Observable::Kind::stress; }))
+    node->fail(fmt::format("\"stress_measure\" changes nothing in {}: no stress is mapped", owner),
+               "Map one in \"columns\", or leave the measure out.");
+  if (const auto node = block.find("noise"); node && !measured)
+    node->fail(fmt::format("\"noise\" changes nothing in {}: nothing measured is mapped", owner),
+               "Map a channel in \"columns\", or leave the noise out.");
+}
+
 }  // namespace
 
 data::DataRequest read_data(const Node& block, const std::vector<Observable>& observables, std::string_view owner,
@@ -187,6 +209,7 @@ data::DataRequest read_data(const Node& block, const std::vector<Observable>& ob
   if (const auto node = block.find("time_from")) read_time_from(*node, observables, data);
   if (const auto node = block.find("noise")) read_noise(*node, observables, data);
   read_rig_keys(block, observables, owner, data);
+  refuse_idle_keys(block, observables, owner, data);
   return data;
 }
 

@@ -99,6 +99,7 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
   } catch (const InputError& error) {
     entry.fail(fmt::format("{} is refused", owner), error.what());
   }
+  model.findings = bare_angles(entry, available.factory.options, instance->describe().parameters, owner);
   model.parameters = read_parameters(entry, instance->describe().parameters, owner, shared);
   model.mechanisms =
       read_mechanisms(entry, owner, catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {

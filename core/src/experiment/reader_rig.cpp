@@ -121,6 +121,57 @@ void require_sizes(const Node& block, std::string_view owner, const std::vector<
   }
 }
 
+/// A size that no mapped quantity reads would only look as if it were used.
+void refuse_idle_sizes(const Node& block, std::string_view owner, const std::vector<Observable>& observables,
+                       const data::DataRequest& data) {
+  const auto node = block.find("specimen");
+  if (!node) return;
+  bool force = false, length = false, displacement = false;
+  std::vector<std::string> directions;  // that some mapped quantity lies along
+  for (const auto& [name, column] : data.columns) {
+    const auto quantity = data::quantity_named(name, observables);
+    force = force || quantity->kind == From::force;
+    length = length || quantity->kind == From::displacement || quantity->kind == From::length;
+    displacement = displacement || quantity->kind == From::displacement;
+    if (quantity->kind != From::own) directions.push_back(data::direction_of(quantity->observable->name));
+  }
+  const auto refuse = [&](const Node& at, const char* key, bool read, const char* reader) {
+    if (const auto size = at.find(key); size && !read)
+      size->fail(
+          fmt::format("\"{}\" changes nothing in {}", key, owner),
+          fmt::format("It belongs to {}, and none is mapped. Map one in \"columns\", or leave the size out.", reader));
+  };
+  const auto look_at = [&](const Node& at, const data::Sizes& sizes) {
+    refuse(at, "width", force, "a force");
+    refuse(at, "thickness", force, "a force");
+    refuse(at, "area", force, "a force");
+    refuse(at, "gauge_length", length, "a displacement or a length");
+    const auto grips = at.find("grip_distance");
+    if (!grips) return;
+    if (sizes.gauge_length)
+      grips->fail(fmt::format("\"grip_distance\" changes nothing beside a \"gauge_length\" of {:g} mm in {}",
+                              *sizes.gauge_length, owner),
+                  "Where displacement 0 is at the gauge length, leave \"grip_distance\" out. Where it is not, map the "
+                  "length between the grips, grip_distance + displacement, as \"length\"; or give \"gauge_length\": "
+                  "\"preload\" with a \"preload\", which takes the length there.");
+    if (!data.specimen.gauge_at_preload || !displacement)
+      grips->fail(fmt::format("\"grip_distance\" changes nothing in {}", owner),
+                  "It belongs to a displacement with \"gauge_length\": \"preload\". Leave it out.");
+  };
+  look_at(*node, data.specimen.all);
+  for (const auto& [direction, sizes] : data.specimen.directions) {
+    const Node at = node->require(direction, "");
+    if (std::find(directions.begin(), directions.end(), direction) == directions.end())
+      at.fail(
+          fmt::format("the sizes along '{}' change nothing in {}", direction, owner),
+          "No force, displacement, length or strain along it is mapped. Map one in \"columns\", or leave them out.");
+    if (const auto width = at.find("width"); width && data.specimen.area)
+      width->fail(fmt::format("\"width\" changes nothing beside \"area\" in {}", owner),
+                  "Give the area of the section, or its two sides.");
+    look_at(at, data::sizes_along(data.specimen, "stretch_" + direction));
+  }
+}
+
 data::CycleChoice read_cycle(const Node& node) {
   data::CycleChoice choice;
   const auto number = [](const Node& at) {
@@ -143,6 +194,7 @@ data::CycleChoice read_cycle(const Node& node) {
 data::CompressionPositive read_compression(const Node& node) {
   static const std::vector<std::string> signs = {"positive", "negative"};
   data::CompressionPositive compression;
+  compression.said = true;
   if (node.is_text()) {
     compression.all = node.one_of(signs, "sign of compression") == "positive";
     return compression;
@@ -203,6 +255,7 @@ void read_rig_keys(const Node& block, const std::vector<Observable>& observables
   if (const auto node = block.find("preload")) data.preload = read_preload(*node, observables, data);
   if (const auto node = block.find("specimen"))
     read_specimen(*node, data.preload.has_value(), observables, data.specimen);
+  refuse_idle_sizes(block, owner, observables, data);
   require_sizes(block, owner, observables, data);
   if (const auto node = block.find("cycle")) data.cycle = read_cycle(*node);
   if (const auto node = block.find("cycles_from")) {

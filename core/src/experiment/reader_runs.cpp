@@ -161,6 +161,9 @@ void read_on_failure(const Node& node, Experiment& experiment) {
     if (!(experiment.max_failure_rate >= 0 && experiment.max_failure_rate <= 1))
       rate->fail(fmt::format("the share of failed evaluations is {}", experiment.max_failure_rate),
                  "Expected a number from 0 to 1, or a percentage such as \"50 %\".");
+    if (experiment.on_failure == OnFailure::stop)
+      rate->fail("\"max_rate\" changes nothing beside \"policy\": \"stop\", which ends at the first failure",
+                 "Leave one of the two out.");
   }
 }
 

@@ -93,6 +93,7 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
     test.folder = (test.folder / test.options.text("folder")).lexically_normal();
     test.options.set("folder", test.folder.string());
   }
+  test.findings = bare_angles(entry, factory.options, {}, owner);  // an imperfection may be a small angle
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
   test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "data/quantities.hpp"
 #include "experiment/enum_names.hpp"
 #include "experiment/reader.hpp"
 
@@ -150,12 +151,24 @@ class Writer {
     return json;
   }
 
+  /// A measure of stress stands only where there is a stress: without one the reader refuses it.
+  [[nodiscard]] Json data(const TestEntry& entry) const {
+    Json json = to_json(entry.data);
+    const auto& observables = catalogue_.tests().find(entry.type)->second.factory.observables;
+    const bool stress = std::any_of(entry.data.columns.begin(), entry.data.columns.end(), [&](const auto& column) {
+      const auto quantity = data::quantity_named(column.first, observables);
+      return quantity && quantity->observable->kind == Observable::Kind::stress;
+    });
+    if (entry.measured && !stress) json.erase("stress_measure");
+    return json;
+  }
+
   [[nodiscard]] Json test(const TestEntry& entry) const {
     Json json = {{"type", entry.type}};
     add_options(json, entry.options, catalogue_.tests().find(entry.type)->second.factory.options);
     for (const LayerEntry& layer : entry.layers)
       json["layers"].push_back({{"model", layer.model}, {"thickness", layer.thickness}});
-    json["data"] = to_json(entry.data);
+    json["data"] = data(entry);
     json["weight"] = entry.weights;
     if (entry.hold_out.rows)
       json["hold_out"] = to_json(*entry.hold_out.rows);
@@ -260,8 +273,8 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   for (const RunEntry& run : experiment.runs) runs.push_back(to_json(run));
   if (!runs.empty()) add_shared_by_runs(json, runs);
   json["runs"] = std::move(runs);
-  json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)},
-                        {"max_rate", experiment.max_failure_rate}};
+  json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)}};
+  if (experiment.on_failure != OnFailure::stop) json["on_failure"]["max_rate"] = experiment.max_failure_rate;
   json["keep_evaluations"] = text::code_of(kept_evaluations_names, experiment.kept_evaluations);
   if (Json analysis = to_json(experiment.analysis); !analysis.empty()) json["analysis"] = std::move(analysis);
   if (experiment.diagnosis) json["diagnosis"] = to_json(*experiment.diagnosis);

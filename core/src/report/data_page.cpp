@@ -105,8 +105,10 @@ std::string data_page(const std::string& title, const std::vector<TestData>& tes
   Page page(title + ": data");
   for (const TestData& test : tests) {
     page.section(test.name);
-    if (!test.dataset.warnings.empty())
-      page.box("bad", test.dataset.warnings.size() == 1 ? "Warning" : "Warnings", test.dataset.warnings);
+    std::vector<std::string> warnings;
+    for (const data::Finding& finding : test.dataset.findings) warnings.push_back(finding.text);
+    warnings.insert(warnings.end(), test.dataset.warnings.begin(), test.dataset.warnings.end());
+    if (!warnings.empty()) page.box("bad", warnings.size() == 1 ? "Warning" : "Warnings", warnings);
     page.paragraph(test.words);
     for (const std::string& line : test.dataset.understood) page.paragraph(line);
     page.begin_pair();

@@ -18,6 +18,8 @@ Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross)
                     std::move(settled.base),       std::move(prepared.curves),
                     std::move(settled.fit),        std::move(prepared.warnings)};
   evidence.warnings.insert(evidence.warnings.end(), fitted.warnings.begin(), fitted.warnings.end());
+  for (const data::Finding& finding : evidence.base->layout().findings)
+    evidence.warnings.push_back({WarningKind::record, finding.text});
   for (const std::string& text : evidence.base->layout().warnings)
     evidence.warnings.push_back({WarningKind::base_model, text});
   if (!has_open_noise(evidence)) return evidence;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assembly/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "text/units.hpp"
+
+namespace tunica::assembly {
+namespace {
+
+double option_of(const experiment::TestEntry& entry, const char* name) {
+  return entry.options.has(name) ? entry.options.number(name) : 0;
+}
+
+const std::vector<double>* column_of(const data::Dataset& dataset, std::string_view name) {
+  for (const auto& [observable, values] : dataset.abscissae)
+    if (observable == name) return &values;
+  for (const data::Channel& channel : dataset.channels)
+    if (channel.observable == name) return &channel.values;
+  return nullptr;
+}
+
+/// Of two lengths of three the third follows: outer = inner + thickness.
+double unloaded_diameter(const experiment::TestEntry& entry, bool outer) {
+  const double outer_radius = option_of(entry, "outer_radius"), inner_radius = option_of(entry, "inner_radius");
+  double thickness = option_of(entry, "thickness");
+  for (const experiment::LayerEntry& layer : entry.layers) thickness += layer.thickness;
+  if (outer) return 2 * (outer_radius > 0 ? outer_radius : inner_radius + thickness);
+  return 2 * (inner_radius > 0 ? inner_radius : outer_radius - thickness);
+}
+
+void look_at_diameter(const experiment::TestEntry& entry, const data::Dataset& dataset, const std::string& name,
+                      double unloaded, std::vector<data::Finding>& findings) {
+  constexpr double without_pressure = 0.02, tolerance = 0.1;
+  const auto* const pressure = column_of(dataset, "pressure");
+  const auto* const diameter = column_of(dataset, name);
+  const auto* const stretch = column_of(dataset, "axial_stretch");
+  if (pressure == nullptr || diameter == nullptr || !(unloaded > 0)) return;
+  const double highest = *std::max_element(pressure->begin(), pressure->end());
+  for (std::size_t row = 0; row < dataset.count; ++row) {
+    if (!(std::abs((*pressure)[row]) <= without_pressure * highest) || !std::isfinite((*diameter)[row])) continue;
+    const double axial = stretch != nullptr ? (*stretch)[row] : option_of(entry, "axial_stretch");
+    if (!(axial > 0)) continue;
+    const double held = unloaded / std::sqrt(axial);
+    const double low = std::min(held, unloaded), high = std::max(held, unloaded);
+    const double found = (*diameter)[row];
+    if (found >= (1 - tolerance) * low && found <= (1 + tolerance) * high) continue;
+    findings.push_back(
+        {data::FindingKind::record_size,
+         fmt::format(
+             "line {}: without pressure '{}' is {:.4g}{}, and the unloaded tube of the file gives {:.4g}{} at an "
+             "axial stretch of {:.3g}. Are the sizes those of this tube, and radii rather than diameters?",
+             dataset.lines[row], name, found, name.ends_with("stretch") ? "" : " mm", held,
+             name.ends_with("stretch") ? "" : " mm", axial)});
+    return;
+  }
+}
+
+}  // namespace
+
+void look_at_unloaded_tube(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                           std::vector<data::Finding>& findings) {
+  look_at_diameter(entry, dataset, "outer_diameter", unloaded_diameter(entry, true), findings);
+  look_at_diameter(entry, dataset, "inner_diameter", unloaded_diameter(entry, false), findings);
+}
+
+void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                   std::vector<data::Finding>& findings) {
+  constexpr double too_much = 0.5;
+  for (const auto& [name, noise] : entry.data.noise) {
+    const auto* const values = column_of(dataset, name);
+    double low = INFINITY, high = -INFINITY;
+    for (const double value : values == nullptr ? std::vector<double>() : *values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+    if (noise.relative >= too_much)
+      findings.push_back(
+          {data::FindingKind::record_noise,
+           fmt::format("the relative noise of '{}' is {:g}, which is {:g} % of each value. For {:g} % "
+                       "write {:g}",
+                       name, noise.relative, 100 * noise.relative, noise.relative, noise.relative / 100)});
+    else if (high > low && noise.absolute >= too_much * (high - low) && noise.level.empty())
+      findings.push_back(
+          {data::FindingKind::record_noise,
+           fmt::format("the absolute noise of '{}' is {:.3g}, and the values span {:.3g} … {:.3g}: so large a noise "
+                       "explains every fit. Is its unit right?",
+                       name, noise.absolute, low, high)});
+  }
+}
+
+}  // namespace tunica::assembly

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "data/dataset.hpp"
+#include "experiment/experiment.hpp"
+
+/// What the record of a test says against the rest of its entry.
+namespace tunica::assembly {
+
+/// The diameter at zero pressure against the unloaded one of the entry. A tube that is held longer is thinner, by
+/// λz^(−1/2) where the wall keeps its volume, so anything between that and the unloaded diameter is right.
+void look_at_unloaded_tube(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                           std::vector<data::Finding>& findings);
+
+/// A stated noise as large as what was measured: 2 is 200 %.
+void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& dataset,
+                   std::vector<data::Finding>& findings);
+
+}  // namespace tunica::assembly
