@@ -48,7 +48,27 @@ TEST(Csv, QuotesWhatWouldBreakACell) {
   EXPECT_EQ(csv_cell("plain"), "plain");
   EXPECT_EQ(csv_cell("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_cell("say \"a\""), "\"say \"\"a\"\"\"");
-  EXPECT_EQ(csv_cell("two\nlines"), "two lines");
+  EXPECT_EQ(csv_cell("two\nlines"), "two\\nlines");
+}
+
+TEST(Csv, CellsActNeitherInASpreadsheetNorOnATerminal) {
+  EXPECT_EQ(csv_cell("=cmd|' /C calc'!A0"), "'=cmd|' /C calc'!A0");
+  EXPECT_EQ(csv_cell("=SUM(A1,A2)"), "\"'=SUM(A1,A2)\"");
+  EXPECT_EQ(csv_cell("@x"), "'@x");
+  EXPECT_EQ(csv_cell("+x"), "'+x");
+  EXPECT_EQ(csv_cell("-x"), "'-x");
+  EXPECT_EQ(csv_cell("-"), "-");
+  EXPECT_EQ(csv_cell("red\033[31m"), "red\\x1b[31m");
+  EXPECT_EQ(csv_cell("\u202Egnp"), "\\u202egnp");
+  EXPECT_NE(csv_cell("a\nb"), csv_cell("a\rb"));
+  for (const char* number : {"-1", "+3.5", "-1.5e-3", "-.5", "+1E+9", "-inf", "12"})
+    EXPECT_EQ(csv_cell(number), number);
+  for (const char* formula : {"-1+1", "-1e", "-1.2.3", "-e5"}) EXPECT_EQ(csv_cell(formula), std::string("'") + formula);
+}
+
+TEST(Csv, CellsReadBack) {
+  for (const char* text : {"=1+1", "'=1+1", "''", "plain", "-5", "-x", "'", "", "'quoted'"})
+    EXPECT_EQ(cell_text(csv_cell(text)), text);
 }
 
 TEST(Terminal, WritesTimesAsClocksDo) {

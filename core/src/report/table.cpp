@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "text/csv.hpp"
 #include "text/units.hpp"
 #include "tunica/error.hpp"
 
@@ -28,6 +29,8 @@ std::optional<Table> Table::read(const std::filesystem::path& file, std::string&
       if (text[at] != '#' && text[at] != '\n') ++lines;
     if (lines < 2) return std::nullopt;
     table.csv_ = data::parse_csv(file, text);
+    for (auto& row : table.csv_.rows)
+      for (std::string& cell : row.cells) cell = std::string(text::cell_text(cell));
     return table;
   } catch (const std::exception& reason) {
     problem = reason.what();

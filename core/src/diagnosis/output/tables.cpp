@@ -8,6 +8,7 @@
 #include "diagnosis/naming/credible.hpp"
 #include "diagnosis/output/outputs.hpp"
 #include "execution/files.hpp"
+#include "text/csv.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -102,9 +103,9 @@ std::string residual_table(const Evidence& evidence, const assembly::Assembly* e
       };
       text += fmt::format(
           "{},{},{},{:.8g},{},{},{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}", view.test, view.observable,
-          view.file_row(row), over.values[row], over.unit, over.name, over.curves.empty() ? "" : over.curves[row],
-          view.unit, view.measured[row], base[view.offset + row],
-          extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
+          view.file_row(row), over.values[row], over.unit, over.name,
+          over.curves.empty() ? "" : text::csv_cell(over.curves[row]), view.unit, view.measured[row],
+          base[view.offset + row], extended.empty() ? "" : fmt::format("{:.8g}", extended[view.offset + row]), sd[k],
           residual(base, evidence.fit), fit != nullptr ? fmt::format("{:.6g}", residual(extended, *fit)) : "");
       for (const auto& [name, values] : signatures) text += fmt::format(",{:.6g}", values[i]);
       text += '\n';
