@@ -37,6 +37,16 @@ TEST(Specimens, CalledLikeUnitsAreSpecimens) {
   EXPECT_EQ(table.specimens[0].line, 2U);
 }
 
+TEST(Specimens, FoldersHaveRoomForAFileName) {
+  const std::string longest(300, 'x');
+  const SpecimenTable table =
+      table_of("id,treatment,width [mm]\n" + longest + "a,control,5\n" + longest + "b,treated,5\nc,control,5\n");
+  ASSERT_EQ(table.specimens.size(), 3U);
+  EXPECT_NE(table.specimens[0].folder, table.specimens[1].folder);
+  for (const Specimen& specimen : table.specimens) EXPECT_LT(specimen.folder.size(), 120U);
+  EXPECT_EQ(table.specimens[2].folder, "c");
+}
+
 TEST(Specimens, BeginUnderTheFirstLine) {
   const SpecimenTable table = table_of("id,treatment,width\na,x,unknown\nb,y,2\nc,x,3\nd,y,4\n");
   EXPECT_EQ(table.specimens.size(), 4U);

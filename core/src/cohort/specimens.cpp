@@ -15,10 +15,11 @@ namespace tunica::cohort {
 
 namespace {
 
-/// Letters, digits, '-', '_' and '.' stay; an id that had to change gets the beginning of its hash, so that two ids
-/// never share a folder.
+/// Letters, digits, '-', '_' and '.' stay, and as many of them as a file name has room for beside endings. An id that
+/// had to change gets the beginning of its hash, so that two ids never share a folder.
 std::string folder_of(const std::string& id) {
-  std::string name = id;
+  constexpr std::size_t longest = 100;
+  std::string name = id.substr(0, longest);
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("-_.").find(c) == std::string_view::npos)
       c = '-';
