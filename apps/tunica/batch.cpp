@@ -29,6 +29,9 @@ int run_batch(
   std::vector<std::filesystem::path> all, cases;
   for (const auto& entry : std::filesystem::directory_iterator(batch.root))
     if (std::filesystem::exists(entry.path() / "experiment.json")) all.push_back(entry.path());
+  if (all.empty())
+    throw InputError(
+        fmt::format("--batch {}: holds no folder with an experiment.json. Name one that does", batch.root.string()));
   std::sort(all.begin(), all.end());
   for (std::size_t k = 0; k < all.size(); ++k)
     if (share.holds(k) && !std::filesystem::exists(into / all[k].filename() / "result.json")) cases.push_back(all[k]);

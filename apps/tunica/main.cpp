@@ -56,6 +56,16 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
   }
 }
 
+/// An option with nothing behind it is a variable of a script that was never set; what it would mean is a guess.
+void check_values(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.empty())
+        throw InputError(
+            fmt::format("{}: found an empty value. Give one, or leave the option out", option->get_name()));
+  for (const CLI::App* verb : app.get_subcommands()) check_values(*verb);
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Finds the material parameters of soft tissue and rubber from mechanical tests, and compares models and "
@@ -109,6 +119,7 @@ int run(int argc, char** argv) {
     say_error(command_line_error(app, problem));
     return invalid_input;
   }
+  check_values(app);
   const int code = action();
   flush_answer();
   return code;

@@ -55,6 +55,33 @@ TEST(HostileInput, CountsOnTheCommandLine) {
   }
 }
 
+TEST(HostileInput, EmptyValuesOfOptions) {
+  const trial::Bench bench;
+  for (const char* option : {"--shard", "-o", "--plugin-path"}) {
+    const auto ended = bench.tunica({"run", "experiment.json", option, ""});
+    EXPECT_EQ(ended.code, 2) << option;
+    EXPECT_THAT(ended.err, HasSubstr("empty")) << option;
+    EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
+  }
+}
+
+TEST(HostileInput, BatchOfAFolderWithoutCases) {
+  const trial::Bench bench;
+  std::filesystem::create_directory(bench.path("cases"));
+  const auto ended = bench.tunica({"diagnose", "--batch", "cases"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("holds no folder with an experiment.json"));
+}
+
+TEST(HostileInput, ZeroByteInTheNameOfAFile) {
+  trial::Bench bench;
+  for (auto& [name, test] : bench.experiment["tests"].items()) {
+    auto& file = test["data"]["file"];
+    if (file.is_string()) file = file.get<std::string>() + std::string("\0.csv", 5);
+  }
+  EXPECT_THAT(refusal_of(bench), HasSubstr("a zero byte stands in the name of the file"));
+}
+
 // Sanitizers reserve more memory than any limit leaves them.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Realisations that the schema allows, where a process may have 600 MB.
