@@ -100,7 +100,9 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
+  execution::NewResults results(directory);
   write_diagnosis(directory.path(), found, experiment, session.catalogue());
+  results.complete();
   const std::vector<diagnosis::Warning> warnings = found.diagnosis.warnings();
   for (const diagnosis::Warning& warning : warnings) answer("{}\n", text::hanging("warning: ", warning.text));
   if (!warnings.empty()) answer("\n");

@@ -94,7 +94,9 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
+  execution::NewResults results(output.directory);
   const bool extended = write_discovery(output.directory.path(), found, experiment, session.catalogue());
+  results.complete();
   tell(found.warnings);
   const auto page = report::write_report(output.directory.path());
   answer("{}\nReport:   {}\nResults:  {}\n", discovery::summary(found).shown_on(answer_descriptor()), page.string(),
@@ -135,7 +137,9 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
   const std::filesystem::path& folder = output.directory.path();
+  execution::NewResults results(output.directory);
   write_cohort_discovery(folder, *study, specification, table, session.catalogue());
+  results.complete();
   tell(study->found.warnings);
   const auto page = report::write_report(folder);
   answer("{}\nReport:   {}\nResults:  {}\n", cohort::discovery_words(*study).shown_on(answer_descriptor()),

@@ -42,8 +42,10 @@ int simulate(const GlobalOptions& global, const SimulateOptions& options) {
   const auto simulation =
       comparison::simulate_with_fields(experiment, session.catalogue(), request, subject, options.fields);
   const auto directory = execution::RunDirectory::create(std::filesystem::path(options.directory), experiment.name);
-  for (const auto& file : comparison::write_simulation(directory.path(), experiment, request, subject, simulation))
-    answer("{}\n", file.string());
+  execution::NewResults results(directory);
+  const auto files = comparison::write_simulation(directory.path(), experiment, request, subject, simulation);
+  results.complete();
+  for (const auto& file : files) answer("{}\n", file.string());
   answer("{}\n", report::write_report(directory.path()).string());
   return done;
 }

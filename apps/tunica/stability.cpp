@@ -96,9 +96,12 @@ int stability(const GlobalOptions& global, const StabilityOptions& options) {
   for (const auto& warning : subject.warnings) say_wrapped_warning(warning);
   const auto found = comparison::stability_of(*subject.assembly, subject.free, to);
   std::vector<std::string> files;
-  if (directory)
+  if (directory) {
+    execution::NewResults results(*directory);
     for (const auto& file : comparison::write_stability(directory->path(), subject, to, map))
       files.push_back(file.string());
+    results.complete();
+  }
   if (options.as_json)
     print_json(json_of(subject, found, files));
   else

@@ -2,8 +2,10 @@
 #include "execution/files.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -11,6 +13,7 @@
 #include <unistd.h>
 
 #include "execution/folder.hpp"
+#include "execution/run_directory.hpp"
 #include "tunica/error.hpp"
 
 using namespace tunica;
@@ -25,6 +28,54 @@ TEST(Files, AreReplacedWholeOrNotAtAll) {
   EXPECT_EQ(trial::text_of(file), "new");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "a temporary file is left";
   EXPECT_THROW(execution::write_atomically(folder.path() / "missing" / "file", "text"), WriteFailure);
+}
+
+TEST(Files, KnowWhenAnotherOneHasTakenTheirPlace) {
+  const trial::Folder folder;
+  AppendFile file(folder.path() / "rows"), other(folder.path() / "other");
+  file.append("one\n");
+  const int spare = ::dup(file.descriptor());
+  ASSERT_GE(::dup2(other.descriptor(), file.descriptor()), 0);
+  EXPECT_THAT(trial::message_of<WriteFailure>([&] { file.append("two\n"); }),
+              HasSubstr("put another one in its place"));
+  EXPECT_EQ(trial::text_of(folder.path() / "other"), "");
+  ASSERT_GE(::dup2(spare, file.descriptor()), 0);
+  file.append("three\n");
+  ::close(file.descriptor());
+  EXPECT_THAT(trial::message_of<WriteFailure>([&] { file.sync(); }), HasSubstr("has closed the file"));
+  ::close(spare);
+  EXPECT_EQ(trial::text_of(folder.path() / "rows"), "one\nthree\n");
+}
+
+TEST(Files, OfNewResultsAreAllThereOrNone) {
+  const trial::Folder folder;
+  for (const bool was_there : {false, true})
+    for (const bool complete : {false, true}) {
+      const auto path = folder.path() / (std::string(was_there ? "old" : "new") + (complete ? "whole" : "half"));
+      if (was_there) std::filesystem::create_directory(path);
+      {
+        const auto directory = execution::RunDirectory::create(path, "x");
+        execution::NewResults results(directory);
+        execution::write_atomically(path / "result.json", "{}");
+        if (complete) results.complete();
+      }
+      EXPECT_EQ(std::filesystem::exists(path / "result.json"), complete);
+      EXPECT_EQ(std::filesystem::exists(path), was_there || complete);
+    }
+}
+
+TEST(Files, LocksAreNotInherited) {
+  const trial::Folder folder;
+  const auto path = folder.path() / "run";
+  std::optional<execution::RunDirectory> held(execution::RunDirectory::create(path, "x"));
+  const pid_t child = ::fork();
+  if (child == 0)
+    for (;;) ::pause();
+  EXPECT_THROW(execution::RunDirectory::reopen(path, "x"), InputError);
+  held.reset();
+  EXPECT_NO_THROW(execution::RunDirectory::reopen(path, "x"));
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
 }
 
 TEST(Files, AreNeverWrittenThroughALink) {

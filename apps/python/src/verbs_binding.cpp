@@ -109,7 +109,9 @@ py::dict simulate(const Loaded& loaded, const std::string& model, const Folder& 
     simulation = comparison::simulate_with_fields(loaded.experiment, *loaded.catalogue, request, subject, fields);
     if (directory) {
       const auto folder = execution::RunDirectory::create(std::filesystem::path(*directory), loaded.experiment.name);
+      execution::NewResults results(folder);
       comparison::write_simulation(folder.path(), loaded.experiment, request, subject, simulation);
+      results.complete();
       report::write_report(folder.path());
     }
   }

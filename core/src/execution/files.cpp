@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "data/read_bytes.hpp"
@@ -64,21 +65,41 @@ std::pair<std::filesystem::path, int> open_temporary(const std::filesystem::path
 WriteFailure::WriteFailure(const std::filesystem::path& file, int error)
     : std::runtime_error(describe_failure(file, error)) {}
 
+WriteFailure::WriteFailure(const std::filesystem::path& file, const std::string& words)
+    : std::runtime_error(fmt::format("{}: cannot write: {}", file.string(), words)) {}
+
 AppendFile::AppendFile(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code unknown;
   listed_ = std::filesystem::exists(file_, unknown);
   descriptor_ = open_to_write(file_, O_APPEND);
-  if (descriptor_ < 0) throw WriteFailure(file_, errno);
+  struct stat status {};
+  if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) throw WriteFailure(file_, errno);
+  device_ = status.st_dev;
+  inode_ = status.st_ino;
+}
+
+void AppendFile::check_descriptor() const {
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0 && status.st_dev == device_ && status.st_ino == inode_) return;
+  throw WriteFailure(file_,
+                     std::string("something in the process, which a plugin can only be, has closed the file or put "
+                                 "another one in its place. Take that plugin out, or report this to its author"));
 }
 
 AppendFile::AppendFile(AppendFile&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)), listed_(other.listed_) {}
+    : file_(std::move(other.file_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      device_(other.device_),
+      inode_(other.inode_),
+      listed_(other.listed_) {}
 
 AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
   if (this != &other) {
     close();
     file_ = std::move(other.file_);
     descriptor_ = std::exchange(other.descriptor_, -1);
+    device_ = other.device_;
+    inode_ = other.inode_;
     listed_ = other.listed_;
   }
   return *this;
@@ -86,15 +107,20 @@ AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
 
 AppendFile::~AppendFile() { close(); }
 
-void AppendFile::append(std::string_view text) { write_all(descriptor_, text, file_); }
+void AppendFile::append(std::string_view text) {
+  check_descriptor();
+  write_all(descriptor_, text, file_);
+}
 
 void AppendFile::sync() {
   if (!is_open()) return;
+  check_descriptor();
   if (::fdatasync(descriptor_) != 0 && !cannot_sync(errno)) throw WriteFailure(file_, errno);
   if (!std::exchange(listed_, true)) sync_folder(file_.parent_path());
 }
 
 void AppendFile::cut(std::uintmax_t size) {
+  check_descriptor();
   int done = 0;
   do done = ::ftruncate(descriptor_, static_cast<off_t>(size));
   while (done != 0 && errno == EINTR);
@@ -102,7 +128,12 @@ void AppendFile::cut(std::uintmax_t size) {
 }
 
 void AppendFile::close() {
-  if (is_open()) ::close(std::exchange(descriptor_, -1));
+  struct stat status {};
+  // What is under the number of a descriptor that a plugin has closed is somebody else's.
+  const bool own =
+      is_open() && ::fstat(descriptor_, &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
+  if (own) ::close(descriptor_);
+  descriptor_ = -1;
 }
 
 void sync_folder(const std::filesystem::path& folder) {

@@ -15,9 +15,11 @@ namespace tunica::execution {
 class WriteFailure : public std::runtime_error {
  public:
   WriteFailure(const std::filesystem::path& file, int error);
+  WriteFailure(const std::filesystem::path& file, const std::string& words);
 };
 
-/// A file that grows at its end. Every call either writes everything or throws WriteFailure. Not thread-safe. A
+/// A file that grows at its end. Every call either writes everything or throws WriteFailure: also where a plugin has
+/// closed its descriptor, or made it that of another file, whose rows would be lost without a word. Not thread-safe. A
 /// symbolic link under its name is refused: it could lead the rows into any file of the user.
 class AppendFile {
  public:
@@ -38,9 +40,12 @@ class AppendFile {
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
+  void check_descriptor() const;
+
   std::filesystem::path file_;
   int descriptor_ = -1;
-  bool listed_ = false;  ///< its folder has the name for good
+  std::uint64_t device_ = 0, inode_ = 0;  ///< of what was opened
+  bool listed_ = false;                   ///< its folder has the name for good
 };
 
 /// Replaces a file in one step: temporary file in the same folder, fsync, rename, fsync of the folder. Whoever reads

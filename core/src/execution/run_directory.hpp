@@ -21,11 +21,29 @@ class RunDirectory {
   ~RunDirectory();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// It was made here.
+  [[nodiscard]] bool is_new() const { return is_new_; }
 
  private:
   explicit RunDirectory(std::filesystem::path path);
   std::filesystem::path path_;
   int lock_ = -1;
+  bool is_new_ = false;
+};
+
+/// Results that are written into a new folder at once, not resumed. Where that does not come to its end, for want of
+/// space or for an error, nothing is left: half a folder would stand in the way of the same command.
+class NewResults {
+ public:
+  explicit NewResults(const RunDirectory& directory) : directory_(directory) {}
+  ~NewResults();
+  NewResults(const NewResults&) = delete;
+  NewResults& operator=(const NewResults&) = delete;
+  void complete() { complete_ = true; }
+
+ private:
+  const RunDirectory& directory_;
+  bool complete_ = false;
 };
 
 }  // namespace tunica::execution
