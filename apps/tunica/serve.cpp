@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -16,7 +17,9 @@
 #include "execution/plan.hpp"
 #include "exit_codes.hpp"
 #include "http_server.hpp"
+#include "listening_socket.hpp"
 #include "serving/um_bridge.hpp"
+#include "supervisor.hpp"
 #include "text/aside.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
@@ -42,6 +45,15 @@ const execution::PlannedRun& chosen(const execution::Plan& plan, const std::stri
   throw InputError(fmt::format("--run: there is no run '{}'. {}", label, data::suggestion(label, labels)));
 }
 
+/// The parameters and a vector as long as an output, with room for how a program writes numbers.
+std::size_t largest_body(const serving::ServedRun& served) {
+  constexpr std::size_t number = 64;  // bytes
+  std::size_t longest = 0;
+  for (const auto function : {serving::ServedRun::Function::residuals, serving::ServedRun::Function::predictions})
+    for (const std::size_t size : served.output_sizes(function)) longest = std::max(longest, size);
+  return number * (longest + served.input_size());
+}
+
 int serve(const GlobalOptions& global, const ServeOptions& options) {
   const Session session(global);
   const auto experiment = session.read(options.file);
@@ -54,6 +66,7 @@ int serve(const GlobalOptions& global, const ServeOptions& options) {
   service.host = options.host;
   service.port = options.port;
   service.threads = options.threads;
+  service.largest_body = largest_body(served);
   service.got = {"/Info"};
   service.posted = serving::posted_paths();
   service.answer = [&served](const std::string& path, const std::string& body) -> HttpReply {
@@ -63,8 +76,10 @@ int serve(const GlobalOptions& global, const ServeOptions& options) {
   service.listening = [&](int port) {
     std::vector<std::string> names;
     for (const auto& parameter : served.layout().parameters) names.push_back(parameter.name);
-    answer("http://{}:{}\n", options.host, port);
+    if (supervised::successor()) return;  // it is said
+    answer("http://{}:{}\n", in_url(options.host), port);
     flush_answer();
+    supervised::serves();
     text::aside("{}: objective, residuals and predictions of {}; Ctrl-C ends it\n", run.label, fmt::join(names, ", "));
     std::vector<std::string> others;
     for (const auto& other : plan.runs)

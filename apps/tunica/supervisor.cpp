@@ -6,18 +6,23 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <new>
 #include <span>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,14 +39,17 @@ using Path = std::array<char, 4096>;
 /// The memory that the supervisor shares with its children.
 struct Shared {
   plugins::CasualtyList casualties;
-  std::atomic<bool> finished = false;  ///< work() came to its end; `code` is what it returned
+  std::atomic<std::uint64_t> finished = 0;  ///< `the_end`: work() came to its end; `code` is what it returned
   std::atomic<int> code = 0;
-  std::atomic<bool> answered = false;
+  std::atomic<bool> answered = false, serves = false;
   std::atomic<unsigned> generation = 0;  ///< children before this one
   Path resumable = {}, disposable = {};
   std::array<Path, 4> unfinished = {};
 };
+constexpr std::uint64_t the_end = 0x746865'20656e64;  // what junk hardly is
 Shared* common = nullptr;
+/// A descriptor that was sent and not received stays open: that is where one is parked.
+std::array<int, 2> parking{-1, -1};
 
 constexpr std::array passed_on{SIGINT, SIGTERM, SIGHUP};
 constexpr unsigned patience = 5;  // s, from the first signal to the end of a child that does not answer
@@ -107,7 +115,7 @@ void copy(Path& to, const std::filesystem::path& from) {
   if (::getppid() != parent) ::_exit(internal_error);
   plugins::casualties = &common->casualties;
   common->code = work();
-  common->finished = true;
+  common->finished = the_end;
   leave(common->code);
 }
 
@@ -137,6 +145,13 @@ bool is_fault(int number) {
   return std::find(faults.begin(), faults.end(), number) != faults.end();
 }
 
+/// A plugin may have written anything anywhere: texts end, whatever is in them.
+void end_texts() {
+  for (plugins::Casualty& one : common->casualties.entries) one.plugin.back() = one.what.back() = one.end.back() = 0;
+  for (Path* path : {&common->resumable, &common->disposable}) path->back() = 0;
+  for (Path& path : common->unfinished) path.back() = 0;
+}
+
 /// Takes away what the child had begun and another one begins anew.
 void remove_unfinished() {
   std::error_code left;
@@ -149,6 +164,9 @@ void remove_unfinished() {
   }
   common->disposable.front() = 0;
 }
+
+/// A successor would print again what was printed.
+bool has_answered() { return common->answered && !common->serves; }
 
 /// The first few are told as they are; a plugin that goes on like that is told of once more.
 void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
@@ -192,6 +210,29 @@ void say_unexplained(int status) {
                   end));
 }
 
+/// The kernel's list of the children of this process; it has one thread.
+std::vector<pid_t> children() {
+  std::ifstream list(fmt::format("/proc/self/task/{}/children", ::getpid()));
+  return {std::istream_iterator<pid_t>(list), {}};
+}
+
+/// Ends what plugins have begun and left behind: a subreaper becomes the parent of all of it. What tidies up after its
+/// work, as the keepers of solvers do, has a moment for it.
+void end_orphans() {
+  constexpr int moments = 100;
+  constexpr timespec moment{0, 10'000'000};
+  for (int k = 0;; ++k) {
+    pid_t ended = 0;
+    while ((ended = ::waitpid(-1, nullptr, WNOHANG)) > 0) {
+    }
+    if (ended < 0) return;  // none is left
+    if (k >= moments)
+      for (const pid_t orphan : children()) ::kill(orphan, SIGKILL);
+    if (k > moments + 20) return;  // one that cannot be ended: it waits for a device
+    ::nanosleep(&moment, nullptr);
+  }
+}
+
 int wait_for(pid_t process) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -207,6 +248,8 @@ int supervise(const std::function<int()>& work) {
   common = new (memory) Shared();
   for (const int number : passed_on) handle(number, pass_on);
   handle(SIGALRM, on_alarm);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+  if (::socketpair(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0, parking.data()) != 0) parking = {-1, -1};
   for (;; ++common->generation) {
     const unsigned before = common->casualties.size(), leaks = common->casualties.leaks;
     const pid_t process = start(work);
@@ -214,17 +257,22 @@ int supervise(const std::function<int()>& work) {
     const int status = wait_for(process);
     worker = 0;
     ::alarm(0);
-    if (common->finished) return common->code;
+    end_orphans();
+    if (common->finished == the_end) return common->code;
+    end_texts();
     const bool of_plugin = common->casualties.size() > before, leaked = common->casualties.leaks > leaks;
     if (WIFEXITED(status) && WEXITSTATUS(status) == interrupted && !of_plugin) return interrupted;
-    if (WIFSIGNALED(status) && !is_fault(WTERMSIG(status))) end_by(WTERMSIG(status));
+    if (WIFSIGNALED(status) && !is_fault(WTERMSIG(status))) {
+      if (asked_to_stop == 0 && WTERMSIG(status) != SIGPIPE) say_unexplained(status);
+      end_by(WTERMSIG(status));
+    }
     remove_unfinished();
     if (asked_to_stop != 0) {
       say_error("ended in the middle of a calculation that did not stop; what was saved is kept");
       return interrupted;
     }
     if (!of_plugin && leaked) {
-      const bool goes_on = !common->answered && common->casualties.leaks <= plugins::CasualtyList::most_leaks;
+      const bool goes_on = !has_answered() && common->casualties.leaks <= plugins::CasualtyList::most_leaks;
       say_leak(goes_on);
       if (goes_on) continue;
       return internal_error;
@@ -233,7 +281,7 @@ int supervise(const std::function<int()>& work) {
       say_unexplained(status);
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : internal_error;
     }
-    const bool goes_on = !common->answered && common->casualties.size() < common->casualties.entries.size();
+    const bool goes_on = !has_answered() && common->casualties.size() < common->casualties.entries.size();
     say_what_fell(common->casualties.entries[before], goes_on);
     if (!goes_on) return internal_error;
   }
@@ -260,6 +308,44 @@ void unfinished(const std::filesystem::path& results, const std::vector<std::fil
 
 void answered() {
   if (common != nullptr) common->answered = true;
+}
+
+void serves() {
+  if (common != nullptr) common->serves = true;
+}
+
+namespace {
+
+/// A message that carries one descriptor.
+struct Parcel {
+  char byte = 0;
+  iovec content{&byte, 1};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control = {};
+  msghdr message{nullptr, 0, &content, 1, control.data(), control.size(), 0};
+};
+
+}  // namespace
+
+void park(int descriptor) {
+  if (common == nullptr) return;
+  Parcel parcel;
+  cmsghdr* header = CMSG_FIRSTHDR(&parcel.message);
+  header->cmsg_level = SOL_SOCKET;
+  header->cmsg_type = SCM_RIGHTS;
+  header->cmsg_len = CMSG_LEN(sizeof descriptor);
+  std::memcpy(CMSG_DATA(header), &descriptor, sizeof descriptor);
+  ::sendmsg(parking[0], &parcel.message, MSG_NOSIGNAL);
+}
+
+int parked() {
+  if (common == nullptr) return -1;
+  Parcel parcel;
+  if (::recvmsg(parking[1], &parcel.message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC) <= 0) return -1;
+  const cmsghdr* header = CMSG_FIRSTHDR(&parcel.message);
+  if (header == nullptr || header->cmsg_type != SCM_RIGHTS) return -1;
+  int descriptor = -1;
+  std::memcpy(&descriptor, CMSG_DATA(header), sizeof descriptor);
+  return descriptor;
 }
 
 }  // namespace supervised

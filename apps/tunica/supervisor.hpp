@@ -28,6 +28,12 @@ std::filesystem::path resumable_folder();
 void unfinished(const std::filesystem::path& results, const std::vector<std::filesystem::path>& made);
 /// Something was printed that a successor would print again: there must be none.
 void answered();
+/// What was printed is where the process can be asked: a successor goes on without printing it.
+void serves();
+/// Keeps a descriptor for a successor.
+void park(int descriptor);
+/// The one of the predecessor, or -1.
+int parked();
 
 }  // namespace supervised
 }  // namespace tunica::app

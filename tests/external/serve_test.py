@@ -111,6 +111,48 @@ try:
     assert refusal("/ApplyHessian", {"name": "objective"})["type"] == "UnsupportedFeature"
     assert "outWrt" in refusal("/Gradient", {"name": "objective", "outWrt": 3, "inWrt": 0, "input": [[1]]})["message"]
 
+    # What a page of somebody else could send, through a browser or a name that leads here.
+    def raw(lines, body=b""):
+        with socket.create_connection(("127.0.0.1", port), timeout=20) as client:
+            try:
+                client.sendall("\r\n".join([*lines, "", ""]).encode() + body)
+            except OSError:
+                pass  # it was refused before all of it was sent
+            answer = b""
+            try:
+                while b"\r\n\r\n" not in answer and (more := client.recv(4096)):
+                    answer += more
+            except OSError:
+                pass
+            return answer.split(b"\r\n")[0].decode()
+
+    own = f"Host: 127.0.0.1:{port}"
+    for lines, status in (([own], " 200 "), ([f"Host: localhost:{port}", "Origin: http://localhost:8080"], " 200 "),
+                          (["Host: [::1]"], " 200 "), (["Host: rebound.example"], " 403 "),
+                          (["Host: 10.1.2.3"], " 403 "), ([own, "Origin: https://else.example"], " 403 "),
+                          ([own, "Origin: null"], " 403 ")):
+        assert status in raw(["GET /Info HTTP/1.1", *lines]), (lines, raw(["GET /Info HTTP/1.1", *lines]))
+    assert " 403 " in raw(["POST /Evaluate HTTP/1.1", "Host: rebound.example", "Content-Length: 2"], b"{}")
+
+    # Heads and bodies without end, compressed ones, and depth: refused, or the connection is closed.
+    def resident():
+        children = pathlib.Path(f"/proc/{server.pid}/task/{server.pid}/children").read_text().split()
+        return sum(int(pathlib.Path(f"/proc/{one}/statm").read_text().split()[1]) * 4096 for one in children)
+    before = resident()
+    many = [f"X-{k}: {'x' * 900}" for k in range(20000)]
+    assert " 200 " not in raw(["GET /Info HTTP/1.1", own, *many])
+    assert " 200 " not in raw(["GET /Info HTTP/1.1", own, "X: " + "x" * 20_000_000])
+    post = ["POST /Evaluate HTTP/1.1", own]
+    chunk = b"10000\r\n" + b" " * 0x10000 + b"\r\n"
+    assert " 200 " not in raw([*post, "Transfer-Encoding: chunked"], 400 * chunk)
+    assert " 200 " not in raw([*post, "Content-Length: 900000000000"], b" " * 20_000_000)
+    assert " 415 " in raw([*post, "Content-Encoding: gzip", "Content-Length: 2"], b"{}")
+    raw(["GET /Info HTTP/1.1", own, "Range: bytes=" + "0-," * 2000 + "0-"])  # no answer a range, and no crash
+    assert resident() - before < 64 << 20, resident() - before
+    deep = refusal("/Evaluate", b'{"name":' + b"[" * 20000 + b"]" * 20000 + b"}")["message"]
+    assert "64 levels" in deep, deep
+    assert ask("/Info")["protocolVersion"] == 1.0
+
     # The port is taken.
     found = run("serve", "direct.json", "--port", str(port))
     assert found.returncode == 2 and "in use" in found.stderr, (found.returncode, found.stderr)
@@ -134,6 +176,19 @@ try:
 finally:
     server.send_signal(signal.SIGINT)
     assert server.wait(20) == 0
+
+# IPv6, where the machine has it: an address has brackets.
+if socket.has_ipv6 and pathlib.Path("/proc/net/if_inet6").exists() and pathlib.Path("/proc/net/if_inet6").read_text():
+    server = subprocess.Popen([tunica, "--plugin-path", plugins, "serve", "direct.json", "--port", "0", "--host", "::1"],
+                              cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    url = server.stdout.readline().strip()
+    assert url.startswith("http://[::1]:"), url
+    with urllib.request.urlopen(url + "/Info", timeout=20) as answer:
+        assert answer.status == 200
+    server.send_signal(signal.SIGINT)
+    assert server.wait(20) == 0
+found = run("serve", "direct.json", "--host", "no.such.host.invalid")
+assert found.returncode == 2 and "--host" in found.stderr, found.stderr
 
 found = run("run", "client.json", "-o", "gone")
 assert found.returncode == 2 and "cannot be reached" in found.stderr, found.stderr

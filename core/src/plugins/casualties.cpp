@@ -27,15 +27,26 @@ CallKey::CallKey(std::string_view plugin, std::string_view what) {
   for (const char c : what) add(static_cast<unsigned char>(c));
 }
 
-void CasualtyList::add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds) {
+void CasualtyList::add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds,
+                       unsigned weight) {
   const unsigned place = count.fetch_add(1);
-  if (place >= entries.size()) return;
+  if (place >= entries.size()) {
+    if (at_end_of_process != nullptr) at_end_of_process(nullptr);
+    return;
+  }
   Casualty& entry = entries[place];
   entry.key = key;
+  entry.weight = seconds > 0 ? std::max(weight, weight_of_hang) : weight;
   entry.seconds = seconds;
   copy(entry.plugin, plugin);
   copy(entry.what, what);
   copy(entry.end, end);
+  if (at_end_of_process != nullptr) at_end_of_process(&entry);
+}
+
+void CasualtyList::add_leak() {
+  leaks.fetch_add(1);
+  if (at_end_of_process != nullptr) at_end_of_process(nullptr);
 }
 
 unsigned CasualtyList::size() const { return std::min(count.load(), static_cast<unsigned>(entries.size())); }
@@ -43,8 +54,7 @@ unsigned CasualtyList::size() const { return std::min(count.load(), static_cast<
 unsigned CasualtyList::weight(std::string_view plugin) const {
   unsigned found = 0;
   for (const Casualty& entry : std::span(entries).first(size()))
-    if (plugin.substr(0, entry.plugin.size() - 1) == entry.plugin.data())
-      found += entry.seconds > 0 ? weight_of_hang : 1;
+    if (plugin.substr(0, entry.plugin.size() - 1) == entry.plugin.data()) found += entry.weight;
   return found;
 }
 

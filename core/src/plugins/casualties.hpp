@@ -36,6 +36,7 @@ class CallKey {
 /// One such call. Texts end with 0; longer ones are cut.
 struct Casualty {
   std::uint64_t key = 0;
+  unsigned weight = 1;               ///< see CasualtyList::most_of_one_plugin
   double seconds = 0;                ///< that it took before it was given up
   std::array<char, 96> plugin = {};  ///< as Catalogue::Entry names it: "gho 0.1.0"
   std::array<char, 32> what = {};    ///< "evaluate", "predict", …
@@ -45,8 +46,9 @@ struct Casualty {
 /// The list, in memory that a process shares with its successors. Signal handlers write to it, so nothing in it
 /// allocates or locks.
 struct CasualtyList {
-  /// A plugin that ended this many processes is not evaluated again; calls that hang cost time, and count more.
-  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2;
+  /// A plugin that ended this many processes is not evaluated again; calls that hang or take the memory cost time, and
+  /// count more.
+  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 5;
 
   /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
   static constexpr unsigned most_leaks = 20;
@@ -54,13 +56,18 @@ struct CasualtyList {
   std::atomic<unsigned> count = 0, leaks = 0;
   std::array<Casualty, 64> entries = {};
 
-  void add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds);
-  void add_leak() { leaks.fetch_add(1); }
+  void add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds,
+           unsigned weight = 1);
+  void add_leak();
   [[nodiscard]] unsigned size() const;
   /// How many of a plugin, hangs weighted.
   [[nodiscard]] unsigned weight(std::string_view plugin) const;
   [[nodiscard]] const Casualty* find(std::uint64_t key) const;
 };
+
+/// Called when an entry was made, or null for a leak: the process ends at once. In signal handlers: nothing that
+/// allocates or locks.
+inline void (*at_end_of_process)(const Casualty* entry) = nullptr;
 
 /// The list of this process, or null where nobody takes up its work.
 inline CasualtyList* casualties = nullptr;

@@ -122,7 +122,16 @@ Json described(const ServedRun& run) {
 
 Json response(const ServedRun& run, std::string_view path, const std::string& body) {
   if (path == "/Info") return {{"protocolVersion", 1.0}, {"models", names()}};
-  const Json request = Json::parse(body, nullptr, false);
+  constexpr int deepest = 64;  // levels; a request has three
+  bool too_deep = false;
+  const Json request = Json::parse(
+      body,
+      [&too_deep](int depth, Json::parse_event_t, Json&) {
+        too_deep = too_deep || depth > deepest;
+        return !too_deep;
+      },
+      false);
+  if (too_deep) throw Refusal("InvalidInput", fmt::format("the request is nested more than {} levels deep", deepest));
   if (!request.is_object()) throw Refusal("InvalidInput", "the request is no JSON object");
   if (path == "/Evaluate") return evaluated(run, request);
   if (path == "/Gradient") return applied(run, request, true);
