@@ -61,7 +61,8 @@ class Server final : public httplib::Server {
     bool closed = false;
     while (!closed && !here.is_spent() && here.wait_for_request(service_.over))
       if (!process_request(here, false, closed, [&here](httplib::Request& request) {
-            request.ranges.clear();  // many of them would multiply the answer
+            request.ranges.clear();                 // many of them would multiply the answer
+            request.headers.erase("Content-Type");  // a form would be taken apart, and has a limit of its own
             here.begin_body();
           }))
         break;

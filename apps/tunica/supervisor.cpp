@@ -210,25 +210,34 @@ void say_unexplained(int status) {
                   end));
 }
 
-/// The kernel's list of the children of this process; it has one thread.
-std::vector<pid_t> children() {
-  std::ifstream list(fmt::format("/proc/self/task/{}/children", ::getpid()));
-  return {std::istream_iterator<pid_t>(list), {}};
+std::string command_of(const std::string& process) {
+  std::ifstream line("/proc/" + process + "/cmdline", std::ios::binary);
+  return {std::istreambuf_iterator<char>(line), {}};
 }
 
-/// Ends what plugins have begun and left behind: a subreaper becomes the parent of all of it. What tidies up after its
+/// Children of this process, which has one thread, that are copies of it: forked, and no program of their own since. A
+/// program that was started on purpose, by a queue for instance, is left alone.
+std::vector<pid_t> copies() {
+  std::ifstream list(fmt::format("/proc/self/task/{}/children", ::getpid()));
+  const std::string own = command_of("self");
+  std::vector<pid_t> found;
+  for (pid_t child = 0; list >> child;)
+    if (command_of(fmt::format("{}", child)) == own) found.push_back(child);
+  return found;
+}
+
+/// Ends what plugins have forked and left behind: a subreaper becomes the parent of all of it. What tidies up after its
 /// work, as the keepers of solvers do, has a moment for it.
 void end_orphans() {
   constexpr int moments = 100;
   constexpr timespec moment{0, 10'000'000};
   for (int k = 0;; ++k) {
-    pid_t ended = 0;
-    while ((ended = ::waitpid(-1, nullptr, WNOHANG)) > 0) {
+    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
-    if (ended < 0) return;  // none is left
+    const auto left = copies();
+    if (left.empty() || k > moments + 20) return;  // beyond: one that cannot be ended, for it waits for a device
     if (k >= moments)
-      for (const pid_t orphan : children()) ::kill(orphan, SIGKILL);
-    if (k > moments + 20) return;  // one that cannot be ended: it waits for a device
+      for (const pid_t copy : left) ::kill(copy, SIGKILL);
     ::nanosleep(&moment, nullptr);
   }
 }

@@ -46,7 +46,7 @@ bool made_up(int descriptor) {
 std::string read_bytes(const std::filesystem::path& file, std::size_t most) {
   const auto refuse = [&](std::string_view what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
   if (file.native().find('\0') != std::string::npos)
-    throw InputError(fmt::format("{}: a zero byte stands in the name of the file. Take it out.",
+    throw InputError(fmt::format("{}: a NUL character stands in the name of the file. Take it out.",
                                  file.string().substr(0, file.native().find('\0'))));
   // Asked before it is opened: to open a device may already do something.
   struct stat status {};

@@ -63,7 +63,7 @@ std::string folder_name(const std::string& name) {
 void refuse_zero_byte(const std::filesystem::path& path) {
   if (const auto end = path.native().find('\0'); end != std::string::npos)
     throw InputError(
-        fmt::format("{}: a zero byte stands in the name of the folder; take it out", path.string().substr(0, end)));
+        fmt::format("{}: a NUL character stands in the name of the folder; take it out", path.string().substr(0, end)));
 }
 
 /// The numbers n for which results/<folder>-<n> exists; the largest, or 0.
