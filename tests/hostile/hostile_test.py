@@ -9,6 +9,8 @@ import signal
 import sys
 import tempfile
 import time
+import urllib.error
+import urllib.request
 
 sys.dont_write_bytecode = True
 from laboratory import Program, expect, run_cases
@@ -209,6 +211,33 @@ def what_is_left_for_the_end_of_the_process_disturbs_nothing():
         expect_others_as_ever(folder, how)
 
 
+def ask(url, parameter):
+    request = json.dumps({"name": "objective", "input": [[parameter]]}).encode()
+    try:
+        with urllib.request.urlopen(urllib.request.Request(url + "/Evaluate", request), timeout=30) as answer:
+            return answer.status, answer.read().decode()
+    except urllib.error.HTTPError as problem:
+        return problem.code, problem.read().decode()
+
+
+def a_server_outlives_its_plugins():
+    for how in ("segfaults", "aborts", "exits_at_once", "loops"):
+        folder, tunica = laboratory(f"serve_{how}", how, since=700)
+        server = tunica.start("serve", "experiment.json", "--port", "0")
+        url = server.stdout.readline().strip()
+        status, before = ask(url, 12)
+        expect(status == 200, f"{how}: {before}")
+        status, said = ask(url, 800)
+        expect(status == 500 and "plugin 'hostile 1.0.0'" in json.loads(said)["error"]["message"], f"{how}: {said}")
+        status, after = ask(url, 12)
+        expect((status, after) == (200, before), f"{how}: the next request is answered {status}, {after}")
+        status, said = ask(url, 800)
+        expect(status == 500 and "not made again" in said, f"{how}: {said}")
+        server.send_signal(signal.SIGINT)
+        server.communicate(timeout=20)
+        expect(server.returncode == 0, f"{how}: the server ends with {server.returncode}")
+
+
 def what_a_fresh_process_refutes_is_no_result():
     """The search has seen half the stress for nearly all of its calls; a fresh process sees the whole."""
     folder, tunica = laboratory("refuted", "tires", search="es", max_evaluations=2000)
@@ -283,6 +312,6 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluati
            what_is_left_for_the_end_of_the_process_disturbs_nothing,
            what_a_fresh_process_refutes_is_no_result, work_after_slow_searches_says_what_it_does,
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
-           a_full_disk_at_the_other_end_is_told_and_harms_nothing]
+           a_full_disk_at_the_other_end_is_told_and_harms_nothing, a_server_outlives_its_plugins]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)
