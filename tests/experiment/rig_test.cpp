@@ -26,7 +26,8 @@ TEST_F(RigKeys, BecomeTyped) {
   const auto experiment = read(block(R"(
     "skip_lines": 6, "delimiter": "tab", "decimal": ",", "units": {"Way": "um"}, "where": {"set": ["a", 2], "side": "left"},
     "specimen": {"width": "4 mm", "thickness": "500 um", "gauge_length": "preload", "grip_distance": "1 cm"},
-    "cycle": [2, 3], "cycles_from": 4, "branch": "loading", "preload": "0.1 N", "rows": "-50:")"));
+    "cycle": [2, 3], "cycles_from": 4, "branch": "loading", "preload": "0.1 N", "rows": "-50:",
+    "compression": {"Way": "positive", "Force": "negative"})"));
   const data::DataRequest& data = experiment.test("circumferential_strip").data;
   EXPECT_EQ(data.layout.skip_lines, 6u);
   EXPECT_EQ(data.layout.delimiter, '\t');
@@ -41,6 +42,8 @@ TEST_F(RigKeys, BecomeTyped) {
   EXPECT_EQ(data.branch, data::BranchChoice::loading);
   EXPECT_DOUBLE_EQ(data.preload->value, 100);
   EXPECT_EQ(data.rows.first, -50);
+  EXPECT_EQ(data.compression.columns, std::vector<std::string>{"Way"});
+  EXPECT_FALSE(data.compression.all);
   EXPECT_EQ(experiment.test("circumferential_strip").weights.size(), 1u) << "a force counts as the stress it gives";
   // What is written as input.json reads back the same.
   const auto again = read(experiment.input_json);
@@ -73,6 +76,7 @@ TEST_F(RigKeys, RefuseWhatTheyDoNotKnow) {
   expect_within(refused(R"("delimiter": "|")"), "\"tab\" or \"space\" is expected");
   expect_within(refused(R"("delimiter": ",", "decimal": ",")"), "the comma is the delimiter and the decimal mark");
   expect_within(refused(R"("units": {"Way": "parsec per"})"), "unknown unit 'parsec per'");
+  expect_within(refused(R"("compression": "upward")"), "unknown sign of compression 'upward'");
   expect_within(refused(R"("preload": 0)"), "the preload is 0");
   expect_within(refused(R"("preload": "1 kPa")"), "the unit 'kPa' cannot be converted to 'mN'");
   expect_within(refused(R"("where": {"set": []})"), "the list of values is empty");
