@@ -11,6 +11,7 @@
 #include "answer.hpp"
 #include "data/read_bytes.hpp"
 #include "messages.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::app {
@@ -33,7 +34,7 @@ std::string text_of(const std::filesystem::path& file) {
 /// Every text under a key "type" in the file, as far as it can be read.
 std::set<std::string> types_named_in(const std::filesystem::path& file) {
   std::set<std::string> types;
-  const auto document = nlohmann::json::parse(text_of(file), nullptr, false, true);
+  const auto document = tunica::detail::parse_json(text_of(file), false, true);
   constexpr int deepest = 64;  // nested deeper it is no experiment
   const auto collect = [&](const auto& self, const nlohmann::json& value, int depth) -> void {
     if (value.is_object() && value.contains("type") && value["type"].is_string()) types.insert(value["type"]);

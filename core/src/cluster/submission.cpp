@@ -15,6 +15,7 @@
 #include "data/sha256.hpp"
 #include "execution/files.hpp"
 #include "text/shell.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cluster {
@@ -53,7 +54,7 @@ std::optional<Submission> stored_submission(const std::filesystem::path& results
   const auto file = jobs_file(results);
   if (!std::filesystem::exists(file)) return {};
   try {
-    const auto json = nlohmann::json::parse(execution::read_text(file));
+    const auto json = detail::parse_json(execution::read_text(file));
     Submission submission;
     submission.name = json.at("name");
     Wishes& wishes = submission.wishes;

@@ -13,6 +13,7 @@
 #include "diagnosis/evidence/base_fit.hpp"
 #include "execution/checksum.hpp"
 #include "execution/files.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::cohort {
@@ -40,7 +41,7 @@ std::optional<Stored> stored_evidence(const std::filesystem::path& file) {
   std::string line;
   std::getline(stream, line);
   std::getline(stream, stored.found);
-  stored.head = Json::parse(line, nullptr, false);
+  stored.head = detail::parse_json<Json>(line, false);
   if (!execution::intact(stored.head) || stored.head.value("found", "") != execution::checksum(stored.found)) return {};
   return stored;
 }
@@ -108,7 +109,7 @@ CollectedEvidence collect_evidence(const SpecimenTable& table, const Collection&
     const auto file = folder_of(results, table.specimens[k]) / evidence_file;
     const auto stored = stored_evidence(file);
     if (!stored) refuse(file);
-    const Json json = Json::parse(stored->found, nullptr, false);
+    const Json json = detail::parse_json<Json>(stored->found, false);
     if (const auto problem = json.find("problem"); problem != json.end() && problem->is_string())
       problems[k] = *problem;
     else if (const auto evidence = json.find("evidence"); evidence != json.end())

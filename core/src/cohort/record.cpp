@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "execution/checksum.hpp"
+#include "tunica/detail/bounded_json.hpp"
 
 namespace tunica::cohort {
 
@@ -111,7 +112,7 @@ std::string to_json(const Record& record) {
 }
 
 std::optional<Record> record_of(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = detail::parse_json<Json>(text, false);
   try {
     if (!execution::intact(json) || json.at("format") != record_format) return {};
     const auto outcome = text::value_of(outcome_codes, json.at("outcome").get<std::string>());

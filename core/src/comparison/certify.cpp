@@ -9,6 +9,7 @@
 
 #include "comparison/ranking.hpp"
 #include "text/escaped.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
@@ -87,7 +88,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
                     std::vector<std::string>* contradictions) {
   json runs = json::array();
   try {
-    const json result = json::parse(result_json);
+    const json result = detail::parse_json<json>(result_json);
     for (const auto& planned : plan.runs) {
       const json& run = run_named(result, planned.label);
       if (run.at("best").is_null()) continue;
@@ -124,7 +125,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
 }
 
 bool add_certificates(const std::string& certified, const std::string& missing, Summary& summary) {
-  const json document = json::parse(certified, nullptr, false);
+  const json document = detail::parse_json<json>(certified, false);
   bool refuted = false;
   for (auto& run : summary.runs) {
     if (!run.has_result) continue;

@@ -11,6 +11,7 @@
 #include "data/units.hpp"
 #include "execution/files.hpp"
 #include "text/escaped.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::comparison {
@@ -62,7 +63,7 @@ std::pair<std::vector<double>, std::string> read_parameters(const std::filesyste
   std::string origin = file, chosen = run;
   json values;
   try {
-    values = json::parse(execution::read_text(path), nullptr, true, true);
+    values = detail::parse_json<json>(execution::read_text(path), true, true);
     if (values.is_object() && values.contains("runs") && values.contains("ranking")) {
       values = from_result(values, model, chosen, file);
       origin = fmt::format("run '{}' of {}", chosen, file);

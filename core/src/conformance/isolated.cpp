@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "plugins/casualties.hpp"
+#include "tunica/detail/bounded_json.hpp"
 
 #ifdef TUNICA_COVERAGE
 extern "C" void __gcov_dump();
@@ -39,7 +40,7 @@ std::string to_text(const Verdict& verdict) {
       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 Verdict from_text(const std::string& text) {
-  const auto json = nlohmann::json::parse(text);
+  const auto json = detail::parse_json(text);
   return {json[0], number(json[1]), number(json[2]), json[3], json[4], json[5]};
 }
 

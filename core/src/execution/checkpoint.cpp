@@ -10,6 +10,7 @@
 #include "execution/checksum.hpp"
 #include "execution/files.hpp"
 #include "text/escaped.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/detail/vector_level.hpp"
 #include "tunica/error.hpp"
 #include "tunica/plugin.hpp"
@@ -114,8 +115,8 @@ Facts facts_from(const json& entry) {
 /// 90000)".
 std::vector<std::string> changed_keys(const std::filesystem::path& directory, const std::string& input_json) {
   std::vector<std::string> keys;
-  const json then = json::parse(read_text(directory / "input.json"), nullptr, false);
-  const json now = json::parse(input_json, nullptr, false);
+  const json then = detail::parse_json<json>(read_text(directory / "input.json"), false);
+  const json now = detail::parse_json<json>(input_json, false);
   if (then.is_discarded() || now.is_discarded()) return keys;
   for (const auto& change : json::diff(then, now)) {
     const std::string path = change.at("path");
@@ -132,7 +133,7 @@ std::vector<std::string> changed_keys(const std::filesystem::path& directory, co
 
 /// The experiment without its analysis, which changes no evaluation: it may be asked for when the run is resumed.
 std::string without_analysis(const std::string& input_json) {
-  json input = json::parse(input_json, nullptr, false);
+  json input = detail::parse_json<json>(input_json, false);
   if (input.is_discarded()) return input_json;
   input.erase("analysis");
   input.erase("keep_evaluations");  // after the search
@@ -187,7 +188,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& directory) {
                     "folder of an interrupted run with -o",
                     directory.string()));
   try {
-    const json document = json::parse(read_text(file));
+    const json document = detail::parse_json<json>(read_text(file));
     if (document.at("format") != checkpoint_format)
       throw InputError(
           fmt::format("{}: format {}, this version of tunica reads {}; resume with the version that wrote it",

@@ -14,6 +14,7 @@
 #include "report/pieces.hpp"
 #include "text/escaped.hpp"
 #include "text/lists.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::exporting {
@@ -27,7 +28,7 @@ using report::word;
 
 Json document(const std::filesystem::path& file) {
   try {
-    return Json::parse(execution::read_text(file));
+    return detail::parse_json<Json>(execution::read_text(file));
   } catch (const Json::exception& problem) {
     throw InputError(
         fmt::format("{}: is not JSON ({}); run it again", file.string(), text::json_problem(problem.what())));

@@ -8,6 +8,7 @@
 #include "execution/files.hpp"
 #include "report/pieces.hpp"
 #include "text/escaped.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::report {
@@ -36,7 +37,7 @@ Folder::Folder(std::filesystem::path path, std::string address) : path_(std::mov
 void Folder::read_result(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return;
   try {
-    result_ = Json::parse(execution::read_text(file));
+    result_ = detail::parse_json<Json>(execution::read_text(file));
   } catch (const Json::exception& reason) {
     throw InputError(
         fmt::format("{}: is not JSON ({}); run it again", file.string(), text::json_problem(reason.what())));
