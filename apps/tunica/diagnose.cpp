@@ -23,6 +23,7 @@
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
@@ -145,7 +146,7 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(seed_number())
       ->type_name("S");
   verb->add_option("--alpha", options->alpha, "Share of false alarms that is accepted, instead of the file's")
-      ->check(CLI::Range(0.0001, 0.5))
+      ->check(FiniteRange(0.0001, 0.5))
       ->type_name("A");
   verb->add_option("--mechanisms", options->mechanisms, "Only these causes, names separated by commas")
       ->delimiter(',')

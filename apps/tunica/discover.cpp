@@ -23,12 +23,14 @@
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "stages.hpp"
 #include "supervisor.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "unfinished_folder.hpp"
 #include "verbs.hpp"
 
@@ -107,7 +109,7 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
 
 /// Whether the file describes a cohort: it names specimens and the experiment of each.
 bool is_cohort(const std::string& file) {
-  const auto json = nlohmann::json::parse(data::read_bytes(file), nullptr, false, true);
+  const auto json = tunica::detail::parse_json(data::read_bytes(file), false, true);
   return json.is_object() && json.contains("specimens") && json.contains("experiment");
 }
 
@@ -194,7 +196,7 @@ void add_discover(CLI::App& app, GlobalOptions& global, Action& action) {
       ->check(seed_number())
       ->type_name("S");
   verb->add_option("--alpha", options->wishes.alpha, "Share of false alarms that is accepted, instead of the file's")
-      ->check(CLI::Range(0.0001, 0.5))
+      ->check(FiniteRange(0.0001, 0.5))
       ->type_name("A");
   verb->add_flag("--quick", options->wishes.quick, "The alarm from linear draws only: a second instead of several");
   auto* batch =

@@ -12,6 +12,7 @@
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "exporting/fitted_material.hpp"
+#include "finite_range.hpp"
 #include "tunica/error.hpp"
 #include "verbs.hpp"
 
@@ -69,6 +70,7 @@ void add_export(CLI::App& app, GlobalOptions&, Action& action) {
   verb->add_option("--bulk-ratio", options->bulk_ratio,
                    "Bulk modulus over the stiffness at rest; 0 = incompressible (default: 0 for abaqus and ansys, 1000 "
                    "for lsdyna, else 10000)")
+      ->check(FiniteRange(0, 1e9))
       ->type_name("NUMBER");
   verb->add_option("--density", options->density, "Mass density for febio and lsdyna, for example \"1000 kg/m3\"")
       ->type_name("DENSITY");

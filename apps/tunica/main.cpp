@@ -15,6 +15,7 @@
 #include "data/nearest.hpp"
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "plugins/guarded.hpp"
 #include "supervisor.hpp"
@@ -83,13 +84,13 @@ int run(int argc, char** argv) {
                "Load plugins that other users of this machine could have changed");
   app.add_option("--call-limit", global.call_limit,
                  "Give up a call of a model that takes longer, in seconds; it counts as failed (default: 60)")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(FiniteRange(0.1, 1e6))
       ->type_name("S")
       ->allow_extra_args(false);
   app.add_option("--memory-limit", global.memory_limit,
                  "Give up a call of a plugin that takes the program's memory to so many GiB; it counts as failed "
                  "(default: nine tenths of the machine's)")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(FiniteRange(0.1, 1e6))
       ->type_name("GIB")
       ->allow_extra_args(false);
   bool alone = false;

@@ -13,6 +13,7 @@
 
 #include "answer.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "plugin.hpp"
 #include "plugins/loader.hpp"
@@ -191,7 +192,7 @@ void add_plugin_check(CLI::App& plugin, GlobalOptions& global, Action& action) {
       ->type_name("EXP");
   verb->add_option("--time-limit", asked->time_limit,
                    fmt::format("Seconds that one property may take; {:g} unless given", asked->time_limit))
-      ->check(CLI::Range(1e-6, 86400.0))
+      ->check(FiniteRange(1e-6, 86400))
       ->type_name("S");
   verb->add_flag("--json", asked->as_json, "Print the verdicts as JSON");
   verb->footer(

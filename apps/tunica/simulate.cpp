@@ -11,6 +11,7 @@
 #include "comparison/simulation_record.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "report/report.hpp"
 #include "subject_options.hpp"
@@ -58,7 +59,7 @@ void add_simulate(CLI::App& app, GlobalOptions& global, Action& action) {
       app.add_subcommand("simulate", "Predict every test and write it in the form of the data: DIR/<test>.csv");
   add_subject_options(*verb, options->subject);
   verb->add_option("--noise", options->noise, "Add relative noise: y (1 + R N(0, 1))")
-      ->check(CLI::NonNegativeNumber)
+      ->check(FiniteRange(0, 100))
       ->type_name("R");
   verb->add_option("--seed", options->seed, "Seed of the noise (default: that of the experiment)")
       ->check(seed_number())

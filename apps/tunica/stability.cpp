@@ -14,6 +14,7 @@
 #include "describe.hpp"
 #include "execution/run_directory.hpp"
 #include "exit_codes.hpp"
+#include "finite_range.hpp"
 #include "messages.hpp"
 #include "subject_options.hpp"
 #include "text/wrapping.hpp"
@@ -117,7 +118,7 @@ void add_stability(CLI::App& app, GlobalOptions& global, Action& action) {
       app.add_subcommand("stability", "Judge whether a parameter set is a stable material, and over which stretches");
   add_subject_options(*verb, options->subject);
   verb->add_option("--to", options->to, "Judge up to this stretch (default: the largest measured one)")
-      ->check(CLI::Range(1.0, 100.0))
+      ->check(FiniteRange(1, 100))
       ->type_name("STRETCH");
   verb->add_option("--map", options->map, "Map where the material is stable between the bounds of two free parameters")
       ->expected(2)

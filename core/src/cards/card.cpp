@@ -149,9 +149,10 @@ std::string data_lines(std::span<const double> values) {
 
 std::string Draft::density() const {
   if (!settings.density) return "";
-  if (!std::isfinite(*settings.density) || *settings.density <= 0)
-    throw InputError(
-        fmt::format("density: found {:g} kg/m3, expected one above 0; give for example 1000", *settings.density));
+  constexpr double least = 1e-3, largest = 1e6;  // an aerogel has 1, osmium 22 600
+  if (!(*settings.density >= least && *settings.density <= largest))
+    throw InputError(fmt::format("density: found {:g} kg/m3, expected {:g} to {:g}; give for example 1000",
+                                 *settings.density, least, largest));
   return number(*settings.density * settings.units.density_per_kg_m3);
 }
 
