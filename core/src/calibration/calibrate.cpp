@@ -53,6 +53,7 @@ void clear(const std::filesystem::path& folder) {
 execution::RunDirectory folder_to_go_on(const std::optional<std::filesystem::path>& directory,
                                         const std::string& name) {
   auto held = execution::RunDirectory::reopen(directory, name);
+  for (const char* own : {"parts", "shards"}) static_cast<void>(execution::own_folder(held.path() / own));
   if (holds_a_beginning(held.path())) clear(held.path());
   return held;
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "data/read_bytes.hpp"
+#include "tunica/error.hpp"
 
 namespace tunica::execution {
 
@@ -177,6 +178,16 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
 
 void make_folder(const std::filesystem::path& folder) {
   if (const auto error = make_folders(folder)) throw WriteFailure(folder, error.value());
+}
+
+std::filesystem::path own_folder(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  if (std::filesystem::is_symlink(folder, unknown))
+    throw InputError(
+        fmt::format("{}: is a symbolic link where a folder of the run is expected, and links are never followed there; "
+                    "put the folder that it leads to in its place, or start anew with another -o",
+                    folder.string()));
+  return folder;
 }
 
 std::string read_text(const std::filesystem::path& file) { return data::read_bytes(file, largest_text); }

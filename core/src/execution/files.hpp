@@ -63,6 +63,10 @@ void sync_folder(const std::filesystem::path& folder);
 /// A folder that may be there already; throws WriteFailure.
 void make_folder(const std::filesystem::path& folder);
 
+/// A folder of the program's own within one of results, which may be missing. Throws InputError where a symbolic link
+/// stands in its place: what is written, mended or removed below it would be somewhere else.
+std::filesystem::path own_folder(const std::filesystem::path& folder);
+
 /// The whole text of a file; throws InputError.
 std::string read_text(const std::filesystem::path& file);
 

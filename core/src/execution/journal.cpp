@@ -40,7 +40,7 @@ Journal::Journal(std::filesystem::path directory, const EvaluationTable& table, 
   main_ = AppendFile(main_file(directory_));
   if (stored.rows.empty()) main_.append(table_.header());
   main_.sync();
-  if (tasks_.size() > 1) make_folder(directory_ / "parts");
+  if (tasks_.size() > 1) make_folder(own_folder(directory_ / "parts"));
 }
 
 Journal::~Journal() {

@@ -131,6 +131,7 @@ class Reader {
 
 Recovered recover(const std::filesystem::path& directory, const EvaluationTable& table, const std::vector<Task>& tasks,
                   const std::vector<bool>& wanted) {
+  static_cast<void>(own_folder(directory / "parts"));
   Reader reader(table, tasks, wanted);
   const auto main = Journal::main_file(directory), aside = directory / "damaged_rows.csv";
   bool has_header = false;

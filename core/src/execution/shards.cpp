@@ -22,8 +22,8 @@ namespace {
 std::vector<std::filesystem::path> parts_of(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> parts;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory / "shards", error))
-    if (std::filesystem::exists(entry.path() / "checkpoint.json")) parts.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(own_folder(directory / "shards"), error))
+    if (std::filesystem::exists(own_folder(entry.path()) / "checkpoint.json")) parts.push_back(entry.path());
   std::sort(parts.begin(), parts.end());
   return parts;
 }
@@ -68,7 +68,7 @@ void refuse_missing(const Plan& plan, const std::filesystem::path& directory,
 }  // namespace
 
 std::filesystem::path shard_folder(const std::filesystem::path& directory, const Share& share) {
-  return directory / "shards" / fmt::format("{}of{}", share.part, share.of);
+  return own_folder(own_folder(directory / "shards") / fmt::format("{}of{}", share.part, share.of));
 }
 
 void gather_shards(const Plan& plan, const std::filesystem::path& directory,
@@ -101,7 +101,7 @@ void gather_shards(const Plan& plan, const std::filesystem::path& directory,
   }
   refuse_missing(plan, directory, finished);
   facts.vector_level = *level;
-  make_folder(directory / "parts");
+  make_folder(own_folder(directory / "parts"));
   for (const auto& [task, text] : rows) write_atomically(Journal::part_file(directory, task), text);
   write_atomically(Journal::main_file(directory), table.header());
   write_atomically(directory / "input.json", input);
