@@ -10,6 +10,7 @@
 #include "cards/card.hpp"
 #include "data/nearest.hpp"
 #include "data/units.hpp"
+#include "plugins/calls.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/interrupted.hpp"
 
@@ -214,7 +215,9 @@ ComposedTest compose_test(const experiment::TestEntry& entry, const plugins::Cat
     setup.folder = entry.folder.string();
     if (model != nullptr) setup.card = card_writer(*model);
     setup.unit_factor = [](std::string_view from, std::string_view to) { return data::convert(1, from, to); };
-    setup.interrupted = [] { return plugins::interrupted.load(); };
+    setup.interrupted = [] {
+      return plugins::interrupted.load() || plugins::Clock::now() >= plugins::deadline_of_this_thread();
+    };
     composed.test = plugins::create(on_shelf, setup);
   } catch (const InputError& problem) {
     throw InputError(fmt::format("{}: {}", owner, problem.what()));

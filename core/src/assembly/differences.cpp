@@ -12,6 +12,7 @@
 #include "assembly/run_test.hpp"
 #include "assembly/secant.hpp"
 #include "assembly/workspace.hpp"
+#include "plugins/calls.hpp"
 
 namespace tunica::assembly {
 namespace {
@@ -44,7 +45,10 @@ Status Evaluator::difference_as_stated(const RunTest& test, std::span<const doub
     return {};
   }
   std::vector<Status> statuses(count);
+  const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();
   const auto column_of = [&](std::size_t number) {
+    const plugins::Call part{nullptr, "evaluation", nullptr, nullptr, deadline};
+    const plugins::CallScope scope(part);
     const auto& [index, row] = test.columns[number];
     const FreeParameter& parameter = layout_.parameters[index];
     const WorkspacePointer own = make_workspace();

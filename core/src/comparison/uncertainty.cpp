@@ -2,13 +2,16 @@
 #include "comparison/uncertainty.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "comparison/uncertainty_tables.hpp"
 #include "comparison/uncertainty_words.hpp"
 #include "data/nearest.hpp"
+#include "plugins/calls.hpp"
 #include "tunica/error.hpp"
 #include "tunica/random.hpp"
 #include "uncertainty/bootstrap.hpp"
@@ -54,6 +57,14 @@ void keep(const std::vector<uncertainty::Profile>& made, RunSummary& summary) {
     };
     estimate.profile = ProfileInterval{end(profile.lower), end(profile.upper)};
   }
+}
+
+/// What is said where profiles or draws are not there because time was over.
+void say_left_out(const char* what, double max_time, RunSummary& run) {
+  run.uncertainty.push_back(fmt::format(
+      "{}: max_time of {:g} s was over, which the analysis of a run may take as well. Raise \"max_time\" in "
+      "\"stop\", or ask for less",
+      what, max_time));
 }
 
 void add_words(RunSummary& run) {
@@ -116,25 +127,41 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     std::vector<double> best;
     for (const auto& parameter : own.parameters) best.push_back(parameter.value);
     const std::uint64_t seed = derive_seed(run.seed, "analysis");
+    const std::optional<double> max_time = run.entry->stop.max_time;
+    const plugins::Call whole{nullptr, "analysis", nullptr, nullptr,
+                              max_time ? plugins::Clock::now() + std::chrono::duration_cast<plugins::Clock::duration>(
+                                                                     std::chrono::duration<double>(*max_time))
+                                       : plugins::Clock::time_point::max()};
+    const plugins::CallScope scope(whole);
+    const auto is_over = [&] { return plugins::Clock::now() >= whole.deadline; };
     if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
       if (told) told("profiles of " + own.label);
       const auto likelihood = uncertainty::likelihood_at(assembly, best, optimizer, seed);
-      if (!likelihood.centre.status.ok()) {
+      if (is_over()) {
+        say_left_out("no profiles", *max_time, own);
+      } else if (!likelihood.centre.status.ok()) {
         own.uncertainty.push_back(
             fmt::format("no profiles: the best point cannot be refitted: {}", likelihood.centre.status.reason()));
       } else {
         auto made = uncertainty::profiles(assembly, likelihood, optimizer, indices, seed, interrupted);
-        keep(made, own);
-        add_profile_words(assembly, made, own);
-        profiled.push_back({&assembly, own.label, std::move(made)});
+        if (is_over()) {  // ends that were not reached are no ends
+          say_left_out("no profiles", *max_time, own);
+        } else {
+          keep(made, own);
+          add_profile_words(assembly, made, own);
+          profiled.push_back({&assembly, own.label, std::move(made)});
+        }
       }
     }
-    if (analysis.bootstrap_draws > 0) {
+    if (analysis.bootstrap_draws > 0 && is_over()) {
+      say_left_out("no bootstrap", *max_time, own);
+    } else if (analysis.bootstrap_draws > 0) {
       if (told) told("bootstrap of " + own.label);
       auto made = uncertainty::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
       for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
       add_bootstrap_words(assembly, made, own);
       drawn.push_back({&assembly, own.label, std::move(made)});
+      if (is_over()) say_left_out("not all draws of the bootstrap", *max_time, own);
     }
     add_words(own);
     if (interrupted && interrupted()) return;

@@ -60,6 +60,16 @@ std::vector<CallsOfThread*> calls_of_all_threads() {
   return found;
 }
 
+Clock::time_point deadline_of_this_thread() {
+  const CallsOfThread& thread = calls_of_this_thread();
+  const int depth = std::min(thread.depth.load(std::memory_order_relaxed), CallsOfThread::depth_recorded);
+  auto first = Clock::time_point::max();
+  for (int i = 0; i < depth; ++i)
+    if (const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed); call != nullptr)
+      first = std::min(first, call->deadline);
+  return first;
+}
+
 const Call* innermost_plugin_call(const CallsOfThread& thread) {
   const int depth = std::min(thread.depth.load(std::memory_order_acquire), CallsOfThread::depth_recorded);
   for (int i = depth - 1; i >= 0; --i) {

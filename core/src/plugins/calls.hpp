@@ -73,6 +73,9 @@ class CallScope {
   CallsOfThread& thread_;
 };
 
+/// Where max_time ends the evaluation that this thread is in; the end of time where none does.
+Clock::time_point deadline_of_this_thread();
+
 /// The innermost call into a plugin that `thread` is in, or null.
 const Call* innermost_plugin_call(const CallsOfThread& thread);
 

@@ -10,6 +10,7 @@
 
 #include "assembly/whitening.hpp"
 #include "numerics/orthogonal.hpp"
+#include "plugins/calls.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::uncertainty {
@@ -114,9 +115,12 @@ Bootstrap bootstrap(const assembly::Assembly& assembly, std::span<const double> 
     return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);
   };
   result.draws.resize(draws);
+  const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t k) {
     Bootstrap::Draw& draw = result.draws[k];
-    if (interrupted && interrupted()) {
+    const plugins::Call part{nullptr, "analysis", nullptr, nullptr, deadline};
+    const plugins::CallScope scope(part);
+    if ((interrupted && interrupted()) || plugins::Clock::now() >= deadline) {
       draw.status = Status::failed("interrupted");
       return;
     }

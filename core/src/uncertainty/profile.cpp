@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "plugins/calls.hpp"
 #include "tunica/random.hpp"
 #include "uncertainty/identifiability.hpp"
 #include "uncertainty/sandwich.hpp"
@@ -35,7 +36,7 @@ class ProfileSide {
     assembly.evaluator().measure(likelihood.measured, *workspace_);
   }
 
-  void run(const std::function<bool()>& interrupted);
+  void run(const std::function<bool()>& interrupted, plugins::Clock::time_point deadline);
 
   std::vector<Profile::Point> points;  ///< outwards, without the centre
   Profile::End end;
@@ -98,7 +99,9 @@ void ProfileSide::cross(double inside, Profile::Point below, double outside, Pro
   points.push_back(std::move(above));
 }
 
-void ProfileSide::run(const std::function<bool()>& interrupted) {
+void ProfileSide::run(const std::function<bool()>& interrupted, plugins::Clock::time_point deadline) {
+  const plugins::Call part{nullptr, "analysis", nullptr, nullptr, deadline};
+  const plugins::CallScope scope(part);
   const std::vector<double>& centre = likelihood_.centre.free;
   std::vector<double> unit(centre.size());
   assembly_.box().to_unit(centre, unit);
@@ -107,7 +110,7 @@ void ProfileSide::run(const std::function<bool()>& interrupted) {
   Profile::Point last{centre[parameter_], 0, centre};
   end = {Profile::End::Kind::open, last.value};
   for (int k = 0; x != bound && k < most_points; ++k) {
-    if (interrupted && interrupted()) break;
+    if ((interrupted && interrupted()) || plugins::Clock::now() >= deadline) break;
     const double next = side_ < 0 ? std::max(0.0, x - step_) : std::min(1.0, x + step_);
     Profile::Point point;
     if (!fit(next, last.free, point)) {
@@ -187,13 +190,15 @@ std::vector<Profile> profiles(const assembly::Assembly& assembly, const Likeliho
       steps[k] = std::clamp(wanted_rise * half, 10 * smallest_step, largest_step);
     }
   }
+  const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();
   std::vector<ProfileSide> sides;
   for (std::size_t k = 0; k < parameters.size(); ++k)
     for (const int side : {-1, 1})
       sides.emplace_back(assembly, likelihood, optimizer, parameters[k], side, steps[k],
                          derive_seed(seed, fmt::format("profile {} {}", parameters[k], side)));
   tbb::parallel_for(
-      std::size_t{0}, sides.size(), [&](std::size_t k) { sides[k].run(interrupted); }, tbb::simple_partitioner());
+      std::size_t{0}, sides.size(), [&](std::size_t k) { sides[k].run(interrupted, deadline); },
+      tbb::simple_partitioner());
   std::vector<Profile> result;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     ProfileSide &down = sides[2 * k], &up = sides[2 * k + 1];
