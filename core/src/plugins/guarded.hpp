@@ -14,6 +14,7 @@
 #include "plugins/catalogue.hpp"
 #include "plugins/guarded_model.hpp"
 #include "plugins/guarded_test.hpp"
+#include "plugins/usual_arithmetic.hpp"
 #include "tunica/error.hpp"
 
 /// The boundary for calls into plugins: nothing a plugin throws gets past it as it is. Wrong input stays an
@@ -58,8 +59,21 @@ std::invoke_result_t<Body> guarded(const std::string& plugin, const char* what, 
   if (is_stricken(plugin))
     if (const std::string reason = refusal(plugin, plain_key(call)); !reason.empty()) throw PluginFailure(reason);
   const CallScope scope(call);
+  UsualArithmetic arithmetic;
+  const auto blame = [&] {
+    if (arithmetic.take_change()) throw PluginFailure("plugin '" + plugin + "' " + changed_arithmetic);
+  };
   try {
-    return std::forward<Body>(body)();
+    if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
+      std::forward<Body>(body)();
+      blame();
+    } else {
+      std::invoke_result_t<Body> result = std::forward<Body>(body)();
+      blame();
+      return result;
+    }
+  } catch (const PluginFailure&) {
+    throw;
   } catch (const HostFault&) {
     throw;
   } catch (const InputError& problem) {

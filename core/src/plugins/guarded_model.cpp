@@ -109,8 +109,12 @@ Status GuardedModel::made(const Call& call, OverrunRecord::Function function, st
   const auto attempt = [&] {
     mark(outputs, points);
     const CallScope scope(call);
-    const UsualArithmetic arithmetic;
-    Status status = verdict(contained(plugin_, body), outputs, plugin_, points);
+    UsualArithmetic arithmetic;
+    Status status = contained(plugin_, body);
+    if (arithmetic.take_change())
+      status = Status::failed(fmt::format("plugin '{}' {}", plugin_, changed_arithmetic));
+    else
+      status = verdict(std::move(status), outputs, plugin_, points);
     if (!status.ok()) last_failed_model() = this;
     return status;
   };
@@ -191,8 +195,14 @@ bool GuardedModel::solve_strip(const StripPath& strip, Status& status) const {
 }
 
 const Model& GuardedModel::elastic() const {
+  const UsualArithmetic arithmetic;
   const Model& inner = model_->elastic();
   return &inner == model_.get() ? *this : inner;
+}
+
+void GuardedModel::remember(const AxisStep& step) const {
+  const UsualArithmetic arithmetic;
+  model_->remember(step);
 }
 
 bool GuardedModel::remembers(std::span<const double> parameters) const {

@@ -29,7 +29,7 @@ class GuardedModel final : public Model {
   [[nodiscard]] std::span<const std::unique_ptr<EnergyPart>> parts() const override { return model_->parts(); }
   [[nodiscard]] const Model& elastic() const override;
   [[nodiscard]] bool remembers(std::span<const double> parameters) const override;
-  void remember(const AxisStep& step) const override { model_->remember(step); }
+  void remember(const AxisStep& step) const override;
 
   [[nodiscard]] const std::string& plugin() const { return plugin_; }
   /// The model without its guard, for a mechanism that goes around it.

@@ -42,10 +42,12 @@ Status GuardedTest::made(const char* what, const TestInput& input, const Body& b
     if (std::string reason = refusal_of_evaluation(plugin_, test_key(call)); !reason.empty())
       return Status::failed(std::move(reason));
   const CallScope scope(call);
-  const UsualArithmetic arithmetic;
   for (bool again = true;; again = false) {
+    UsualArithmetic arithmetic;
     try {
-      return body();
+      Status status = body();
+      if (arithmetic.take_change()) return Status::failed(fmt::format("plugin '{}' {}", plugin_, changed_arithmetic));
+      return status;
     } catch (const HostFault&) {
       throw;
     } catch (const std::exception& problem) {
