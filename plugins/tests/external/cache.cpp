@@ -4,7 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <fstream>
+#include <exception>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "results.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 
 namespace tunica::external {
@@ -27,6 +29,8 @@ std::string digest(std::string_view text) {
 }
 
 namespace {
+
+constexpr std::size_t largest_file = std::size_t{256} << 20U;  ///< bytes
 
 /// False where it cannot be written. What stands there under the name, a link or what a killed process has left, is
 /// taken away; nothing is written through it.
@@ -61,17 +65,15 @@ std::optional<Numbers> Cache::find(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   if (const auto found = kept_.find(key); found != kept_.end()) return found->second;
   if (folder_.empty()) return std::nullopt;
-  std::ifstream stream(file(key));
-  if (!stream) return std::nullopt;
-  const auto document = nlohmann::json::parse(stream, nullptr, false);
   try {
+    const auto document = detail::parse_json(text_below(file(key), largest_file), false);
     const auto& kept = document.at("numbers");
     if (document.at("sha256") != digest(key + kept.dump())) return std::nullopt;
     auto numbers = kept.get<Numbers>();
     if (numbers.size() != observables_) return std::nullopt;
     return kept_.emplace(key, std::move(numbers)).first->second;
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;  // a file that is no result, or is damaged, is written anew
+  } catch (const std::exception&) {
+    return std::nullopt;  // what is no result, is damaged or cannot be read (a folder, a faulty disk) is made anew
   }
 }
 

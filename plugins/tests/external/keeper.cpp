@@ -40,6 +40,10 @@ void restore_signals() {
     const rlimit limit{kept.address_space, kept.address_space};
     setrlimit(RLIMIT_AS, &limit);
   }
+  if (kept.file_size > 0) {
+    const rlimit limit{kept.file_size, kept.file_size};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   const int nothing = open("/dev/null", O_RDONLY);
   const int printed = open(kept.output, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (nothing < 0 || printed < 0 || chdir(kept.folder) != 0) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <sys/types.h>
 
 namespace tunica::external {
@@ -27,6 +29,7 @@ struct Kept {
   char* const* variables;     ///< its environment, ended by a null pointer
   char* const* after_death;   ///< a command that tidies up where the parent dies; null = none
   std::size_t address_space;  ///< its limit in bytes; 0 = none
+  std::size_t file_size;      ///< of each file that it writes, in bytes; 0 = none
   pid_t parent;               ///< whose death ends the program
   int pipe;                   ///< takes the messages
 };

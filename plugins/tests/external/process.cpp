@@ -126,6 +126,7 @@ Ending run(const Command& command) {
                   variable_pointers.data(),
                   command.discarded.empty() ? nullptr : tidying_pointers.data(),
                   command.mebibytes << 20U,
+                  command.file_mebibytes << 20U,
                   getpid(),
                   ends[1]};
   const auto limit =
@@ -142,9 +143,12 @@ Ending run(const Command& command) {
   close(ends[0]);
   if (!ending.words.empty()) return ending;
   if (ending.interrupted)
-    ending.words = "was ended because the work was interrupted";
+    ending.words = "was ended because the work was interrupted, or its max_time was over";
   else if (ending.timed_out)
     ending.words = fmt::format("was ended at its time limit of {:g} s", command.seconds);
+  else if (ending.signal == SIGXFSZ)
+    ending.words = fmt::format("was ended at a file of {} MiB; let it write less, or raise \"output_limit\"",
+                               command.file_mebibytes);
   else if (ending.signal != 0)
     ending.words = fmt::format("was ended by signal {} ({})", ending.signal, sigabbrev_np(ending.signal));
   else

@@ -17,6 +17,7 @@ struct Command {
   std::vector<std::pair<std::string, std::string>> environment;  ///< set for it besides what this process has
   double seconds = 0;                                            ///< time limit by the clock
   std::size_t mebibytes = 0;                                     ///< limit of its address space; 0 = none
+  std::size_t file_mebibytes = 0;                                ///< limit of each file that it writes; 0 = none
   std::filesystem::path discarded = {};                          ///< removed where this process dies; empty = nothing
   std::function<bool()> interrupted = {};                        ///< asked ten times a second: whether to end it
 };

@@ -39,7 +39,9 @@ fs::path program_file(const std::string& name, const fs::path& folder) {
 }
 
 std::string last_lines(const fs::path& file, std::size_t count) {
-  std::ifstream stream(file);
+  constexpr std::streamoff shown = 65536;  // bytes from the end; a program may print without end
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  stream.seekg(std::max<std::streamoff>(0, static_cast<std::streamoff>(stream.tellg()) - shown));
   std::deque<std::string> lines;
   for (std::string line; std::getline(stream, line);) {
     const std::size_t end = line.find_last_not_of(" \t\r");

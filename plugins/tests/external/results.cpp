@@ -2,22 +2,29 @@
 #include "results.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <re2/re2.h>
 
+#include "tunica/detail/bounded_json.hpp"
+
 namespace tunica::external {
 namespace {
 
 using Json = nlohmann::json;
 using Found = std::variant<std::vector<double>, std::string>;
+
+constexpr std::size_t largest_file = std::size_t{256} << 20U;  ///< bytes
+constexpr double most_columns = 1e6;
 
 /// A number as C and Fortran print it: "1.5e-3", "+2", "1.5D-03".
 std::optional<double> number_in(std::string text) {
@@ -53,10 +60,12 @@ std::vector<std::string> cells_of(const std::string& line, char delimiter) {
   return cells;
 }
 
-Found column_of(std::istream& stream, const ResultPlace& place) {
+Found column_of(std::string text, const ResultPlace& place) {
+  std::istringstream stream(std::move(text));
   std::vector<double> values;
   std::optional<std::size_t> column;
-  if (const auto numbered = number_in(place.text); numbered && *numbered >= 1)
+  if (const auto numbered = number_in(place.text);
+      numbered && *numbered >= 1 && *numbered <= most_columns && *numbered == std::floor(*numbered))
     column = static_cast<std::size_t>(*numbered) - 1;
   const bool by_number = column.has_value();
   char delimiter = 0;
@@ -85,9 +94,12 @@ Found column_of(std::istream& stream, const ResultPlace& place) {
   return values;
 }
 
-Found pointed_at(std::istream& stream, const ResultPlace& place) {
-  const Json document = Json::parse(stream, nullptr, false, true);
-  if (document.is_discarded()) return std::string("is no JSON");
+Found pointed_at(const std::string& text, const ResultPlace& place) {
+  const Json document = detail::parse_json(text, false, true);
+  if (document.is_discarded())
+    return detail::excess_of_levels(text, true) == std::string::npos
+               ? std::string("is no JSON")
+               : fmt::format("has more than {} levels of nesting", detail::deepest_json);
   try {
     const Json& value = document.at(Json::json_pointer(place.text));
     if (value.is_number()) return std::vector<double>{value.get<double>()};
@@ -97,8 +109,7 @@ Found pointed_at(std::istream& stream, const ResultPlace& place) {
   }
 }
 
-Found matches_of(std::istream& stream, const ResultPlace& place) {
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+Found matches_of(const std::string& text, const ResultPlace& place) {
   // RE2 takes time in proportion to the text, and no stack; (?m): "^" and "$" are the ends of a line.
   const RE2 pattern("(?m)" + place.text, RE2::Quiet);
   std::vector<double> values;
@@ -114,17 +125,36 @@ Found matches_of(std::istream& stream, const ResultPlace& place) {
 
 }  // namespace
 
+std::string text_below(const std::filesystem::path& file, std::size_t largest) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) throw std::runtime_error("was not written");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream.is_open()) throw std::runtime_error("cannot be read");
+  // The size is not asked for: a program may still be writing.
+  std::string text;
+  for (std::array<char, 65536> piece; stream.read(piece.data(), piece.size()), stream.gcount() > 0;) {
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest)
+      throw std::runtime_error(fmt::format(
+          "has more than {} MiB; let the program write the results alone, or fewer of them", largest >> 20U));
+  }
+  if (stream.bad()) throw std::runtime_error("cannot be read");
+  return text;
+}
+
 Found read_result(const ResultPlace& place, const std::filesystem::path& folder) {
   const auto words = [&](const std::string& what) {
     return fmt::format("'{}', where '{}' is to be found, {}", place.file, place.observable, what);
   };
-  std::error_code error;
-  std::ifstream stream;
-  if (std::filesystem::is_regular_file(folder / place.file, error)) stream.open(folder / place.file);
-  if (!stream.is_open()) return words("was not written");
-  Found found = place.kind == ResultPlace::Kind::column    ? column_of(stream, place)
-                : place.kind == ResultPlace::Kind::pointer ? pointed_at(stream, place)
-                                                           : matches_of(stream, place);
+  std::string text;
+  try {
+    text = text_below(folder / place.file, largest_file);
+  } catch (const std::exception& problem) {
+    return words(problem.what());
+  }
+  Found found = place.kind == ResultPlace::Kind::pointer   ? pointed_at(text, place)
+                : place.kind == ResultPlace::Kind::pattern ? matches_of(text, place)
+                                                           : column_of(std::move(text), place);
   if (const auto* problem = std::get_if<std::string>(&found)) return words(*problem);
   auto& values = std::get<std::vector<double>>(found);
   if (values.empty()) return words("has no rows");

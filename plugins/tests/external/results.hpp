@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -22,6 +23,10 @@ struct ResultPlace {
   double factor = 1;          ///< from the solver's number to the base unit
   std::vector<double> start;  ///< put before what is found, in the solver's unit: the state that it does not print
 };
+
+/// The whole text of a regular file of at most `largest` bytes; throws std::runtime_error that says what it is instead,
+/// for example "was not written".
+std::string text_below(const std::filesystem::path& file, std::size_t largest);
 
 /// The numbers, in base units; or what is missing, with file, place and what was found instead.
 std::variant<std::vector<double>, std::string> read_result(const ResultPlace& place,

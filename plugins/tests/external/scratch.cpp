@@ -7,11 +7,39 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace tunica::external {
 
-Scratch::Scratch(const std::filesystem::path& parent) {
+namespace {
+
+constexpr const char* in_use = "tunica-running-";  ///< what every name begins with that is removed at the end
+
+int open_folder(const std::filesystem::path& folder) {
+  return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+}  // namespace
+
+void Scratch::sweep(const std::filesystem::path& parent) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(parent, error)) {
+    if (entry.path().filename().string().rfind(in_use, 0) != 0) continue;
+    const int folder = open_folder(entry.path());
+    if (folder < 0) continue;
+    struct stat found = {};
+    const bool left =
+        ::fstat(folder, &found) == 0 && found.st_uid == ::geteuid() && ::flock(folder, LOCK_EX | LOCK_NB) == 0;
+    if (left) std::filesystem::remove_all(entry.path(), error);
+    ::close(folder);
+  }
+}
+
+Scratch::Scratch(const std::filesystem::path& parent, bool stays) : kept_(stays) {
   std::error_code error;
   std::filesystem::create_directories(parent, error);
   std::string name = (parent / "tunica-XXXXXX").string();
@@ -19,11 +47,19 @@ Scratch::Scratch(const std::filesystem::path& parent) {
     throw std::runtime_error(fmt::format("no scratch folder can be made in {}: {}; name another one in \"scratch\"",
                                          parent.string(), std::strerror(errno)));
   folder_ = name;
+  if (stays) return;
+  // Under a name that is swept only when it is locked: no other process takes it away in between.
+  lock_ = open_folder(folder_);
+  if (lock_ < 0 || ::flock(lock_, LOCK_EX | LOCK_NB) != 0) return;
+  const auto running = parent / (in_use + name.substr(name.size() - 6));
+  std::filesystem::rename(folder_, running, error);
+  if (!error) folder_ = running;
 }
 
 Scratch::~Scratch() {
   std::error_code error;
   if (!kept_) std::filesystem::remove_all(folder_, error);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void Scratch::keep_as_failed() {

@@ -10,7 +10,8 @@ namespace tunica::external {
 class Scratch {
  public:
   /// Below `parent`, which is made where it does not exist. Throws std::runtime_error where that fails.
-  explicit Scratch(const std::filesystem::path& parent);
+  /// One that is to stay has another name from the beginning.
+  explicit Scratch(const std::filesystem::path& parent, bool stays = false);
   ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
@@ -22,8 +23,12 @@ class Scratch {
   /// Writes a file below the folder. Throws std::runtime_error where that fails.
   void write(const std::string& name, const std::string& text) const;
 
+  /// Removes what processes have left below `parent` that ended without a word, for example at their limit of memory.
+  static void sweep(const std::filesystem::path& parent);
+
  private:
   std::filesystem::path folder_;
+  int lock_ = -1;  ///< goes with the process, and tells that the folder is in use
   bool kept_ = false;
 };
 

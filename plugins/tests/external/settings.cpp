@@ -154,6 +154,7 @@ std::vector<Option> options() {
       Option::json("card", "{}", "Object: \"program\", \"units\" and \"material\" of {{card}}."),
       time_limit(),
       Option::integer("memory_limit", 0, {0, 1e7}, "Largest memory of a run in MiB; 0 sets no limit."),
+      Option::integer("output_limit", 1024, {0, 1e7}, "Largest file that a run may write in MiB; 0 sets no limit."),
       Option::integer("threads", 1, {1, 1024}, "Threads of a run, given to it as OMP_NUM_THREADS."),
       Option::choice("derivatives", {"broyden", "forward", "central"}, "broyden",
                      "Differences of one or two runs a parameter; Broyden's update goes on with forward ones."),
@@ -179,6 +180,7 @@ Settings read_settings(const TestSetup& setup, const std::vector<Observable>& ob
   const Options& options = setup.options;
   settings.time_limit = options.number("time_limit");
   settings.memory_limit = options.count("memory_limit");
+  settings.output_limit = options.count("output_limit");
   settings.threads = options.count("threads");
   settings.keep = options.text("keep") == "never"    ? Keep::never
                   : options.text("keep") == "always" ? Keep::always

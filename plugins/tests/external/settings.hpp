@@ -30,7 +30,7 @@ struct Settings {
   bool card = false;                 ///< some template has the material card
   CardRequest card_request;
   double time_limit = 0;
-  std::size_t memory_limit = 0, threads = 1;
+  std::size_t memory_limit = 0, output_limit = 0, threads = 1;  ///< MiB, MiB
   Keep keep = Keep::on_failure;
   std::filesystem::path scratch, cache;
   std::function<bool()> interrupted;  ///< TestSetup::interrupted

@@ -34,7 +34,7 @@ std::variant<Numbers, std::string> Solver::solve(
     ++cached_;
     return std::move(*numbers);
   }
-  if (interrupted()) return std::string("the work was interrupted");
+  if (interrupted()) return std::string("the work was interrupted, or its max_time was over");
   ++runs_;
   auto found = [&]() -> std::variant<Numbers, std::string> {
     try {
@@ -54,8 +54,7 @@ bool Solver::interrupted() const { return settings_.interrupted && settings_.int
 
 std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std::string>& arguments,
                                                           const std::vector<std::string>& texts) const {
-  Scratch scratch(settings_.scratch);
-  if (settings_.keep == Keep::always) scratch.keep();
+  Scratch scratch(settings_.scratch, settings_.keep == Keep::always);
   for (const auto& [name, file] : settings_.files) std::filesystem::create_symlink(file, scratch.folder() / name);
   for (std::size_t k = 0; k < texts.size(); ++k) scratch.write(settings_.templates[k].first, texts[k]);
   Command command;
@@ -66,6 +65,7 @@ std::variant<Numbers, std::string> Solver::run_in_scratch(const std::vector<std:
   command.environment = {{"OMP_NUM_THREADS", std::to_string(settings_.threads)}};
   command.seconds = settings_.time_limit;
   command.mebibytes = settings_.memory_limit;
+  command.file_mebibytes = settings_.output_limit;
   if (settings_.keep == Keep::never || settings_.keep == Keep::on_failure) command.discarded = scratch.folder();
   command.interrupted = settings_.interrupted;
   const Ending ending = run(command);

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "cache.hpp"
+#include "scratch.hpp"
 #include "settings.hpp"
 
 namespace tunica::external {
@@ -15,7 +16,9 @@ namespace tunica::external {
 class Solver {
  public:
   explicit Solver(Settings settings)
-      : settings_(std::move(settings)), cache_(settings_.cache, settings_.results.size()) {}
+      : settings_(std::move(settings)), cache_(settings_.cache, settings_.results.size()) {
+    Scratch::sweep(settings_.scratch);
+  }
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   /// The numbers of Settings::results, one list each; or why there are none. `value` fills a place in.

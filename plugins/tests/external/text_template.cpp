@@ -7,6 +7,7 @@ namespace tunica::external {
 namespace {
 
 constexpr std::string_view blanks = " \t";
+constexpr std::size_t longest_place = 200;  ///< bytes; so the work grows with the text, whatever braces stand in it
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
@@ -25,12 +26,13 @@ bool is_name(std::string_view text) {
 TextTemplate::TextTemplate(std::string_view text) {
   std::string piece;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t open = text.find("{{", at),
-                      close = open == std::string::npos ? std::string::npos : text.find("}}", open);
-    if (close == std::string::npos) {
+    const std::size_t open = text.find("{{", at);
+    if (open == std::string::npos) {
       piece += text.substr(at);
       break;
     }
+    const std::size_t length = text.substr(open, longest_place).find("}}");
+    const std::size_t close = length == std::string::npos ? open + 2 : open + length;
     const std::string_view inside = trimmed(text.substr(open + 2, close - open - 2));
     const std::size_t blank = inside.find_first_of(blanks);
     const std::string_view name = inside.substr(0, blank);
