@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +16,10 @@ namespace tunica::um_bridge {
 /// Errors: all functions throw std::runtime_error that says what was asked of whom, and what came back.
 class Connection {
  public:
-  /// `url` "http://host:port"; `seconds` limit the connection, and every answer.
-  Connection(std::string url, std::string model, nlohmann::json config, double seconds);
+  /// `url` "http://host:port". `seconds` limit each exchange as a whole, from the connection to the last byte of the
+  /// answer; `interrupted` is asked a hundred times a second whether to give it up before.
+  Connection(std::string url, std::string model, nlohmann::json config, double seconds,
+             std::function<bool()> interrupted);
 
   /// Throws also where the server speaks another version, or has no such model.
   void greet() const;
@@ -33,9 +35,11 @@ class Connection {
  private:
   [[nodiscard]] nlohmann::json ask(const std::string& path, const nlohmann::json* request) const;
   [[nodiscard]] nlohmann::json request() const;
+  [[nodiscard]] std::string source(const char* path) const { return url_ + path; }
   std::string url_, model_;
   nlohmann::json config_;
   double seconds_;
+  std::function<bool()> interrupted_;
 };
 
 }  // namespace tunica::um_bridge

@@ -36,7 +36,7 @@ class Served final : public Test {
  public:
   explicit Served(const TestSetup& setup)
       : connection_(setup.options.text("url"), setup.options.text("model"), Json::parse(setup.options.text("config")),
-                    setup.options.number("time_limit")),
+                    setup.options.number("time_limit"), setup.interrupted),
         unit_factor_(setup.unit_factor) {
     for (const auto& column : setup.rows.abscissae) columns_.emplace_back(column.values.begin(), column.values.end());
     for (std::size_t k = 0; k < columns_.size(); ++k)
@@ -76,7 +76,12 @@ class Served final : public Test {
       if (!output.values.empty()) {
         ++evaluations_;
         const Vectors values = connection_.evaluate(at);
-        for (std::size_t k = 0; k < outputs_.size(); ++k) copy(values.at(outputs_[k].vector), k, output.values);
+        for (std::size_t k = 0; k < outputs_.size(); ++k) {
+          if (outputs_[k].vector >= values.size())
+            throw std::runtime_error(
+                fmt::format("the server sent {} outputs where {} were announced", values.size(), output_sizes_.size()));
+          copy(values[outputs_[k].vector], k, output.values);
+        }
       }
       if (!output.jacobian.empty()) differentiate(input, at, output.jacobian);
     } catch (const std::exception& problem) {
@@ -118,18 +123,54 @@ class Served final : public Test {
       const auto entry = mapped.find(channel);
       if (entry == mapped.end())
         throw InputError(fmt::format("\"outputs\" does not say which output of the server is '{}'; {}", channel, form));
-      if (!entry->is_object()) throw InputError(form);
-      Output place{entry->value("output", std::size_t{0}), entry->value("first", std::size_t{0}),
-                   entry->value("factor", 1.0)};
-      const auto& declared = *std::ranges::find(observables_, channel, &Observable::name);
-      if (entry->contains("unit") && setup.unit_factor)
-        place.factor *= setup.unit_factor(entry->value("unit", ""), declared.unit);
-      if (place.vector >= output_sizes_.size() || place.first + rows_.count > output_sizes_[place.vector])
-        throw InputError(fmt::format(
-            "\"outputs\": '{}' has {} rows from number {} of output {}, and the server's outputs have {} numbers",
-            channel, rows_.count, place.first, place.vector, fmt::join(output_sizes_, ", ")));
-      outputs_.push_back(place);
+      outputs_.push_back(output_of(*entry, channel, setup));
     }
+    for (const auto& [channel, entry] : mapped.items())
+      if (std::ranges::find(rows_.channels, channel) == rows_.channels.end())
+        throw InputError(
+            fmt::format("\"outputs\" names '{}', and \"columns\" maps no measured column to it; take it "
+                        "out, or map one of {}",
+                        channel, fmt::join(rows_.channels, ", ")));
+  }
+
+  [[nodiscard]] Output output_of(const Json& entry, const std::string& channel, const TestSetup& setup) const {
+    const auto refuse = [&](const std::string& key, const std::string& found, const char* expected) {
+      throw InputError(
+          fmt::format("\"outputs\" (/outputs/{}{}): found {}, expected {}", channel, key, found, expected));
+    };
+    if (!entry.is_object()) refuse("", shown(entry), R"(an object: {"output": 0, "first": 0, "unit": "N"})");
+    Output place;
+    std::string unit;
+    for (const auto& [key, value] : entry.items()) {
+      if (key == "output" || key == "first") {
+        if (!value.is_number_unsigned()) refuse("/" + key, shown(value), "a whole number from 0");
+        (key == "output" ? place.vector : place.first) = value.get<std::size_t>();
+      } else if (key == "factor") {
+        if (!value.is_number() || !std::isfinite(value.get<double>()) || value.get<double>() == 0)
+          refuse("/" + key, shown(value), "a number other than 0");
+        place.factor = value.get<double>();
+      } else if (key == "unit") {
+        if (!value.is_string()) refuse("/" + key, shown(value), "a unit in quotes");
+        unit = value.get<std::string>();
+      } else {
+        refuse("", "the key '" + key + "'", "\"output\", \"first\", \"unit\" and \"factor\" only");
+      }
+    }
+    const auto& declared = *std::ranges::find(observables_, channel, &Observable::name);
+    if (!unit.empty() && setup.unit_factor) place.factor *= setup.unit_factor(unit, declared.unit);
+    // Compared without a sum, which could overflow.
+    const bool fits = place.vector < output_sizes_.size() && rows_.count <= output_sizes_[place.vector] &&
+                      place.first <= output_sizes_[place.vector] - rows_.count;
+    if (!fits)
+      throw InputError(fmt::format(
+          "\"outputs\": '{}' has {} rows from number {} of output {}, and the server's outputs have {} numbers",
+          channel, rows_.count, place.first, place.vector, fmt::join(output_sizes_, ", ")));
+    return place;
+  }
+
+  static std::string shown(const Json& value) {
+    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text.size() <= 60 ? text : text.substr(0, 60) + " …";
   }
 
   [[nodiscard]] std::size_t parameter(const TestInput& input, const std::string& name) const {
@@ -151,7 +192,7 @@ class Served final : public Test {
 
   void copy(const std::vector<double>& numbers, std::size_t channel, std::span<double> into) const {
     const Output& place = outputs_[channel];
-    if (numbers.size() < place.first + rows_.count)
+    if (numbers.size() < rows_.count || numbers.size() - rows_.count < place.first)
       throw std::runtime_error(fmt::format("the server sent {} numbers of output {} where {} were announced",
                                            numbers.size(), place.vector, output_sizes_[place.vector]));
     for (std::size_t i = 0; i < rows_.count; ++i)
