@@ -91,14 +91,22 @@ TEST(TransverseStability, IsJudgedUnderCompressionTooWhereThatWasMeasured) {
   EXPECT_FALSE(rubber.first_unstable_pressed);
 }
 
-// Ψ = 1 by symmetry, whatever the parameters: these soften so far that W has no minimum at λ2 = λ3.
-TEST(TransverseStability, OfAnIsotropicMaterialNeedsNoMinimumOfTheEnergy) {
+// Ψ = 1 by symmetry. The state is a minimum of the energy where W'(I1) > 0, outside of two roots.
+TEST(TransverseStability, OfAnIsotropicMaterialIsLostWhereTheSymmetricStateIsNoMinimum) {
   const auto yeoh = testing::model("yeoh");
-  const std::vector<double> p{106, -4.65, 0.0332}, stretch{2, 5, 9, 18};
-  std::vector<double> slope(4, 1), slope_dp(12, 1);
+  const std::vector<double> p{106, -4.65, 0.0332}, stretch{2, 3.9, 5, 9, 9.2, 18};
+  std::vector<double> slope(6, 7), slope_dp(18, 7);
   ASSERT_TRUE(FreePath(*yeoh, 0, stretch).slopes(p, slope, slope_dp).ok());
-  for (const double value : slope) EXPECT_EQ(value, 0);
+  for (const std::size_t i : {0u, 1u, 4u, 5u}) EXPECT_EQ(slope[i], 0) << stretch[i];
+  for (const std::size_t i : {2u, 3u}) EXPECT_GT(slope[i], 1) << stretch[i];
   for (const double value : slope_dp) EXPECT_EQ(value, 0);
+  const auto verdict = judge_transverse(*yeoh, p, 0, stretch, 18);
+  EXPECT_EQ(verdict.stable, false);
+  const auto excess = [](double l) { return l * l + 2 / l - 3; };
+  const double root = std::sqrt(4.65 * 4.65 - 3 * 0.0332 * 106);
+  ASSERT_TRUE(verdict.first_unstable && verdict.stable_again);
+  EXPECT_NEAR(excess(*verdict.first_unstable), (4.65 - root) / (3 * 0.0332), 1e-6);
+  EXPECT_NEAR(excess(*verdict.stable_again), (4.65 + root) / (3 * 0.0332), 1e-6);
 }
 
 TEST(TransverseStability, IsNoVerdictWhereNothingIsAskedOrTheResponseEnds) {

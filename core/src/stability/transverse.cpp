@@ -17,6 +17,8 @@ constexpr double step = 5e-4;        // of l = ln λ1, in the five-point formula
 constexpr double rest = 2.5 * step;  // closer to λ1 = 1 the slope is taken here
 constexpr double tight = 1e-9;       // relative step of u; after it the error is its square
 
+constexpr double no_minimum = 2;  // slope where λ2 = λ3 by symmetry, and W has no minimum there
+
 /// One scratch a thread: constraints are evaluated concurrently, and thousands of times a second.
 free_strip::Scratch& thread_scratch() {
   thread_local free_strip::Scratch instance;
@@ -58,6 +60,20 @@ Status FreePath::solve_shifted(const free_strip::Pull& pull, std::span<const dou
   return batch.evaluate(u.data(), true);
 }
 
+/// A symmetric state has the slope 0 on its path, stable or not. Where it is no minimum of W over the lateral stretch,
+/// any disturbance takes the strip away from it.
+Status FreePath::mark_symmetric(const free_strip::Pull& pull, std::span<double> slope) const {
+  if (!free_strip::is_symmetric(pull, at_)) return {};
+  std::vector<double> u(at_.size());
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = 1 / at_[i];
+  free_strip::Scratch& s = thread_scratch();
+  free_strip::Batch batch(pull, at_, s);
+  if (Status status = batch.evaluate(u.data(), false); !status.ok()) return status;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    if (!(s.slope[i] > 0)) slope[i] = no_minimum;
+  return {};
+}
+
 Status FreePath::slopes(std::span<const double> parameters, std::span<double> slope, std::span<double> slope_dp) const {
   const std::size_t n = at_.size();
   const bool exact = !slope_dp.empty() && view_.describe().parameter_derivatives;
@@ -78,6 +94,7 @@ Status FreePath::slopes(std::span<const double> parameters, std::span<double> sl
     if (!std::isfinite(slope[i]) && bad == n) bad = i;
   }
   if (bad < n) return Status::failed(strip_at(bad) + ": the slope of the transverse stretch overflows");
+  if (Status status = mark_symmetric({view_, parameters, axis_}, slope); !status.ok()) return status;
   if (slope_dp.empty()) return {};
   if (free_strip::is_symmetric({view_, parameters, axis_}, at_)) {
     std::fill(slope_dp.begin(), slope_dp.end(), 0.0);  // Ψ = 1 whatever the parameters
@@ -135,6 +152,9 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
                              .lateral_by_l = y_by_l});
       !status.ok())
     return status;
+  std::vector<double> slope(n);
+  for (std::size_t i = 0; i < n; ++i) slope[i] = -1 - y_by_l[i];
+  if (Status status = mark_symmetric({view_, parameters, axis_}, slope); !status.ok()) return status;
   for (std::size_t i = 0; i < n; ++i) {
     // Close to rest the row was solved a little farther out: back along the tangent, y = y' l, σ ∝ l.
     const bool moved = at_[i] != stretches_[i];
@@ -142,7 +162,7 @@ Status FreePath::states(std::span<const double> parameters, std::span<StripState
     const double lambda2 = std::exp(y_i / 2), lambda3 = 1 / (stretches_[i] * lambda2);
     states[i] = {
         stretches_[i], lambda2, lambda3, stress[i] * (moved ? l / std::log(at_[i]) : 1), std::exp(-2 * (l + y_i)),
-        -1 - y_by_l[i]};
+        slope[i]};
   }
   return {};
 }

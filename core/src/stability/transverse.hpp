@@ -41,6 +41,8 @@ class FreePath {
   [[nodiscard]] std::size_t axis() const { return axis_; }
   [[nodiscard]] std::span<const double> stretches() const { return stretches_; }
 
+  /// Of an isotropic material Ψ = 1 by symmetry, so that the slope is 0 whatever the parameters. Where this state is no
+  /// minimum of W over the lateral stretch it is not stable, and the slope is given as 2.
   /// (dΨ/dλ1) λ1/(2Ψ) at every stretch and, unless empty, its derivative by the model's parameters, parameter j of
   /// stretch i at [j·n + i]. dy/dp is exact on the path; its derivative by l is taken by a five-point formula with a
   /// step of 5e-4, of error 1e-10 or less relative but for kinks, where a family switches. Where the model has no
@@ -51,6 +53,7 @@ class FreePath {
  private:
   /// All rows at their equilibria: what `path` wants of them.
   Status solve(StripPath path) const;
+  Status mark_symmetric(const free_strip::Pull& pull, std::span<double> slope) const;
   Status solve_shifted(const free_strip::Pull& pull, std::span<const double> stretch, std::span<double> u) const;
   /// "axial strip at stretch 1.2"
   [[nodiscard]] std::string strip_at(std::size_t row) const;
