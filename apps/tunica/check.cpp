@@ -137,6 +137,11 @@ void print_initial_point(const calibration::PosedProblem& problem) {
   const auto& assembly = *problem.run->assembly;
   const auto& tests = problem.run->entry->tests;
   const auto& initial = problem.initial;
+  if (!initial.not_run.empty()) {
+    answer("{}\n", hanging("  the initial point is not evaluated: ",
+                           initial.not_run + ". --run-external runs it, as `tunica run` does"));
+    return;
+  }
   if (initial.status.kind() == Status::Kind::failed) {
     answer("{}\n", hanging("  the initial point cannot be evaluated: ", initial.status.reason()));
     return;
@@ -203,11 +208,12 @@ void write_data_page(const experiment::Experiment& experiment, const plugins::Ca
   execution::write_atomically(file, report::data_page(experiment.name, tests));
 }
 
-int check(const GlobalOptions& global, const std::string& file, bool as_json, const std::string& page) {
+int check(const GlobalOptions& global, const std::string& file, bool as_json, const std::string& page,
+          bool run_external) {
   const Session session(global);
   const auto experiment = session.read(file, experiment::Purpose::prediction);
   if (!page.empty()) write_data_page(experiment, session.catalogue(), page);
-  const auto checked = calibration::examine(experiment, session.catalogue());
+  const auto checked = calibration::examine(experiment, session.catalogue(), run_external);
   if (as_json)
     print_json(check_json(checked));
   else
@@ -221,17 +227,22 @@ void add_check(CLI::App& app, GlobalOptions& global, Action& action) {
   auto file = std::make_shared<std::string>();
   auto as_json = std::make_shared<bool>(false);
   auto page = std::make_shared<std::string>();
+  auto run_external = std::make_shared<bool>(false);
   auto* verb =
       app.add_subcommand("check", "Dry run: check names, units, data, bounds, the initial point and identifiability");
   verb->add_option("experiment", *file, "Experiment file (JSON)")->required()->type_name("EXP");
   verb->add_flag("--json", *as_json, "Print one JSON object; `in_order` says whether the exit code is 0");
   verb->add_option("--page", *page, "Write a page that draws the data as they were understood")->type_name("FILE");
+  verb->add_flag("--run-external", *run_external,
+                 "Run the programs that the file names in \"command\" too; without it they are shown and not started");
   verb->footer(
       "Examples:\n  tunica check experiment.json\n  tunica check experiment.json --plugin-path my_plugins\n"
       "  tunica check experiment.json --json | jq '.problems[].initial.identifiability'\n"
       "  tunica check experiment.json --page data.html\n\nWrites nothing else.");
-  verb->callback([&global, &action, file, as_json, page] {
-    action = [&global, file, as_json, page] { return check(global, *file, *as_json, *page); };
+  verb->callback([&global, &action, file, as_json, page, run_external] {
+    action = [&global, file, as_json, page, run_external] {
+      return check(global, *file, *as_json, *page, *run_external);
+    };
   });
 }
 

@@ -59,6 +59,7 @@ json parameters_json(const assembly::Assembly& assembly) {
 
 json initial_json(const calibration::PosedProblem& problem) {
   const auto& initial = problem.initial;
+  if (!initial.not_run.empty()) return {{"status", nullptr}, {"not_run", initial.not_run}};
   json one = {{"status", status_json(initial.status)}};
   if (initial.status.kind() == Status::Kind::failed) return one;
   one["objective"] = initial.objective;

@@ -6,11 +6,13 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "comparison/ranking.hpp"
 #include "comparison/uncertainty.hpp"
 #include "execution/memory_need.hpp"
 #include "plugins/guarded.hpp"
+#include "text/escaped.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace tunica::calibration {
@@ -33,6 +35,22 @@ double time_evaluation(const assembly::Assembly& assembly, const std::vector<dou
   }
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
   return times[times.size() / 2];
+}
+
+/// The programs that the tests of a run start, in words; empty = none.
+std::string programs_of(const experiment::Experiment& experiment, const execution::PlannedRun& run) {
+  std::string words;
+  for (const std::string& name : run.entry->tests) {
+    const experiment::TestEntry& test = experiment.test(name);
+    if (!test.options.has("command")) continue;
+    const auto command = nlohmann::json::parse(test.options.text("command"), nullptr, false);
+    std::string line;
+    if (command.is_array())
+      for (const auto& word : command)
+        line += (line.empty() ? "" : " ") + (word.is_string() ? word.get<std::string>() : word.dump());
+    words += fmt::format("{}test '{}' runs: {}", words.empty() ? "" : "; ", name, text::excerpt(line, 300));
+  }
+  return words;
 }
 
 InitialPoint try_initial_point(const execution::PlannedRun& run) {
@@ -102,7 +120,7 @@ bool Examination::good() const {
   return std::all_of(problems.begin(), problems.end(), [](const auto& problem) { return problem.initial.good(); });
 }
 
-Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue) {
+Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue, bool run_programs) {
   Examination found{experiment,
                     execution::make_plan(experiment, catalogue),
                     {},
@@ -132,7 +150,10 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
     std::string problem =
         fmt::format("model {}, {}", experiment.model_name(*run.entry), comparison::group_of(*run.entry));
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
-    if (posed.insert(problem).second) found.problems.push_back({problem, &run, try_initial_point(run)});
+    if (!posed.insert(problem).second) continue;
+    const std::string programs = run_programs ? "" : programs_of(experiment, run);
+    found.problems.push_back({problem, &run, programs.empty() ? try_initial_point(run) : InitialPoint{}});
+    found.problems.back().initial.not_run = programs;
   }
   return found;
 }

@@ -30,6 +30,7 @@ struct InitialPoint {
   std::vector<OtherMeans> other_means;
   bool analysed = false;               ///< false: the linearisation could not be made
   std::vector<std::string> sentences;  ///< what the data do not fix
+  std::string not_run;                 ///< "test 'strip' runs ccx strip": why nothing was evaluated; empty = it was
 
   [[nodiscard]] bool good() const;
 };
@@ -69,8 +70,10 @@ struct Examination {
   [[nodiscard]] bool good() const;
 };
 
-/// A dry run: plans, and evaluates every problem once at its initial point. Throws InputError where experiment, data or
-/// analysis do not fit.
-Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue);
+/// A dry run: plans, and evaluates every problem once at its initial point. Where a test of the problem starts a
+/// program that the file names, with its option "command", that is left out unless `run_programs`: the file may be
+/// somebody else's. Throws InputError where experiment, data or analysis do not fit.
+Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                    bool run_programs = false);
 
 }  // namespace tunica::calibration
