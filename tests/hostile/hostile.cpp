@@ -18,6 +18,9 @@
 #include <string_view>
 #include <thread>
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "tunica/models/isotropic.hpp"
@@ -63,11 +66,35 @@ void hang() {
 }
 void fall() { ::raise(SIGSEGV); }
 
+/// Every file of the program but the standard ones: closed, or made another one.
+void spoil_files(bool redirect) {
+  const int nowhere = redirect ? ::open("/dev/null", O_RDWR) : -1;
+  for (int descriptor = 3; descriptor < 256; ++descriptor) {
+    if (!redirect) ::close(descriptor);
+    if (redirect && descriptor != nowhere && ::fcntl(descriptor, F_GETFD) >= 0) ::dup2(nowhere, descriptor);
+  }
+}
+
+void set_timers() {
+  const itimerval soon{{0, 1000}, {0, 1000}};
+  for (const __itimer_which timer : {ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF}) ::setitimer(timer, &soon, nullptr);
+}
+
+void limit_files() {
+  const rlimit none{100, 100};
+  ::setrlimit(RLIMIT_FSIZE, &none);
+}
+
 /// Once in every process.
 void leave_behind(const std::string& how) {
   static std::once_flag left;
   std::call_once(left, [&how] {
     if (how == "leaves_a_process") leave_a_process();
+    if (how == "forks") static_cast<void>(::fork());  // and both come back
+    if (how == "closes_files") spoil_files(false);
+    if (how == "redirects_files") spoil_files(true);
+    if (how == "sets_timers") set_timers();
+    if (how == "limits_files") limit_files();
     if (how == "hangs_at_exit") static_cast<void>(std::atexit(hang));
     if (how == "falls_at_exit") static_cast<void>(std::atexit(fall));
   });
@@ -95,7 +122,14 @@ void misbehave(const std::string& how) {
 class HostileModel final : public Model {
  public:
   explicit HostileModel(const Options& options)
-      : honest_(honest().create({})), how_(options.text("how")), from_(options.number("from")) {}
+      : honest_(honest().create({})), how_(options.text("how")), from_(options.number("from")) {
+    if (how_ == "create_loops") hang();
+  }
+  HostileModel(const HostileModel&) = delete;
+  HostileModel& operator=(const HostileModel&) = delete;
+  ~HostileModel() override {
+    if (how_ == "destructor_falls") fall();
+  }
   [[nodiscard]] const ModelDescription& describe() const override {
     if (how_ == "describe_throws") throw 42;
     return honest_->describe();

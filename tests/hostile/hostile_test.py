@@ -211,6 +211,59 @@ def what_is_left_for_the_end_of_the_process_disturbs_nothing():
         expect_others_as_ever(folder, how)
 
 
+def processes_in(folder):
+    """Those that work in a folder, by their working directory."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and pathlib.Path(entry / "cwd").resolve() == folder.resolve():
+                found.append(entry.name)
+        except OSError:
+            pass
+    return found
+
+
+def what_a_plugin_forks_is_ended_and_holds_no_lock():
+    """A copy of the program that comes back into it would write the journal too."""
+    for how in ("forks", "leaves_a_process"):
+        folder, tunica = laboratory(f"copies_{how}", how)
+        tunica("run", "experiment.json", "-o", "results", "--quiet")
+        expect(not processes_in(folder), f"{how}: a process is left")
+        rows = (folder / "results/evaluations.csv").read_text(encoding="utf-8").splitlines()
+        names = [tuple(row.split(",")[:3]) for row in rows]
+        expect(len(set(names)) == len(names), f"{how}: rows of the journal stand twice")
+        expect_others_as_ever(folder, how)
+        tunica("run", "experiment.json", "-o", "results", "--quiet", "--resume")
+
+
+def timers_that_a_plugin_sets_end_nothing():
+    folder, tunica = laboratory("timers", "sets_timers")
+    tunica("run", "experiment.json", "-o", "results", "--quiet")
+    expect_others_as_ever(folder, "timers")
+
+
+def a_journal_that_a_plugin_loses_is_told():
+    for how, words in {"closes_files": "closed the file", "redirects_files": "another one in its place",
+                       "limits_files": "raise the limit"}.items():
+        folder, tunica = laboratory(f"journal_{how}", how)
+        said = tunica("run", "experiment.json", "-o", "results", code=2)
+        expect(words in " ".join(said.split()), f"{how}: nothing tells of it:\n{said}")
+
+
+def objects_have_a_limit_of_time_too():
+    folder, tunica = laboratory("create", "create_loops")
+    tunica.words[-1] = "0.1"  # ten times as long for a factory
+    said = tunica("run", "experiment.json", "-o", "results", code=4)
+    expect("in create()" in said and "did not come back" in " ".join(said.split()), said)
+
+
+def a_destructor_that_crashes_costs_nothing():
+    folder, tunica = laboratory("destructor", "destructor_falls")
+    said = tunica("run", "experiment.json", "-o", "results")
+    expect("destroy()" in said, said)
+    expect_others_as_ever(folder, "destructor")
+
+
 def ask(url, parameter):
     request = json.dumps({"name": "objective", "input": [[parameter]]}).encode()
     try:
@@ -312,6 +365,8 @@ cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluati
            what_is_left_for_the_end_of_the_process_disturbs_nothing,
            what_a_fresh_process_refutes_is_no_result, work_after_slow_searches_says_what_it_does,
            two_signals_end_what_hangs, nothing_that_plugins_print_gets_into_an_answer,
-           a_full_disk_at_the_other_end_is_told_and_harms_nothing, a_server_outlives_its_plugins]
+           a_full_disk_at_the_other_end_is_told_and_harms_nothing, what_a_plugin_forks_is_ended_and_holds_no_lock,
+           timers_that_a_plugin_sets_end_nothing, a_journal_that_a_plugin_loses_is_told,
+           objects_have_a_limit_of_time_too, a_destructor_that_crashes_costs_nothing, a_server_outlives_its_plugins]
 run_cases([case for case in cases if not chosen or case.__name__ in chosen])
 shutil.rmtree(root, ignore_errors=True)

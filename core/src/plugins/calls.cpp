@@ -5,6 +5,9 @@
 #include <deque>
 #include <mutex>
 
+#include <sys/syscall.h>
+#include <unistd.h>
+
 namespace tunica::plugins {
 
 namespace {
@@ -68,6 +71,10 @@ Clock::time_point deadline_of_this_thread() {
     if (const Call* call = thread.stack[static_cast<std::size_t>(i)].load(std::memory_order_relaxed); call != nullptr)
       first = std::min(first, call->deadline);
   return first;
+}
+
+void leave_copy() {
+  for (;;) ::syscall(SYS_exit_group, 0);
 }
 
 const Call* innermost_plugin_call(const CallsOfThread& thread) {

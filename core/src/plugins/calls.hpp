@@ -52,6 +52,11 @@ inline void set_evaluated() {
 /// Called once by each thread before its first call: gives it a stack to handle signals on.
 inline void (*prepare_thread)() = nullptr;
 
+/// Whether this process is a copy of the one that does the work, which a plugin has forked.
+inline bool is_copy = false;
+/// Ends such a copy without a word: the work is not its own.
+[[noreturn]] void leave_copy();
+
 /// Marks a call while it lives.
 class CallScope {
  public:
@@ -63,6 +68,8 @@ class CallScope {
     thread_.depth.store(depth + 1, std::memory_order_release);
   }
   ~CallScope() {
+    if (is_copy) [[unlikely]]
+      leave_copy();
     thread_.depth.store(thread_.depth.load(std::memory_order_relaxed) - 1, std::memory_order_release);
     thread_.entered.store(thread_.entered.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

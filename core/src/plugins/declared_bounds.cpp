@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "tunica/error.hpp"
 
 namespace tunica::plugins {
 namespace {
@@ -62,6 +65,16 @@ std::string flaw_of_default(const Parameter& parameter) {
   if (parameter.initial >= parameter.min && parameter.initial <= parameter.max) return {};
   return fmt::format("the parameter '{}' begins at {}, outside its own bounds; expected a value from {} to {}",
                      parameter.name, parameter.initial, parameter.min, parameter.max);
+}
+
+void refuse_equal_names(const std::vector<Parameter>& parameters, const std::string& plugin, const char* noun) {
+  std::set<std::string> names;
+  for (const Parameter& parameter : parameters)
+    if (!names.insert(parameter.name).second)
+      throw InputError(fmt::format(
+          "plugin '{}' made a {} with two parameters named '{}', so that a file cannot say which one it means. "
+          "Give its parts names that differ, or report this to its author",
+          plugin, noun, parameter.name));
 }
 
 }  // namespace tunica::plugins

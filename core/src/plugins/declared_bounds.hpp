@@ -24,4 +24,8 @@ std::string first_flaw(const std::vector<Declared>& all) {
   return {};
 }
 
+/// Throws InputError where two parameters of an object share a name: a file could not say which one it means. `noun` is
+/// "model" or "test".
+void refuse_equal_names(const std::vector<Parameter>& parameters, const std::string& plugin, const char* noun);
+
 }  // namespace tunica::plugins

@@ -9,6 +9,8 @@
 
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
+#include "plugins/declared_bounds.hpp"
+#include "plugins/destroyed.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/unwritten.hpp"
 #include "plugins/usual_arithmetic.hpp"
@@ -100,7 +102,10 @@ const Model*& last_failed_model() {
 GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
     : model_(std::move(model)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
   description_ = guarded(plugin_, "describe", [this] { return &model_->describe(); });
+  refuse_equal_names(description_->parameters, plugin_, "model");
 }
+
+GuardedModel::~GuardedModel() { destroy(plugin_, model_); }
 
 /// `outputs` are the spans of the response, in whatever memory; `body` evaluates into them.
 template <class Body>

@@ -21,6 +21,9 @@ const Model*& last_failed_model();
 class GuardedModel final : public Model {
  public:
   GuardedModel(std::unique_ptr<Model> model, std::string plugin);
+  ~GuardedModel() override;
+  GuardedModel(const GuardedModel&) = delete;
+  GuardedModel& operator=(const GuardedModel&) = delete;
 
   [[nodiscard]] const ModelDescription& describe() const override { return *description_; }
   Status evaluate(const MaterialPoints& points, const MaterialResponse& response) const override;

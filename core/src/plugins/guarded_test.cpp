@@ -9,6 +9,8 @@
 
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
+#include "plugins/declared_bounds.hpp"
+#include "plugins/destroyed.hpp"
 #include "plugins/guarded.hpp"
 #include "plugins/unwritten.hpp"
 #include "plugins/usual_arithmetic.hpp"
@@ -32,8 +34,11 @@ std::uint64_t test_key(const Call& call) {
 GuardedTest::GuardedTest(std::unique_ptr<Test> test, std::string plugin)
     : test_(std::move(test)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
   description_ = guarded(plugin_, "describe", [this] { return &test_->describe(); });
+  refuse_equal_names(description_->parameters, plugin_, "test");
   rows_ = guarded(plugin_, "rows", [this] { return &test_->rows(); });
 }
+
+GuardedTest::~GuardedTest() { destroy(plugin_, test_); }
 
 template <class Body>
 Status GuardedTest::made(const char* what, const TestInput& input, const Body& body) const {

@@ -12,6 +12,9 @@ namespace tunica::plugins {
 class GuardedTest final : public Test {
  public:
   GuardedTest(std::unique_ptr<Test> test, std::string plugin);
+  ~GuardedTest() override;
+  GuardedTest(const GuardedTest&) = delete;
+  GuardedTest& operator=(const GuardedTest&) = delete;
 
   [[nodiscard]] const TestDescription& describe() const override { return *description_; }
   [[nodiscard]] const TestRows& rows() const override { return *rows_; }

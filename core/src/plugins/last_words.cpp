@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -98,6 +99,9 @@ bool is_of_model(const Call& call) {
          call.what == std::string_view("solve_strip");
 }
 
+/// Of a factory, a destructor, or what an object is asked about itself. A factory may ask a server or mesh a tube.
+constexpr double patience_with_objects = 10;
+
 constexpr int of_model = 2;
 
 /// 2: of a model, 1: of a test, 0: of something that calls both.
@@ -133,6 +137,11 @@ struct Sight {
   int kind = 0;
   std::uint64_t key = 0;
 };
+
+bool is_of_object(const Sight& call) {
+  constexpr std::array<std::string_view, 5> names{"create", "destroy", "describe", "rows", "needs"};
+  return std::find(names.begin(), names.end(), call.what) != names.end();
+}
 
 /// A call that comes back leaves its stack to the next one, and may give back what it was asked with: all is copied,
 /// and counts only if the thread has entered and left nothing since it had `entered` so many.
@@ -173,8 +182,10 @@ class Inspection {
     const double memory = resident_memory();
     for (std::size_t i = watched_.size(); i < threads.size(); ++i) watched_.push_back({threads[i]});
     for (Watched& one : watched_) look_at(one, now);
+    const bool grows = memory > memory_before_;
     memory_before_ = memory;
     if (memory > limits_.memory && was_over_) end_for_want_of_memory(memory, now);
+    if (grows) end_model_without_end(memory, now);
     was_over_ = memory > limits_.memory;  // the next look tells calls that stay from those that come and go
   }
   /// What grows to its limit in less than a second is looked at more often.
@@ -196,12 +207,34 @@ class Inspection {
     if (stayed < limits_.grace) return;
     const auto call = sight_of(*one.thread, entered);
     if (!call) return;
-    const bool too_long = call->kind == of_model && stayed > limits_.longest_model_call;
+    const bool too_long = (call->kind == of_model && stayed > limits_.longest_model_call) ||
+                          (is_of_object(*call) && stayed > patience_with_objects * limits_.longest_model_call);
     const bool late = now > deadline(*one.thread) + std::chrono::duration_cast<Clock::duration>(limits_.grace);
     if (!too_long && !(late && stayed > patience(*call))) return;
     const std::string end = too_long ? fmt::format("did not come back within {:.3g} s", stayed.count())
                                      : fmt::format("did not come back for {:.3g} s, beyond max_time", stayed.count());
     casualties->add(call->key, call->plugin.data(), call->what, end.c_str(), stayed.count());
+    ::_exit(fell);
+  }
+
+  /// A batch of a model takes kilobytes. One that has taken a quarter of the limit takes the rest as well, and is ended
+  /// before the machine suffers: where it is the only call of a model that lasts.
+  void end_model_without_end(double memory, Clock::time_point now) {
+    std::optional<Sight> only;
+    for (const Watched& one : watched_) {
+      if (one.since == now || memory - one.memory < 0.25 * limits_.memory || !is_in_plugin(*one.thread)) continue;
+      const auto call = sight_of(*one.thread, one.entered);
+      if (!call || call->kind != of_model) continue;
+      if (only) return;
+      only = call;
+    }
+    if (!only) return;
+    const std::string end = fmt::format(
+        "took the memory of the program to {:.3g} GiB in one call, and a model may take a quarter of the {:.3g} GiB "
+        "that "
+        "are allowed,",
+        memory / gibibyte, limits_.memory / gibibyte);
+    casualties->add(only->key, only->plugin.data(), only->what, end.c_str(), 0, CasualtyList::weight_of_memory);
     ::_exit(fell);
   }
 
@@ -227,7 +260,7 @@ class Inspection {
     const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
                                         memory / gibibyte, limits_.memory / gibibyte);
     for (const Sight& one : suspects)
-      if (of_one) casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0);
+      if (of_one) casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0, CasualtyList::weight_of_memory);
     if (!of_one) casualties->add_leak();
     ::_exit(fell);
   }
@@ -268,8 +301,15 @@ double memory_limit() {
 
 bool enter_exit_in_plugin(const char* end) { return ::getpid() == process_of_work && enter_culprit(end); }
 
+/// A fork within a call of a plugin is the plugin's own.
+void note_copy() {
+  const CallsOfThread* thread = known_calls_of_this_thread;
+  is_copy = thread != nullptr && innermost_plugin_call(*thread) != nullptr;
+}
+
 void leave_last_words() {
   if (casualties == nullptr) return;
+  [[maybe_unused]] static const int registered = ::pthread_atfork(nullptr, nullptr, note_copy);
   process_of_work = ::getpid();
   prepare_thread = give_signal_stack;
   give_signal_stack();
@@ -278,6 +318,11 @@ void leave_last_words() {
     action.sa_sigaction = on_fatal;
     action.sa_flags = SA_ONSTACK | SA_NODEFER | SA_SIGINFO;
     ::sigaction(signal.number, &action, nullptr);
+  }
+  // Timers and limits that a plugin sets would end the work. A write beyond a limit then fails with words.
+  for (const int number : {SIGALRM, SIGVTALRM, SIGPROF, SIGXFSZ}) {
+    struct sigaction before = {};
+    if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) std::signal(number, SIG_IGN);
   }
   // One for each thread that may call exit() while another one does: whoever finds none left ends the process.
   for (int thread = 0; thread < 64; ++thread)
