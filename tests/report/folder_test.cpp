@@ -52,6 +52,12 @@ TEST(ResultFolder, OfAnotherFormatIsRefused) {
   EXPECT_NO_THROW(report::Folder{scratch.path()});
 }
 
+TEST(ResultFolder, WithoutAFormatIsRefused) {
+  const trial::Scratch scratch;
+  scratch.write("result.json", R"({"answer": 42})");
+  EXPECT_THAT(refusal(scratch.path()), HasSubstr("has no \"format\""));
+}
+
 TEST(ResultFolder, NoFolderAtAllIsRefused) { EXPECT_THROW(report::report({}, "."), InputError); }
 
 TEST(ResultFolder, KnowsWhatWroteIt) {

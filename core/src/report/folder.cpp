@@ -44,6 +44,11 @@ void Folder::read_result(const std::filesystem::path& file) {
   }
   if (!result_.is_object())
     throw InputError(fmt::format("{}: expected an object at the top; run it again", file.string()));
+  if (file.filename() == "result.json" && member(result_, "format").is_null())
+    throw InputError(fmt::format(
+        "{}: has no \"format\", so that it is not what `tunica run` or `diagnose` has written; name a folder "
+        "that they have written",
+        file.string()));
   if (const Json& format = member(result_, "format"); !format.is_null() && format != 1)
     throw InputError(
         fmt::format("{}: \"format\" is {}, and this version of tunica reads 1. Use the version that wrote it.",
