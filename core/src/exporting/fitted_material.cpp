@@ -35,8 +35,25 @@ Json document(const std::filesystem::path& file) {
   }
 }
 
+/// Groups of runs have objectives that cannot be compared, so that none of them has the best run.
+void refuse_incomparable(const Json& result, const std::string& file) {
+  std::vector<std::string> groups, first;
+  for (const Json& entry : list(result, "ranking")) {
+    if (!member(entry, "rank").is_number() ||
+        std::find(groups.begin(), groups.end(), word(entry, "group")) != groups.end())
+      continue;
+    groups.push_back(word(entry, "group"));
+    first.push_back(word(entry, "run"));
+  }
+  if (groups.size() > 1)
+    throw InputError(fmt::format(
+        "{}: its runs differ in objective or tests, so that none is the best of all; choose with --run, for example {}",
+        file, text::joined(first)));
+}
+
 /// The run that is asked for, or the best-ranked one with a result.
 const Json& chosen_run(const Json& result, const std::string& wanted, const std::string& file) {
+  if (wanted.empty()) refuse_incomparable(result, file);
   std::vector<std::string> known;
   for (const Json& entry : list(result, "ranking"))
     for (const Json& run : list(result, "runs")) {
