@@ -34,6 +34,8 @@ FreeParameter effective(const Slot& slot) {
   if (const ParameterSetting* setting = slot.setting) {
     free.min = setting->min.value_or(own.min);
     free.max = setting->max.value_or(own.max);
+    free.own_min = setting->min.has_value();
+    free.own_max = setting->max.has_value();
     free.scale = setting->scale.value_or(own.scale);
     free.prior = setting->prior;
     if (setting->share) free.name = *setting->share;
@@ -69,6 +71,8 @@ void tie(FreeParameter& free, const Slot& first, const Slot& slot) {
                     place(slot), free.name, first.declaration.name, other.unit, free.unit));
   }
   const double min = std::max(free.min, other.min), max = std::min(free.max, other.max);
+  free.own_min = other.min > free.min ? other.own_min : free.own_min;
+  free.own_max = other.max < free.max ? other.own_max : free.own_max;
   if (!(min < max)) {
     throw InputError(fmt::format(
         "{}: its bounds {} … {} {} leave nothing in common with {} … {} of '{}', which shares "
@@ -111,6 +115,7 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
       free.initial = *initial;
     }
   }
+  free.own_initial = started != nullptr;
   check_bounds(free, place(*slots.front()));
   if (started) check_initial(free.initial, free, place(*started));
   free.initial = std::clamp(free.initial, free.min, free.max);
@@ -118,6 +123,19 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
 }
 
 }  // namespace
+
+FreeParameter::Bound FreeParameter::kind_of(bool upper) const {
+  const double bound = upper ? max : min, limit = upper ? declared.max : declared.min;
+  const bool own = upper ? own_max : own_min;
+  constexpr double close = 1e-3;  // 0.3333 stands for 1/3
+  const auto is = [bound](double value) { return std::abs(bound - value) <= close * std::max(1.0, std::abs(value)); };
+  if (!own || std::abs(bound - limit) <= close * std::max(1.0, std::abs(limit))) {
+    // Mirrored angles give the same families; nothing is softer than 0, and no share exceeds 1.
+    if (unit == "deg" && (is(0) || is(90) || is(-90))) return Bound::symmetry;
+    if (bound == 0 || (unit == "1" && (is(1.0 / 3) || is(0.5) || is(1)))) return Bound::physical;
+  }
+  return own ? Bound::chosen : Bound::by_default;
+}
 
 Binding bind_parameters(const std::vector<std::vector<Slot>>& owners) {
   Binding binding;

@@ -33,6 +33,12 @@ struct FreeParameter {
   Scale scale;
   std::optional<experiment::Prior> prior;
   DeclaredRange declared = {};
+  /// The bound, or the initial value, is the file's and not its owner's default.
+  bool own_min = false, own_max = false, own_initial = false;
+
+  /// What a bound is: somebody's choice, the owner's default, or an end beyond which there is nothing new.
+  enum class Bound { chosen, by_default, symmetry, physical };
+  [[nodiscard]] Bound kind_of(bool upper) const;
 };
 
 struct FixedParameter {

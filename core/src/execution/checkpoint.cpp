@@ -31,6 +31,10 @@ json to_json(std::size_t task, const RealisationResult& result) {
     evaluations.push_back(improvement.evaluations);
     objectives.push_back(improvement.objective);
   }
+  json stops = json::array();
+  for (const auto& one : result.tally.bound_stops)
+    stops.push_back(
+        {{"parameter", one.parameter}, {"upper", one.upper}, {"count", one.count}, {"objective", one.objective}});
   json reasons = json::array();
   for (const auto& kind : result.tally.reasons) reasons.push_back({{"example", kind.example}, {"count", kind.count}});
   return {{"task", task},
@@ -48,6 +52,8 @@ json to_json(std::size_t task, const RealisationResult& result) {
           {"ended_early", result.tally.ended_early},
           {"simulated", result.tally.simulated},
           {"guide_evaluations", result.tally.guide_evaluations},
+          {"starts", result.tally.starts},
+          {"bound_stops", std::move(stops)},
           {"first_failure", result.tally.first_failure},
           {"failure_reasons", std::move(reasons)},
           {"converged", result.converged},
@@ -78,6 +84,9 @@ RealisationResult from_json(const json& entry) {
   result.tally.first_failure = entry.at("first_failure");
   for (const auto& kind : entry.value("failure_reasons", json::array()))
     result.tally.reasons.push_back({kind.at("example"), kind.at("count")});
+  result.tally.starts = entry.value("starts", std::uint64_t{0});
+  for (const auto& one : entry.value("bound_stops", json::array()))
+    result.tally.bound_stops.push_back({one.at("parameter"), one.at("upper"), one.at("count"), one.at("objective")});
   result.converged = entry.at("converged");
   result.reason = entry.at("reason");
   const std::string code = entry.at("stop_reason");

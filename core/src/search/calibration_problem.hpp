@@ -68,6 +68,14 @@ struct FailureKind {
   std::uint64_t count = 0;
 };
 
+/// Local searches that ended with a parameter at one of its bounds.
+struct BoundStops {
+  std::size_t parameter = 0;
+  bool upper = false;
+  std::uint64_t count = 0;
+  double objective = 0;  ///< the least of them
+};
+
 struct Tally {
   std::uint64_t evaluations = 0, jacobians = 0, failures = 0, infeasible = 0;
   std::uint64_t ended_early = 0;  ///< of the evaluations, see Problem::evaluate_best
@@ -76,6 +84,12 @@ struct Tally {
   std::string first_failure = {};         ///< reason of the first failed evaluation
   std::vector<FailureKind> reasons = {};  ///< in order of appearance, the first `most_reasons`
   static constexpr std::size_t most_reasons = 20;
+  std::uint64_t starts = 0;  ///< local searches that came to a point
+  std::vector<BoundStops> bound_stops = {};
+
+  /// A local search has ended at this point of the unit box.
+  void add_start(std::span<const double> x, double objective);
+  void add_stops(const BoundStops& stops);
 
   void add_failure(const std::string& reason, std::uint64_t count = 1);
   void add(const Tally& part);

@@ -34,7 +34,28 @@ void Tally::add_failure(const std::string& reason, std::uint64_t count) {
     reasons.push_back({reason, count});
 }
 
+void Tally::add_start(std::span<const double> x, double objective) {
+  constexpr double on_bound = 1e-6;
+  ++starts;
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (x[j] <= on_bound || x[j] >= 1 - on_bound) add_stops({j, x[j] > 0.5, 1, objective});
+}
+
+void Tally::add_stops(const BoundStops& stops) {
+  const auto known = std::find_if(bound_stops.begin(), bound_stops.end(), [&](const BoundStops& one) {
+    return one.parameter == stops.parameter && one.upper == stops.upper;
+  });
+  if (known == bound_stops.end()) {
+    bound_stops.push_back(stops);
+    return;
+  }
+  known->count += stops.count;
+  known->objective = std::min(known->objective, stops.objective);
+}
+
 void Tally::add(const Tally& part) {
+  starts += part.starts;
+  for (const BoundStops& stops : part.bound_stops) add_stops(stops);
   evaluations += part.evaluations;
   jacobians += part.jacobians;
   failures += part.failures;

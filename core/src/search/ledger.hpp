@@ -49,6 +49,7 @@ class Ledger {
   /// Stops for a reason from outside, as max_time and interrupted are. The first reason stays. The sentence is for
   /// people; without one it is the code of the reason.
   void stop(StopReason reason, std::string sentence = {});
+  void add_start(std::span<const double> x, double objective) { tally_.add_start(x, objective); }
 
   [[nodiscard]] bool stopped() const { return reason_ != StopReason::none; }
   [[nodiscard]] StopReason stop_reason() const { return reason_; }

@@ -56,11 +56,26 @@ std::uint64_t StartProblem::seed(std::string_view purpose) const { return derive
 
 void Starts::take(StartProblem& start) {
   begun_ += parent_.ledger.stopped() ? 0 : 1;
+  note_end(start.oracle.made);
   merge_(start.oracle.made);
   // A start that the clock or the user ended is not whole: what follows it in order must not be counted.
   const StopReason reason = start.oracle.ledger.stop_reason();
   if (reason == StopReason::interrupted || reason == StopReason::max_time) parent_.ledger.stop(reason);
   start.oracle.made = {};
+}
+
+void Starts::note_end(const Evaluations& made) {
+  if (parent_.ledger.stopped()) return;  // it belongs to no search
+  std::size_t best = made.size();
+  for (std::size_t k = 0; k < made.size(); ++k)
+    if (made.statuses[k].ok() && made.ended_early[k] == 0 &&
+        (best == made.size() || made.objectives[k] < made.objectives[best]))
+      best = k;
+  if (best == made.size()) return;
+  const std::size_t n = shared_.parameters;
+  std::vector<double> x(n);
+  shared_.box.to_unit(std::span(made.parameters).subspan(best * n, n), x);
+  parent_.ledger.add_start(x, made.objectives[best]);
 }
 
 void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,

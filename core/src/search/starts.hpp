@@ -68,6 +68,8 @@ class Starts {
   void run_block(std::size_t first, std::size_t size, std::uint64_t seed,
                  const std::function<void(std::size_t, Problem&)>& body);
   void take(StartProblem& start);
+  /// Where a start ended: bounds that hold a search are to be told, whichever start wins.
+  void note_end(const Evaluations& made);
 
   SharedState& shared_;
   Oracle& parent_;
