@@ -159,7 +159,15 @@ void print_initial_point(const calibration::PosedProblem& problem) {
                    initial.status.ok() ? "kept at the initial point"
                                        : "broken at the initial point, which is no harm: " + initial.status.reason()));
   for (const auto& other : initial.other_means) print_agreement(other);
-  for (const auto& sentence : initial.sentences) answer("{}\n", hanging("  set-up, at the initial point: ", sentence));
+  const auto& parameters = assembly.layout().parameters;
+  const bool chosen =
+      std::any_of(parameters.begin(), parameters.end(), [](const auto& one) { return one.own_initial; });
+  if (!chosen && !initial.sentences.empty())
+    answer("{}\n", hanging("  set-up: ",
+                           "the initial values are defaults, so that they say nothing of these data; `tunica "
+                           "run` says what the data fix at the best point"));
+  for (const auto& sentence : initial.sentences)
+    if (chosen) answer("{}\n", hanging("  set-up, at the initial point: ", sentence));
   if (initial.analysed && initial.sentences.empty())
     answer("  set-up: the data fix every parameter at the initial point\n");
 }
