@@ -19,7 +19,7 @@ const char* words(Descent::End end) {
     case Descent::End::converged:
       return "it met a tolerance";
     case Descent::End::out_of_iterations:
-      return "it used up its iterations";
+      return "it used up its iterations (max_iterations)";
     case Descent::End::blocked:
       return "no step from its last point could be evaluated";
     case Descent::End::infeasible:
