@@ -43,7 +43,7 @@ int certify(const GlobalOptions& global, const CertifyOptions& options) {
   const auto experiment = session.read(folder / "input.json");
   const auto plan = execution::make_plan(experiment, session.catalogue());
   std::vector<std::string> contradictions;
-  answer("{}", comparison::certify(plan, execution::read_text(points), &contradictions));
+  answer("{}", comparison::certify(plan, execution::read_text(points), &contradictions, &session.catalogue()));
   for (const auto& contradiction : contradictions) say_error(contradiction);
   return contradictions.empty() ? done : not_converged;
 }

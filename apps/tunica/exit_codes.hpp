@@ -6,7 +6,8 @@ namespace tunica::app {
 /// What the process returns; scripts rely on it.
 enum ExitCode : int {
   done = 0,
-  not_converged = 1,  ///< ran, but a run has no result, broke its constraints or was given up
+  not_converged =
+      1,  ///< ran, but a run has no fit: did not converge, broke its constraints, mostly failed or was given up
   invalid_input = 2,
   plugin_refused = 3,
   internal_error = 4,

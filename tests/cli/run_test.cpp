@@ -313,6 +313,21 @@ TEST(Run, ShoutsAboutParametersAtTheirBounds) {
   EXPECT_EQ(result["warnings"][1], "neo/lm: " + warning["sentence"].get<std::string>());
 }
 
+TEST(Run, ReturnsOneAndNamesTheLimitWhereItsOptimiserHadNotConverged) {
+  trial::Bench bench;
+  bench.experiment["models"]["neo"]["parameters"]["mu"] = {{"min", 1}, {"max", 500}, {"initial", 2}};
+  bench.experiment["optimizers"]["lm"]["max_iterations"] = 1;
+  bench.experiment["optimizers"]["lm"]["starts"] = 1;
+  bench.experiment["runs"].erase(1);
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("max_iterations"));
+  const auto run = bench.result("out")["runs"][0];
+  EXPECT_FALSE(run["converged"].get<bool>());
+  EXPECT_EQ(run["limit"]["key"], "optimizers.lm.max_iterations");
+  EXPECT_EQ(run["limit"]["value"], "1");
+}
+
 TEST(Run, SaysWhyWhenEveryEvaluationFails) {
   trial::Bench bench;
   // exp(k2 E²) overflows for every k2 in these bounds.

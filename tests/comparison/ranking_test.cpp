@@ -32,6 +32,33 @@ TEST(Ranking, PutsTheSmallestObjectiveFirstAndKeepsTheOrderOfEquals) {
   EXPECT_EQ(ranking[3].rank, 4u);
 }
 
+TEST(Ranking, SharesARankWhereObjectivesDifferByLessThanSearchesResolve) {
+  const auto ranking = comparison::rank({run("a", 1 + 4e-15), run("a", 2), run("a", 1), run("a", 1 + 1e-4)});
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(0, 2, 3, 1)) << "equals stay in the order of the file";
+  EXPECT_EQ(ranking[0].rank, 1u);
+  EXPECT_EQ(ranking[1].rank, 1u);
+  EXPECT_EQ(ranking[2].rank, 3u);
+  EXPECT_EQ(ranking[3].rank, 4u);
+}
+
+TEST(Ranking, WarnsWhereAiccComparesARunThatADefaultBoundHolds) {
+  std::vector<RunSummary> runs{run("a", 1), run("a", 2)};
+  std::vector<comparison::Ranked> ranking = comparison::rank(runs);
+  ranking[0].delta_aicc = 0;
+  ranking[1].delta_aicc = 375;
+  EXPECT_TRUE(comparison::preferences(runs, ranking).empty());
+  comparison::Estimate k1;
+  k1.name = "k1";
+  k1.upper_kind = assembly::FreeParameter::Bound::by_default;
+  k1.stops_upper = {3, 9.0};
+  runs[1].label = "hgo/lm";
+  runs[1].parameters = {k1};
+  const auto warnings = comparison::preferences(runs, ranking);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, execution::WarningKind::bound_in_comparison);
+  EXPECT_THAT(warnings[0].sentence, ::testing::HasSubstr("k1 of hgo/lm"));
+}
+
 TEST(Ranking, NeverHidesARunWithoutAResult) {
   const auto ranking = comparison::rank({run("a", {}), run("a", 5, Status::infeasible("unstable", 1)), run("a", 9)});
   EXPECT_THAT(order(ranking), ::testing::ElementsAre(2, 1, 0));

@@ -262,7 +262,7 @@ std::string certify(const Library& library, const std::string& folder, const std
   const auto loaded = library.read((std::filesystem::path(folder) / "input.json").string());
   const py::gil_scoped_release free;
   const auto plan = execution::make_plan(loaded->experiment, *loaded->catalogue);
-  return comparison::certify(plan, execution::read_text(points));
+  return comparison::certify(plan, execution::read_text(points), nullptr, loaded->catalogue.get());
 }
 
 }  // namespace

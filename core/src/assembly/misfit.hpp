@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -35,6 +36,14 @@ struct Misfit {
   [[nodiscard]] bool contradicts() const {
     return judged() && chance < misfit_false_alarm && per_freedom() > noticeable_misfit;
   }
+  /// The rows contradict model and noise, by less than what matters to the eye: many rows find a small misfit.
+  [[nodiscard]] bool small_but_real() const {
+    return judged() && chance < misfit_false_alarm && !contradicts() && per_freedom() > 1;
+  }
+  /// √(χ²/ν − 1): the size of what is no noise, in units of the noise.
+  [[nodiscard]] double systematic() const { return per_freedom() > 1 ? std::sqrt(per_freedom() - 1) : 0; }
+  /// √(χ² − ν)/1.96: as many half-widths of its interval a parameter can be off, if all of the misfit looks like it.
+  [[nodiscard]] double half_widths() const { return judged() ? systematic() * std::sqrt(freedom) / 1.96 : 0; }
   /// The rows scatter by less than they would by noise as it is stated: so small a χ² has a chance below
   /// misfit_false_alarm, and a difference that matters.
   [[nodiscard]] bool falls_short() const {

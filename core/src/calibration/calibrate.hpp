@@ -56,8 +56,7 @@ struct Outcome {
   comparison::Provenance provenance = {};
   std::filesystem::path result = {}, report = {};
 
-  /// Every run has a best point that keeps its constraints and that no fresh process refutes, and neither its optimiser
-  /// nor the failure policy gave up.
+  /// Every run came to a fit, see comparison/conclusion.hpp, and neither its optimiser nor the failure policy gave up.
   [[nodiscard]] bool sound() const;
 };
 

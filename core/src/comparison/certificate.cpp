@@ -61,6 +61,8 @@ std::string neighbour_words(const Certificate& certificate) {
   const char* const finding = share <= not_an_optimum       ? ""
                               : certificate.ended_at_target ? "stopped at its target, not at the optimum: "
                                                             : "not an optimum: ";
+  if (around.lowest->step == 0)
+    return fmt::format("{}{} from it lowers the objective by {:.2g} %", finding, around.lowest->along, 100 * share);
   return fmt::format("{}a step of {:g} along {} lowers the objective by {:.2g} %", finding, around.lowest->step,
                      around.lowest->along, 100 * share);
 }

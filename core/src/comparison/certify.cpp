@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +14,7 @@
 #include "text/escaped.hpp"
 #include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
+#include "uncertainty/refit.hpp"
 
 namespace tunica::comparison {
 
@@ -68,6 +72,59 @@ const json& run_named(const json& result, const std::string& label) {
   refuse(fmt::format("there is no run '{}' in the result", label));
 }
 
+/// A local search from the lowest point that is known, where that is cheap. Where it comes lower by more than searches
+/// resolve, its end is the lowest.
+void refine(const assembly::Assembly& assembly, const plugins::Catalogue& catalogue, const std::vector<double>& free,
+            search::Neighbourhood& around) {
+  constexpr double resolved = 1e-6;  // of the objective
+  const auto found = catalogue.optimizers().find("ceres_lm");
+  if (found == catalogue.optimizers().end() || !around.status.ok() || assembly.layout().has_costly_tests) return;
+  Options options;
+  for (const auto& option : found->second.factory.options)
+    if (option.fallback) options.set(option.name, *option.fallback);
+  options.set("starts", std::int64_t{1});
+  uncertainty::RefitObjective target;
+  target.residual_count = assembly.layout().residual_count;
+  target.blocks = assembly.layout().blocks;
+  target.evaluate = [&assembly](std::span<const double> at, double& objective, std::span<double> residuals,
+                                std::span<double> jacobian, assembly::Workspace& own) {
+    return assembly.evaluator().evaluate(at, objective, {}, residuals, jacobian, own);
+  };
+  const auto workspace = assembly.evaluator().make_workspace();
+  const double lowest = around.better ? around.lowest->objective : around.objective;
+  auto made = uncertainty::refit(assembly, target, {&found->second, std::move(options)},
+                                 around.better ? around.lowest->parameters : free, std::nullopt, 0, *workspace);
+  if (!made.status.ok() || !(lowest - made.objective > resolved * std::abs(lowest) + 1e-12)) return;
+  around.better = true;
+  around.lowest = {made.objective, 0, "a local search", std::move(made.free)};
+}
+
+/// Why the intervals of a run mean nothing: they surround a point that is not the optimum. Empty where they do.
+std::string doubt_of_intervals(const RunSummary& run) {
+  constexpr double moved = 0.5;  // half widths
+  const auto& certificate = run.certificate;
+  if (certificate.verdict == CertificateVerdict::not_an_optimum)
+    return "the best point is not an optimum, and intervals around it would not hold the optimum";
+  if (!certificate.fresh || !certificate.fresh->around.better) return "";
+  const auto& there = certificate.fresh->around.lowest->parameters;
+  for (std::size_t j = 0; j < run.parameters.size() && j < there.size(); ++j) {
+    const Estimate& estimate = run.parameters[j];
+    if (!estimate.ci95) continue;
+    const double half = (estimate.ci95->second - estimate.ci95->first) / 2;
+    if (const double far = std::abs(there[j] - estimate.value); far > moved * half)
+      return fmt::format(
+          "a better point lies {:.2g} half-widths away in {}, so the interval would not hold the optimum", far / half,
+          estimate.name);
+  }
+  return "";
+}
+
+void withhold_intervals(RunSummary& run) {
+  for (Estimate& estimate : run.parameters) estimate.ci95.reset();
+  run.covariance = {};
+  run.curve_ci95.clear();
+}
+
 }  // namespace
 
 std::string best_points_json(const Summary& summary) {
@@ -85,7 +142,7 @@ std::string best_points_json(const Summary& summary) {
 }
 
 std::string certify(const execution::Plan& plan, const std::string& result_json,
-                    std::vector<std::string>* contradictions) {
+                    std::vector<std::string>* contradictions, const plugins::Catalogue* catalogue) {
   json runs = json::array();
   try {
     const json result = detail::parse_json<json>(result_json);
@@ -99,7 +156,8 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
           refuse(fmt::format("run '{}' has no parameter '{}'", planned.label, parameter.name));
         free.push_back(values.at(parameter.name).at("value"));
       }
-      const auto around = search::probe_neighbourhood(*planned.assembly, free);
+      auto around = search::probe_neighbourhood(*planned.assembly, free);
+      if (catalogue) refine(*planned.assembly, *catalogue, free, around);
       json entry = to_json(around);
       const double recorded = run.at("best").at("objective"), now = entry.at("objective");
       entry["run"] = planned.label;
@@ -126,7 +184,7 @@ std::string certify(const execution::Plan& plan, const std::string& result_json,
 
 bool add_certificates(const std::string& certified, const std::string& missing, Summary& summary) {
   const json document = detail::parse_json<json>(certified, false);
-  bool refuted = false;
+  bool refuted = false, withheld = false;
   for (auto& run : summary.runs) {
     if (!run.has_result) continue;
     auto& certificate = run.certificate;
@@ -141,13 +199,18 @@ bool add_certificates(const std::string& certified, const std::string& missing, 
     }
     judge(certificate);
     refuted = refuted || certificate.refuted();
+    run.withheld = doubt_of_intervals(run);
+    if (!run.withheld.empty()) {
+      withhold_intervals(run);
+      withheld = true;
+    }
     if (auto warning = certificate_warning(run.label, certificate)) summary.warnings.push_back(std::move(*warning));
   }
   if (refuted) {
     summary.ranking = rank(summary.runs);
     compare_information(summary.runs, summary.ranking);
   }
-  return refuted;
+  return refuted || withheld;
 }
 
 }  // namespace tunica::comparison

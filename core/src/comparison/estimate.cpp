@@ -59,6 +59,8 @@ void add_parameters(const assembly::Assembly& assembly, const execution::Realisa
     estimate.max = declared[j].max;
     if (unit[j] <= on_bound) estimate.at_bound = Estimate::Bound::lower;
     if (unit[j] >= 1 - on_bound) estimate.at_bound = Estimate::Bound::upper;
+    estimate.lower_kind = declared[j].kind_of(false);
+    estimate.upper_kind = declared[j].kind_of(true);
     std::vector<double> sample;
     for (const auto& realisation : all.realisations)
       if (realisation.best.feasible()) sample.push_back(realisation.best.parameters[j]);
@@ -118,6 +120,9 @@ void add_deviation(const assembly::Assembly& assembly, const std::vector<double>
     for (std::size_t i = 0, k = 0; i < view.count; ++i) {
       if (!view.fitted[i]) continue;
       const double error = std::abs(predictions[view.offset + i] - view.measured[i]);
+      one.lowest = k == 0 ? view.measured[i] : std::min(one.lowest, view.measured[i]);
+      one.highest = k == 0 ? view.measured[i] : std::max(one.highest, view.measured[i]);
+      one.mean_square += std::pow(error / sd[k], 2) / rows;
       one.mean += error / sd[k++] / rows;
       one.share += error / rows;
       one.largest = std::max(one.largest, std::abs(view.measured[i]));

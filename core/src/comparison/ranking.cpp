@@ -2,6 +2,7 @@
 #include "comparison/ranking.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -23,6 +24,44 @@ int standing(const RunSummary& run) {
   if (!run.has_result) return 3;
   if (run.certificate.refuted()) return 2;
   return run.status.ok() ? 0 : 1;
+}
+
+/// By less than searches resolve, runs of one model or of several are equal: they share a rank, in the order of the
+/// file, and the next rank counts them.
+bool tie(const RunSummary& a, const RunSummary& b) {
+  constexpr double resolved = 1e-6;  // of the objective: tolerances of optimisers end a search about there
+  return a.group == b.group && standing(a) == 0 && standing(b) == 0 &&
+         std::abs(a.objective - b.objective) <= resolved * std::abs(a.objective) + 1e-12;
+}
+
+void share_ranks(const std::vector<RunSummary>& runs, const std::map<std::string, bool>& by_success,
+                 std::vector<Ranked>& order) {
+  std::map<std::string, std::size_t> next;
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    const RunSummary& leader = runs[order[first].run];
+    last = first + 1;
+    if (!by_success.at(leader.group))
+      while (last < order.size() && tie(leader, runs[order[last].run])) ++last;
+    const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first),
+               end = order.begin() + static_cast<std::ptrdiff_t>(last);
+    std::sort(begin, end, [](const Ranked& a, const Ranked& b) { return a.run < b.run; });
+    if (!leader.has_result) continue;
+    const std::size_t rank = next[leader.group] + 1;
+    next[leader.group] += last - first;
+    for (auto entry = begin; entry != end; ++entry) entry->rank = rank;
+  }
+}
+
+/// "k1 of hgo/lm": a parameter that its default bound holds, or has held in some searches; empty for none.
+std::string held_by_default(const RunSummary& run) {
+  for (const Estimate& one : run.parameters)
+    for (const bool upper : {false, true}) {
+      const bool there = one.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
+      if (!there && (upper ? one.stops_upper : one.stops_lower).count == 0) continue;
+      if ((upper ? one.upper_kind : one.lower_kind) == assembly::FreeParameter::Bound::by_default)
+        return fmt::format("{} of {}", one.name, run.label);
+    }
+  return "";
 }
 
 }  // namespace
@@ -73,9 +112,7 @@ std::vector<Ranked> rank(const std::vector<RunSummary>& runs) {
     };
     return key(runs[a.run]) < key(runs[b.run]);
   });
-  std::map<std::string, std::size_t> next;
-  for (auto& entry : order)
-    if (runs[entry.run].has_result) entry.rank = ++next[runs[entry.run].group];
+  share_ranks(runs, by_success, order);
   return order;
 }
 
@@ -104,6 +141,15 @@ void compare_information(const std::vector<RunSummary>& runs, std::vector<Ranked
 
 std::vector<execution::Warning> preferences(const std::vector<RunSummary>& runs, const std::vector<Ranked>& ranking) {
   std::vector<execution::Warning> warnings;
+  for (const Ranked& entry : ranking) {
+    if (!entry.delta_aicc) continue;
+    if (const std::string held = held_by_default(runs[entry.run]); !held.empty())
+      warnings.push_back({execution::WarningKind::bound_in_comparison,
+                          fmt::format("ΔAICc {:.3g} compares a fit that a default bound holds back, {}: models are "
+                                      "compared at their optima. Widen the bound first",
+                                      *entry.delta_aicc, held),
+                          runs[entry.run].label});
+  }
   for (const Ranked& first : ranking) {
     const RunSummary& run = runs[first.run];
     if (first.rank != 1U || !first.delta_aicc || *first.delta_aicc < hardly_supported ||

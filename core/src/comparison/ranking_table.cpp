@@ -159,7 +159,9 @@ std::string quality_text(const Quality& quality) {
 std::string misfit_text(const assembly::Misfit& misfit, const char* noise) {
   return fmt::format("χ²/ν {:.3g} (χ² {:.4g}, ν {:.4g}), {:.2g} times the {} noise{}", misfit.per_freedom(),
                      misfit.chi_square, misfit.freedom, misfit.times(), noise,
-                     misfit.contradicts()   ? ": the model misses the data"
+                     misfit.contradicts() ? ": the model misses the data"
+                     : misfit.small_but_real()
+                         ? fmt::format(": a small misfit, and a real one (chance {:.1g})", misfit.chance)
                      : misfit.falls_short() ? ": the noise or a unit is wrong"
                                             : "");
 }
@@ -173,15 +175,6 @@ std::string spread_text(const RunSummary& run) {
   for (const auto& parameter : run.parameters)
     parts.push_back(one(parameter.name, parameter.over_realisations, parameter.unit));
   return fmt::format("{} (mean ± sd of {}; intervals in statistics.csv)", fmt::join(parts, ", "), run.objectives.count);
-}
-
-/// What ended the run, and whether the search that found its best point had converged by then.
-std::string ending(const RunSummary& run) {
-  const std::string reason = run.reason.empty() ? "" : ": " + run.reason;
-  if (run.stopped_by == search::StopReason::none) return (run.converged ? "converged" : "not converged") + reason;
-  if (run.stopped_by == search::StopReason::target) return "ended at its target";
-  return fmt::format("ended by {}; the search that found the best point {} converged{}", run.stop_sentence,
-                     run.converged ? "had" : "had not", reason);
 }
 
 /// A parameter with a longer name has it on a line of its own.
@@ -205,7 +198,7 @@ text::StyledText parameter_lines(const RunSummary& run) {
 }
 
 text::StyledText run_lines(const RunSummary& run) {
-  const std::string how = ending(run);
+  const std::string how = words_on_ending(run);
   std::string head = run.label;
   if (run.realisations > 1) head += fmt::format(", best of {} realisations", run.realisations);
   text::StyledText lines(text::hanging(head + "  ", how.empty() ? "" : fmt::format("({})", how)) + '\n');

@@ -31,6 +31,21 @@ json statistics(const SampleStatistics& sample) {
           {"median", sample.box->median},  {"q3", sample.box->upper}, {"max", sample.box->max}};
 }
 
+/// What the bound is that a parameter lies at.
+const char* bound_kind(const Estimate& estimate) {
+  switch (estimate.at_bound == Estimate::Bound::upper ? estimate.upper_kind : estimate.lower_kind) {
+    case assembly::FreeParameter::Bound::chosen:
+      return "chosen";
+    case assembly::FreeParameter::Bound::by_default:
+      return "default";
+    case assembly::FreeParameter::Bound::symmetry:
+      return "symmetry";
+    case assembly::FreeParameter::Bound::physical:
+      return "physical";
+  }
+  return "";
+}
+
 const char* word(Estimate::Bound bound) { return bound == Estimate::Bound::lower ? "lower" : "upper"; }
 
 json certificate(const Certificate& certificate) {
@@ -92,10 +107,10 @@ const char* word(Information::Noise noise) {
 
 json misfit(const std::optional<assembly::Misfit>& found) {
   if (!found) return nullptr;
-  return {{"chi_square", found->chi_square},          {"rows", found->rows},
-          {"degrees_of_freedom", found->freedom},     {"reduced_chi_square", found->per_freedom()},
-          {"times_the_noise", found->times()},        {"chance", found->chance},
-          {"contradicts_noise", found->contradicts()}};
+  return {{"chi_square", found->chi_square},           {"rows", found->rows},
+          {"degrees_of_freedom", found->freedom},      {"reduced_chi_square", found->per_freedom()},
+          {"times_the_noise", found->times()},         {"chance", found->chance},
+          {"contradicts_noise", found->contradicts()}, {"small_but_real", found->small_but_real()}};
 }
 
 json noise(const std::vector<NoiseOf>& channels) {
@@ -148,6 +163,7 @@ json best(const RunSummary& run) {
              {"ci95", interval(parameter.ci95)},
              {"ci95_reliable", parameter.ci95 ? json(parameter.straight) : json(nullptr)},
              {"at_bound", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(word(parameter.at_bound))},
+             {"bound_kind", parameter.at_bound == Estimate::Bound::none ? json(nullptr) : json(bound_kind(parameter))},
              {"min", parameter.min},
              {"max", parameter.max}};
     if (parameter.profile)
@@ -187,6 +203,7 @@ json best(const RunSummary& run) {
   result["misfit"] = misfit(run.misfit);
   result["misfit_estimated"] = misfit(run.misfit_estimated);
   result["interval_factor"] = run.misfit && run.misfit->contradicts() ? run.misfit->times() : 1.0;
+  result["intervals_withheld"] = run.withheld.empty() ? json(nullptr) : json(run.withheld);
   if (!run.notes.empty()) result["notes"] = run.notes;
   result["certificate"] = certificate(run.certificate);
   result["hold_out"] = hold_out(run.quality);
@@ -231,7 +248,11 @@ json run_json(const RunSummary& run) {
       {"failures", run.failures},
       {"infeasible", run.infeasible},
       {"first_failure", run.first_failure.empty() ? json(nullptr) : json(run.first_failure)},
-      {"converged", run.converged},
+      {"converged", run.converged && succeeded(ending_of(run)) && ending_of(run) != Ending::misses &&
+                        ending_of(run) != Ending::short_of_optimum},
+      {"ending", words_on_ending(run)},
+      {"ending_code", text::code_of(ending_codes, ending_of(run))},
+      {"limit", run.limit ? json{{"key", run.limit->key}, {"value", run.limit->value}} : json(nullptr)},
       {"ended_by", run.stop_sentence.empty() ? run.reason : run.stop_sentence},
       {"stop_reason", run.stopped_by == search::StopReason::none ? json(nullptr) : json(search::code(run.stopped_by))},
       {"seconds", run.seconds}};

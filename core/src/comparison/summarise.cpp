@@ -71,6 +71,25 @@ void add_counts(const execution::RunResult& result, RunSummary& summary) {
   summary.objectives = sample_statistics(objectives);
 }
 
+/// How many searches ended at each bound: starts of the optimiser, or realisations where it tells of none.
+void add_bound_stops(const assembly::Assembly& assembly, const execution::RunResult& result, RunSummary& summary) {
+  search::Tally all;
+  std::vector<double> x(summary.parameters.size());
+  for (const auto& realisation : result.realisations) {
+    if (realisation.tally.starts > 0) {
+      all.add(realisation.tally);
+    } else if (realisation.best.feasible()) {
+      assembly.box().to_unit(realisation.best.parameters, x);
+      all.add_start(x, realisation.best.objective);
+    }
+  }
+  summary.searches = all.starts;
+  for (const auto& stops : all.bound_stops) {
+    Estimate& estimate = summary.parameters[stops.parameter];
+    (stops.upper ? estimate.stops_upper : estimate.stops_lower) = {stops.count, stops.objective};
+  }
+}
+
 /// "test 'strip': 34 solver runs, 2 failed runs until the search had ended"
 void add_effort_notes(RunSummary& summary) {
   for (const auto& [test, efforts] : summary.efforts) {
@@ -114,6 +133,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
     summary.reason = told->reason;
     summary.stopped_by = told->stopped_by;
     summary.stop_sentence = told->stop_sentence;
+    summary.limit = limit_of(run, summary);
   }
   if (!best) {
     summary.status = Status::failed(!summary.first_failure.empty() ? summary.first_failure
@@ -126,6 +146,7 @@ RunSummary summarise_run(const experiment::Experiment& experiment, const executi
   summary.best_id = best->best.index + 1;
   summary.objective = best->best.objective;
   estimate(*run.assembly, *best, result, summary, warnings);
+  add_bound_stops(*run.assembly, result, summary);
   add_effort_notes(summary);
   summary.has_costly_tests = run.assembly->layout().has_costly_tests;
   if (summary.has_costly_tests) summary.notes.push_back(words_on_simulations(summary));

@@ -11,6 +11,7 @@
 #include "assembly/misfit.hpp"
 #include "assembly/quality.hpp"
 #include "comparison/certificate.hpp"
+#include "comparison/conclusion.hpp"
 #include "comparison/information.hpp"
 #include "comparison/statistics.hpp"
 #include "execution/plan.hpp"
@@ -39,6 +40,13 @@ struct Estimate {
   bool held = false;        ///< a constraint fixes it
   bool assessed = false;    ///< the point is a fit and was linearised, so that `identified` means something
   Bound at_bound = Bound::none;
+  /// What its bounds are; and how many searches ended at each, with the least objective of those.
+  assembly::FreeParameter::Bound lower_kind = assembly::FreeParameter::Bound::chosen, upper_kind = lower_kind;
+  struct Stops {
+    std::uint64_t count = 0;
+    double objective = 0;
+  };
+  Stops stops_lower, stops_upper;
   SampleStatistics over_realisations;
 };
 
@@ -75,9 +83,11 @@ struct NoiseOf {
 /// How far a channel is from its data, in units of their noise.
 struct Deviation {
   std::string test, channel, unit;
-  double mean = 0;             ///< ⟨|e|/σ⟩ over the fitted rows
-  double sd = 0, largest = 0;  ///< median σ; largest |measured|
-  double share = 0;            ///< ⟨|e|⟩ of the largest |measured|
+  double mean = 0;                 ///< ⟨|e|/σ⟩ over the fitted rows
+  double sd = 0, largest = 0;      ///< median σ; largest |measured|
+  double share = 0;                ///< ⟨|e|⟩ of the largest |measured|
+  double mean_square = 0;          ///< ⟨(e/σ)²⟩
+  double lowest = 0, highest = 0;  ///< of the measured values
 };
 
 /// Covariance of the parameters that the data fix, row after row; empty = none.
@@ -141,12 +151,15 @@ struct RunSummary {
   std::string first_fault;
   bool one_course = false;                           ///< all of several realisations improved by the same steps
   std::vector<search::FailureKind> failure_reasons;  ///< most frequent first
+  std::uint64_t searches = 0;                        ///< local searches, or realisations where there were none
   std::uint64_t given_up = 0;                        ///< realisations that the failure policy ended
   bool converged = false;  ///< the search that found the best point had, in the optimiser's own word
   std::string reason;      ///< its own reason for coming back
   search::StopReason stopped_by = search::StopReason::none;  ///< what ended the whole
   std::string stop_sentence;                                 ///< the same in words; empty for none
   double seconds = 0;                                        ///< Σ over realisations
+  std::optional<SearchLimit> limit = {};                     ///< what would let the search go on
+  std::string withheld = {};  ///< why there are no intervals, although the data may fix the parameters
 };
 
 struct Ranked {

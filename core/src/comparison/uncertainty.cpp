@@ -68,6 +68,10 @@ void say_left_out(const char* what, double max_time, RunSummary& run) {
 }
 
 void add_words(RunSummary& run) {
+  if (!run.withheld.empty()) {
+    run.uncertainty.insert(run.uncertainty.begin(), "no intervals: " + run.withheld);
+    return;
+  }
   add_linearised_words(run);
   add_widening_words(run);
 }
@@ -119,7 +123,7 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
   for (std::size_t k = 0; k < plan.runs.size(); ++k) {
     const auto& run = plan.runs[k];
     auto& own = summary.runs[k];
-    if (!own.has_result || !own.status.ok()) {
+    if (!own.has_result || !own.status.ok() || !own.withheld.empty()) {
       add_words(own);
       continue;
     }

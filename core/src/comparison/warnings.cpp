@@ -2,6 +2,7 @@
 #include "comparison/warnings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -71,6 +72,31 @@ void warn_of_large_noise(const RunSummary& run, Warnings& warnings) {
                       {worst.test, worst.channel}});
 }
 
+/// Many rows find a misfit that no eye sees; it says how small it is, and what it may do to parameters all the same.
+void warn_of_small_misfit(const RunSummary& run, Warnings& warnings) {
+  for (const auto* misfit :
+       {run.misfit ? &*run.misfit : nullptr, run.misfit_estimated ? &*run.misfit_estimated : nullptr}) {
+    if (!misfit || !misfit->small_but_real() || !run.deviation) continue;
+    const Deviation& worst = *run.deviation;
+    const double freedom = std::max(1.0, misfit->freedom) / static_cast<double>(std::max<std::size_t>(misfit->rows, 1));
+    const double size = worst.sd * std::sqrt(std::max(worst.mean_square / freedom - 1, misfit->per_freedom() - 1));
+    const double range = worst.highest - worst.lowest;
+    warnings.push_back(
+        {WarningKind::small_misfit,
+         fmt::format(
+             "the model misses the data by a little, and really: χ²/ν is {:.3g}, which noise alone reaches with "
+             "a chance of {:.1g}. The misfit is about {:.2g}{}{} in '{}' of test '{}'. Intervals count noise "
+             "alone: if all of the misfit looks like one parameter, that one is off by {:.2g} half-widths. Run "
+             "tunica diagnose",
+             misfit->per_freedom(), misfit->chance, size, text::unit_suffix(worst.unit),
+             range > 0 ? fmt::format(", {:.2g} % of the range,", 100 * size / range) : std::string(), worst.channel,
+             worst.test, misfit->half_widths()),
+         run.label,
+         {worst.test, worst.channel}});
+    return;
+  }
+}
+
 /// A misfit that no measurement has says that data, units or noise are not what they are taken for.
 void warn_of_scale(const RunSummary& run, Warnings& warnings) {
   constexpr double most = 1000, least = 1e-9;  // mean deviation in units of the noise
@@ -119,19 +145,62 @@ void warn_of_broken_constraints(const RunSummary& run, Warnings& warnings) {
        run.label});
 }
 
+using BoundKind = assembly::FreeParameter::Bound;
+
+/// What to do about a parameter at its bound.
+std::string remedy_at(BoundKind kind, const std::string& name, bool upper) {
+  switch (kind) {
+    case BoundKind::symmetry:
+      return "It is a point of symmetry, beyond which the same material comes again: there is nothing to widen";
+    case BoundKind::physical:
+      return "It is a physical end: the data want nothing of what it stands for, or the model lacks something. There "
+             "is "
+             "nothing to widen";
+    case BoundKind::by_default:
+      return fmt::format(
+          "The bound is the default, nobody chose it. The best value may lie beyond it: widen it with "
+          "\"{}\" of '{}' if physics allows it, otherwise doubt the model",
+          upper ? "max" : "min", name);
+    case BoundKind::chosen:
+      break;
+  }
+  return "The best value may lie beyond it. Widen the bound if physics allows it, otherwise doubt the model";
+}
+
 void warn_of_bounds(const RunSummary& run, Warnings& warnings) {
   for (const auto& parameter : run.parameters) {
     if (parameter.at_bound == Estimate::Bound::none) continue;
     const bool upper = parameter.at_bound == Estimate::Bound::upper;
     const std::string unit = text::unit_suffix(parameter.unit);
-    warnings.push_back({WarningKind::at_bound,
-                        fmt::format("{} = {:.6g}{} lies at its {} bound ({:.6g}{}); the best value may lie beyond it. "
-                                    "Widen the bound if physics allows it, otherwise doubt the model",
-                                    parameter.name, parameter.value, unit, upper ? "upper" : "lower",
-                                    upper ? parameter.max : parameter.min, unit),
-                        run.label,
-                        {parameter.name}});
+    warnings.push_back(
+        {WarningKind::at_bound,
+         fmt::format("{} = {:.6g}{} lies at its {} bound ({:.6g}{}). {}", parameter.name, parameter.value, unit,
+                     upper ? "upper" : "lower", upper ? parameter.max : parameter.min, unit,
+                     remedy_at(upper ? parameter.upper_kind : parameter.lower_kind, parameter.name, upper)),
+         run.label,
+         {parameter.name}});
   }
+}
+
+/// Searches that a default bound has ended say that a better point may lie beyond it, although another one won.
+void warn_of_default_bounds(const RunSummary& run, Warnings& warnings) {
+  for (const auto& parameter : run.parameters)
+    for (const bool upper : {false, true}) {
+      const Estimate::Stops& stops = upper ? parameter.stops_upper : parameter.stops_lower;
+      const bool winner = parameter.at_bound == (upper ? Estimate::Bound::upper : Estimate::Bound::lower);
+      if (stops.count == 0 || winner) continue;
+      if ((upper ? parameter.upper_kind : parameter.lower_kind) != BoundKind::by_default) continue;
+      warnings.push_back(
+          {WarningKind::stopped_at_default_bound,
+           fmt::format("{} of {} searches stopped at the default {} bound of {} ({:.6g}{}), the best of them at the "
+                       "objective {:.5g}; the run ends at {:.5g} elsewhere. A better point may lie beyond a bound that "
+                       "nobody chose: widen it with \"{}\" of '{}'",
+                       stops.count, run.searches, upper ? "upper" : "lower", parameter.name,
+                       upper ? parameter.max : parameter.min, text::unit_suffix(parameter.unit), stops.objective,
+                       run.objective, upper ? "max" : "min", parameter.name),
+           run.label,
+           {parameter.name}});
+    }
 }
 
 void warn_of_loose_parameters(const RunSummary& run, Warnings& warnings) {
@@ -161,11 +230,11 @@ void warn_of_instability(const RunSummary& run, const std::string& of_model, con
       warn(WarningKind::unstable,
            fmt::format(
                "unstable: when the strip is {} along the {} axis, the transverse stretch λ3 {}{} (measured {}to "
-               "{:.4g}); impose the constraint transverse_stability. Fibres are the more stable the more they are "
-               "dispersed",
+               "{:.4g}); impose the constraint transverse_stability{}",
                pulled ? "pulled" : "pressed", strip.axis == 0 ? "circumferential" : "axial", pulled ? "grows" : "falls",
                from ? fmt::format(" {} stretch {:.4g}", pulled ? "from" : "below", *from) : "",
-               strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to));
+               strip.judged_from < 1 ? fmt::format("from {:.4g} ", strip.judged_from) : "", strip.judged_to,
+               verdict.drucker ? "" : ". Fibres are the more stable the more they are dispersed"));  // none: isotropic
     }
   if (verdict.ellipticity.first_lost)
     warn(WarningKind::ellipticity_lost,
@@ -262,10 +331,14 @@ std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const s
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_scale(run, warnings);
   for (std::size_t run = 0; run < runs.size(); ++run) warn_of_contradicted_noise(plan, runs, run, warnings);
+  for (const auto& run : runs)
+    if (run.status.ok()) warn_of_small_misfit(run, warnings);
   for (auto& warning : preferences(runs, ranking)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it
   for (const auto& run : runs) warn_of_bounds(run, warnings);
+  for (const auto& run : runs)
+    if (run.has_result) warn_of_default_bounds(run, warnings);
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_loose_parameters(run, warnings);
   for (const auto& run : runs) warn_of_failures(run, warnings);

@@ -17,6 +17,7 @@ enum class WarningKind {
   noise_contradicted,
   search_fell_short,
   noise_too_large,
+  small_misfit,
   no_result,
   no_feasible_point,
   not_repeatable,
@@ -28,6 +29,8 @@ enum class WarningKind {
   drucker_lost,
   inadmissible_parameters,
   at_bound,
+  stopped_at_default_bound,
+  bound_in_comparison,
   not_fixed_by_data,
   failed_evaluations,
   optimizer_failure,
@@ -59,12 +62,13 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 45> warning_codes{
+inline constexpr text::Codes<WarningKind, 48> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
      {WarningKind::search_fell_short, "search_fell_short"},
      {WarningKind::noise_too_large, "noise_too_large"},
+     {WarningKind::small_misfit, "small_misfit"},
      {WarningKind::no_result, "no_result"},
      {WarningKind::no_feasible_point, "no_feasible_point"},
      {WarningKind::not_repeatable, "not_repeatable"},
@@ -76,6 +80,8 @@ inline constexpr text::Codes<WarningKind, 45> warning_codes{
      {WarningKind::drucker_lost, "drucker_lost"},
      {WarningKind::inadmissible_parameters, "inadmissible_parameters"},
      {WarningKind::at_bound, "at_bound"},
+     {WarningKind::stopped_at_default_bound, "stopped_at_default_bound"},
+     {WarningKind::bound_in_comparison, "bound_in_comparison"},
      {WarningKind::not_fixed_by_data, "not_fixed_by_data"},
      {WarningKind::failed_evaluations, "failed_evaluations"},
      {WarningKind::optimizer_failure, "optimizer_failure"},

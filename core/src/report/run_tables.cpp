@@ -74,6 +74,8 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
            {fmt::format("{} / {}", figure(number(entry, "successes")), figure(number(run, "realisations"))), true},
            {figure(number(entry, "expected_running_time")), true},
            {figure(number(run, "evaluations")), true},
+           {figure(number(run, "jacobians")), true},
+           {figure(number(member(run, "full_simulations"), "count")), true},
            {figure(number(run, "failures")), true, number(run, "failures") > 0},
            {figure(number(run, "seconds")), true},
            {stable.is_boolean() ? (stable == true ? "yes" : "NO") : "–", false, stable == false},
@@ -81,7 +83,7 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
       first.push_back(rank == 1);
     }
     page.html(table_html({"rank", "run", "objective", "ΔAICc", "χ²/ν", "successes", "per success", "evaluations",
-                          "failed", "seconds", "stable", "status"},
+                          "Jacobians", "full simulations", "failed", "seconds", "stable", "status"},
                          rows, first));
   }
   page.html(

@@ -96,6 +96,12 @@ void fit_in_doubt(const Json& best, Doubts& doubts) {
                              figure(number(misfit, "reduced_chi_square"))),
                  known ? "Run tunica diagnose EXPERIMENT."
                        : "Run tunica diagnose EXPERIMENT, and state the noise where it is known.");
+    else if (member(misfit, "small_but_real") == true)
+      doubts.add(
+          fmt::format("the model misses the data by a little, and really (χ²/ν {}, chance {}): parameters may be "
+                      "off by more than their intervals",
+                      figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chance"))),
+          "Run tunica diagnose EXPERIMENT.");
     return;
   }
   double worst = 1;
@@ -109,23 +115,31 @@ void fit_in_doubt(const Json& best, Doubts& doubts) {
 }
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {
-  std::vector<std::string> bound, loose, one_sided, unreliable, fixed;
+  std::vector<std::string> bound, natural, loose, one_sided, unreliable, fixed;
   for (const auto& [name, estimate] : member(best, "parameters").items()) {
-    if (member(estimate, "at_bound").is_string())
+    if (const std::string kind = word(estimate, "bound_kind"); kind == "symmetry" || kind == "physical")
+      natural.push_back(name);
+    else if (member(estimate, "at_bound").is_string())
       bound.push_back(name);
     else if (const Json& profile = member(estimate, "profile_ci95"); profile.is_array() && profile.size() == 2)
       (profile[0].is_null() && profile[1].is_null()   ? loose
        : profile[0].is_null() || profile[1].is_null() ? one_sided
                                                       : fixed)
           .push_back(name);
-    else if (member(estimate, "ci95").is_null())
+    else if (member(estimate, "ci95").is_null() && !member(best, "intervals_withheld").is_string())
       loose.push_back(name);
-    else if (member(estimate, "ci95_reliable") == false && !member(estimate, "bootstrap_ci95").is_array())
+    else if (member(estimate, "ci95_reliable") == false && member(estimate, "ci95").is_array() &&
+             !member(estimate, "bootstrap_ci95").is_array())
       unreliable.push_back(name);
   }
   if (!bound.empty())
     doubts.add(fmt::format("{} {} at a bound", text::joined(bound), text::agreeing(bound.size(), "lies", "lie")),
                "Widen the bounds where physics allows it, otherwise doubt the model.");
+  if (!natural.empty())
+    doubts.add(
+        fmt::format("{} {} at the natural end of {} range", text::joined(natural),
+                    text::agreeing(natural.size(), "lies", "lie"), text::agreeing(natural.size(), "its", "their")),
+        "There is nothing to widen: leave out what the parameter stands for, or doubt the model.");
   if (!loose.empty())
     doubts.add(fmt::format("{} {} no interval", text::joined(loose), text::agreeing(loose.size(), "has", "have")),
                "Read under Parameters what the data fix, and add the test that is named there.");
@@ -164,6 +178,17 @@ void noise_in_doubt(const Json& result, const std::string& run, Doubts& doubts) 
     doubts.add("the rows scatter far less than the stated noise says", "Correct the noise, or the unit of the data.");
 }
 
+/// What the run came to, where it is no fit; the key that lets the search go on is in its words.
+void ending_in_doubt(const Json& result, const std::string& run, Doubts& doubts) {
+  for (const Json& one : list(result, "runs")) {
+    const std::string code = word(one, "ending_code");
+    if (word(one, "run") != run) continue;
+    if (code == "mostly_failed" || code == "not_a_fit" || code == "misses" || code == "not_converged")
+      doubts.add(word(one, "ending"), code == "not_converged" ? "Raise the limit that ended the search."
+                                                              : "Take another model, or other bounds.");
+  }
+}
+
 Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
   Doubts doubts;
   fit_in_doubt(best, doubts);
@@ -174,8 +199,8 @@ Doubts doubts_of(const Json& result, const std::string& run, const Json& best) {
   if (word(best, "status") == "infeasible")
     doubts.add("the best point breaks its constraints", "Relax the constraints.");
   if (member(best, "stable") == false)
-    doubts.add("the material is unstable within the measured range",
-               "Impose the constraint transverse_stability. Fibres are the more stable the more they are dispersed.");
+    doubts.add("the material is unstable within the measured range", "Impose the constraint transverse_stability.");
+  ending_in_doubt(result, run, doubts);
   const Json& certificate = member(best, "certificate");
   if (is_no_optimum(certificate))
     doubts.add("a neighbouring point is better, so this is not an optimum",

@@ -16,7 +16,7 @@ namespace tunica::search {
 struct Neighbourhood {
   /// The least feasible objective among the neighbours, and where it is.
   struct Lowest {
-    double objective = 0, step = 0;  ///< signed, in the unit box
+    double objective = 0, step = 0;  ///< signed, in the unit box; 0: a local search ended there
     std::string along;               ///< a parameter, or "direction 2 of the residuals' curvature"
     std::vector<double> parameters;
   };
