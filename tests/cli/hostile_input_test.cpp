@@ -276,3 +276,58 @@ TEST(HostileInput, ATruncatedPluginInAFolderIsOneWarning) {
     EXPECT_THAT(ended.err, HasSubstr("good.so was refused: the file is cut short"));
   }
 }
+
+TEST(HostileInput, NumbersOfTheCommandLineAreFinite) {
+  const trial::Bench bench;
+  const std::vector<std::vector<std::string>> commands = {
+      {"diagnose", "experiment.json", "-o", "out", "--alpha"},
+      {"discover", "experiment.json", "-o", "out", "--alpha"},
+      {"simulate", "experiment.json", "--model", "neo", "-o", "out", "--noise"},
+      {"export", "out", "--to", "febio", "--bulk-ratio"},
+      {"stability", "experiment.json", "--model", "neo", "--to"},
+      {"check", "experiment.json", "--call-limit"},
+      {"check", "experiment.json", "--memory-limit"}};
+  for (auto words : commands)
+    for (const char* value : {"nan", "-nan", "inf", "-inf", "1e308", "1e999"}) {
+      auto with = words;
+      with.emplace_back(value);
+      const auto ended = bench.tunica(with);
+      EXPECT_EQ(ended.code, 2) << words.front() << " " << words.back() << " " << value;
+      EXPECT_THAT(ended.err, HasSubstr("not in range")) << words.back() << " " << value;
+      EXPECT_FALSE(std::filesystem::exists(bench.path("out")));
+    }
+}
+
+TEST(HostileInput, SavedJsonNestedWithoutEndIsRefused) {
+  const trial::Bench bench;
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--quiet"}).code, 0);
+  const std::string deep = std::string(80'000, '[') + std::string(80'000, ']');
+  for (const char* name : {"result.json", "checkpoint.json", "input.json"})
+    bench.folder.write(std::string("out/") + name, R"({"format": 1, "a": )" + deep + "}");
+  const std::vector<std::vector<std::string>> commands = {
+      {"report", "out"},
+      {"export", "out", "--to", "febio"},
+      {"certify", "out"},
+      {"run", "experiment.json", "-o", "out", "--resume"},
+      {"simulate", "experiment.json", "--model", "neo", "--parameters", "out/result.json", "-o", "other"}};
+  for (const auto& words : commands) {
+    const auto ended = bench.tunica(words);
+    EXPECT_EQ(ended.code, 2) << words.front() << ended.err;
+  }
+}
+
+TEST(HostileInput, AFolderOfTheRunThatIsALinkIsNotFollowed) {
+  const trial::Bench bench;
+  for (const char* own : {"parts", "shards"}) {
+    std::filesystem::remove_all(bench.path("out"));
+    ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out", "--quiet"}).code, 0);
+    std::filesystem::create_directory(bench.path(std::string("other_") + own));
+    const std::string kept = std::string("other_") + own + "/2.csv";
+    bench.folder.write(kept, "kept");
+    std::filesystem::create_directory_symlink(bench.path(std::string("other_") + own), bench.path("out") / own);
+    const auto ended = bench.tunica({"run", "experiment.json", "-o", "out", "--resume"});
+    EXPECT_EQ(ended.code, 2) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("is a symbolic link"));
+    EXPECT_EQ(bench.text(kept), "kept");
+  }
+}

@@ -128,3 +128,28 @@ TEST(Cache, KeepsInMemoryAndInAFolder) {
   EXPECT_EQ(trial::text_of(file), text);
   EXPECT_EQ(digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
 }
+
+TEST(TextTemplate, OfBracesAloneTakesTimeInProportion) {
+  std::string text;
+  for (int i = 0; i < 400'000; ++i) text += "{{";  // squared, 33 s for a tenth of it
+  const TextTemplate made(text + " mu}} {{mu}}");
+  EXPECT_EQ(made.places().size(), 2U);
+}
+
+TEST(Cache, AFileThatCannotBeReadIsNoAnswer) {
+  const trial::Folder folder;
+  const Numbers numbers{{1, 2, 3}};
+  Cache(folder.path() / "c", 1).keep("key", numbers);
+  const auto file = std::filesystem::directory_iterator(folder.path() / "c")->path();
+  std::filesystem::remove(file);
+  std::filesystem::create_directory(file);  // reading it fails, as on a faulty disk
+  EXPECT_EQ(Cache(folder.path() / "c", 1).find("key"), std::nullopt);
+}
+
+TEST(Results, DeepJsonAndColumnsThatAreNoneAreRefused) {
+  using Kind = ResultPlace::Kind;
+  const std::string deep = R"({"force": )" + std::string(80'000, '[') + std::string(80'000, ']') + "}";
+  EXPECT_THAT(problem(read(deep, Kind::pointer, "/force")), HasSubstr("more than 64 levels of nesting"));
+  for (const char* column : {"1.5", "1e30", "0"})
+    EXPECT_THAT(problem(read("1 2\n3 4\n", Kind::column, column)), HasSubstr("has no column")) << column;
+}

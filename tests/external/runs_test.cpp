@@ -237,3 +237,49 @@ TEST(External, ACurveThatEndsTooEarlyNamesTheRow) {
   EXPECT_THAT(bench.result()["first_failure"].get<std::string>(),
               AllOf(HasSubstr("row 20"), HasSubstr("from 0 to 80")));
 }
+
+// A file of somebody else may name any command.
+TEST(External, CheckShowsTheCommandAndStartsItOnDemand) {
+  const trial::Folder counted;
+  const auto mark = counted.path() / "was_here";
+  trial::SolverBench bench(310, 12, "touch " + mark.string());
+  const auto shown = bench.tunica({"check", "experiment.json"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.out, AllOf(HasSubstr("test 'strip' runs: sh gent.sh"), HasSubstr("--run-external")));
+  EXPECT_FALSE(std::filesystem::exists(mark));
+  const auto json = bench.tunica({"check", "experiment.json", "--json"});
+  EXPECT_THAT(json.out, HasSubstr("\"not_run\""));
+  EXPECT_FALSE(std::filesystem::exists(mark));
+  const auto started = bench.tunica({"check", "experiment.json", "--run-external"});
+  EXPECT_EQ(started.code, 0) << started.err;
+  EXPECT_THAT(started.out, HasSubstr("at the initial point: objective"));
+  EXPECT_TRUE(std::filesystem::exists(mark));
+}
+
+TEST(External, MaxTimeEndsAProgramThatHangs) {
+  trial::SolverBench bench(310, 12, "sleep 60");
+  bench.experiment["stop"]["max_time"] = "1 s";
+  const auto begun = std::chrono::steady_clock::now();
+  const auto ended = bench.run();
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(40));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(), HasSubstr("its max_time was over"));
+}
+
+TEST(External, AFileWithoutEndIsEndedAtItsLimit) {
+  trial::SolverBench bench(310, 12, "yes > large");
+  bench.test["output_limit"] = 1;
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  EXPECT_NE(bench.run().code, 0);
+  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(), HasSubstr("output_limit"));
+}
+
+TEST(External, FoldersOfAnEndedProcessAreSwept) {
+  trial::SolverBench bench;
+  bench.experiment["stop"]["max_evaluations"] = 2;
+  std::filesystem::create_directories(bench.folder.path() / "scratch/tunica-running-abcdef/below");
+  std::filesystem::create_directories(bench.folder.path() / "scratch/tunica-failed-abcdef");
+  static_cast<void>(bench.run());
+  EXPECT_FALSE(std::filesystem::exists(bench.folder.path() / "scratch/tunica-running-abcdef"));
+  EXPECT_TRUE(std::filesystem::exists(bench.folder.path() / "scratch/tunica-failed-abcdef"));
+}

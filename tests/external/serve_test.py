@@ -4,6 +4,7 @@
 
 A strip of neo-Hookean rubber, sigma = mu (l^2 - 1/l), is the oracle: predictions and Jacobian are known. Then a fit
 through the client is held against the direct one, and a server of Python's own, without derivatives, is fitted too."""
+import gzip
 import http.server
 import json
 import math
@@ -169,6 +170,14 @@ try:
     assert result["efforts"]["strip"]["jacobian_actions"] == result["jacobians"], result["efforts"]
     for key, value, words in (("inputs", [["mu"], ["mu"]], "1 input"), ("inputs", [["nu"]], "'nu'"),
                               ("outputs", {}, "'stress'"), ("outputs", {"stress": {"output": 1}}, "'stress' has 20 rows"),
+                              ("outputs", {"stress": {"output": 0, "first": -1}}, "/outputs/stress/first"),
+                              ("outputs", {"stress": {"output": 0.5}}, "/outputs/stress/output"),
+                              ("outputs", {"stress": {"first": 18446744073709551615}}, "'stress' has 20 rows"),
+                              ("outputs", {"stress": {"first": "1"}}, "a whole number from 0"),
+                              ("outputs", {"stress": {"factor": "2"}}, "/outputs/stress/factor"),
+                              ("outputs", {"stress": {"unit": 3}}, "/outputs/stress/unit"),
+                              ("outputs", {"stress": {"offset": 3}}, "the key 'offset'"),
+                              ("outputs", {"stress": {}, "force": {}}, "'force'"),
                               ("model", "prediction", "predictions")):
         write("wrong", {**client, key: value})
         found = run("run", "wrong.json", "-o", "wrong")
@@ -241,4 +250,59 @@ with socket.socket() as silent:
                      "inputs": [["mu"]], "outputs": {"stress": {}}, "data": data})
     found = run("run", "silent.json", "-o", "silent")
     assert found.returncode == 2 and "within 0.3 s" in found.stderr, found.stderr
+
+
+def hostile(answer, words, **more):
+    """A server that answers every connection with what `answer` sends; the client gives up with `words`."""
+    with socket.socket() as listening:
+        listening.bind(("127.0.0.1", 0))
+        listening.listen()
+
+        def serve():
+            while True:
+                try:
+                    connection, _ = listening.accept()
+                except OSError:
+                    return
+                with connection:
+                    try:
+                        connection.recv(65536)
+                        answer(connection)
+                    except OSError:
+                        pass
+        threading.Thread(target=serve, daemon=True).start()
+        write("hostile", {"type": "um_bridge", "url": f"http://127.0.0.1:{listening.getsockname()[1]}",
+                          "inputs": [["mu"]], "outputs": {"stress": {}}, "data": data, **more})
+        found = run("run", "hostile.json", "-o", "hostile")
+        assert found.returncode == 2 and words in " ".join(found.stderr.split()), (words, found.returncode, found.stderr)
+        listening.close()
+
+
+def endless(head, piece):
+    def send(connection):
+        connection.sendall(head)
+        while True:
+            connection.sendall(piece)
+    return send
+
+
+def drip(connection):
+    connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: 1000000\r\n\r\n")
+    while True:
+        connection.sendall(b" ")
+        threading.Event().wait(0.1)
+
+
+def whole(body, head=b""):
+    return lambda connection: connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: " + str(len(body)).encode() +
+                                                 b"\r\n" + head + b"\r\n" + body)
+
+
+ok = b"HTTP/1.1 200 OK\r\n"
+hostile(endless(ok + b"\r\n", b"[" * 65536), "sent more than 32 MiB")
+hostile(endless(ok, b"X: " + b"y" * 1000 + b"\r\n"), "sent more than 32 MiB")
+hostile(drip, "within 1 s", time_limit="1 s")
+hostile(whole(gzip.compress(b"0" * 10**6), b"Content-Encoding: gzip\r\n"), "the encoding 'gzip'")
+hostile(whole(b'{"error": ' + b"[" * 80000 + b"]" * 80000 + b"}"), "more than 64 levels")
+hostile(whole(b'{"protocolVersion": "1"}'), "speaks version unknown")
 print("served, and asked")

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A material and a search that break every promise of their interfaces, one at a time, as the option "how" says. The
 // material is a neo-Hookean solid, and honest below the shear modulus `from`.
+#ifdef __x86_64__
+#include <xmmintrin.h>
+#endif
 #include <array>
 #include <atomic>
 #include <cfenv>
@@ -106,6 +109,14 @@ void misbehave(const std::string& how) {
   if (how == "throws_42") throw 42;
   if (how == "prints") std::printf("plugins may not print\n"), std::fflush(stdout);
   if (how == "rounds_up") std::fesetround(FE_UPWARD);
+  if (how == "traps") ::feenableexcept(FE_INEXACT | FE_DIVBYZERO);
+#ifdef __x86_64__
+  if (how == "flushes_to_zero") _mm_setcsr(_mm_getcsr() | 0x8040U);
+  if (how == "cuts_precision") {
+    const unsigned short word = 0x027f;  // 53 bits
+    __asm__ volatile("fldcw %0" : : "m"(word));
+  }
+#endif
   if (how == "exits") std::exit(0);
   if (how == "exits_at_once") ::_exit(0);
   if (how == "aborts") std::abort();

@@ -158,6 +158,14 @@ def a_plugin_that_changes_the_arithmetic_changes_no_number():
         folder, tunica = laboratory(f"rounds_{name}", **wishes)
         tunica("run", "experiment.json", "-o", "results", "--quiet", "-j", "1", code=None)
         expect_others_as_ever(folder, name)
+    for how in ("traps", "flushes_to_zero", "cuts_precision"):
+        for wishes in ({"how": how}, {"search": "bad", "search_does": how}, {"test_does": how}):
+            name = how + "_" + "_".join(wishes)
+            folder, tunica = laboratory(name, **wishes)
+            said = tunica("run", "experiment.json", "-o", "results", "-j", "1", code=None)
+            expect("plugin 'hostile 1.0.0'" in said, f"{name}: nobody is blamed:\n{said}")
+            expect("'neo_hooke" not in said, f"{name}: an honest plugin is blamed:\n{said}")
+            expect_others_as_ever(folder, name)
     folder, tunica = laboratory("rounds")
     shell = Program("/bin/sh", folder)
     shell.words = ["/bin/sh", "-c"]
