@@ -82,7 +82,7 @@ class Folder:
     def __init__(self, directory):
         self.directory = pathlib.Path(directory)
         #: result.json as it stands; docs/results.md lists its keys
-        self.json = json.loads((self.directory / "result.json").read_text(encoding="utf-8"))
+        self.json = _saved(self.directory / "result.json")
 
     @property
     def name(self):
@@ -348,13 +348,20 @@ class Check(dict):
         return self["warnings"]
 
 
+def _saved(file):
+    """JSON of a folder that somebody else may have made."""
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as problem:
+        raise InputError(f"{file}: is not JSON that tunica has written ({problem}); run it again") from None
+
+
 def open_results(directory):
     """Results that were written before, by Python or by the command line."""
     directory = pathlib.Path(text(directory, "directory"))
     if not (directory / "result.json").exists():
         raise InputError(f"{directory}: there is no result.json; name the folder of a finished run, diagnosis or discovery")
-    with open(directory / "result.json", encoding="utf-8") as stream:
-        found = json.load(stream)
+    found = _saved(directory / "result.json")
     if "diagnosis" in found:
         return Diagnosis(directory)
     return Discovery(directory) if "discovery" in found else Result(directory)
