@@ -26,7 +26,7 @@ class Errors(Case):
 
     def test_results_nested_without_end_are_refused(self):
         (self.folder / "result.json").write_text("[" * 80000 + "]" * 80000)
-        self.assertIn("is not JSON that tunica has written", self.message(tunica.open_results, self.folder))
+        self.assertIn("is not JSON that tunica has written", self.message(tunica.open, self.folder))
 
     def test_a_wrong_key_of_a_dictionary_names_its_path_and_the_right_key(self):
         experiment = of_treloar({"type": "neo_hoke"})
