@@ -18,6 +18,7 @@
 #include "execution/files.hpp"
 #include "exit_codes.hpp"
 #include "report/data_page.hpp"
+#include "text/aside.hpp"
 #include "text/lists.hpp"
 #include "text/styled.hpp"
 #include "text/units.hpp"
@@ -221,7 +222,9 @@ int check(const GlobalOptions& global, const std::string& file, bool as_json, co
   const Session session(global);
   const auto experiment = session.read(file, experiment::Purpose::prediction);
   if (!page.empty()) write_data_page(experiment, session.catalogue(), page);
-  const auto checked = calibration::examine(experiment, session.catalogue(), run_external);
+  const auto checked =
+      calibration::examine(experiment, session.catalogue(), run_external,
+                           [](const std::string& words) { text::aside("{}\n", text::hanging("", words)); });
   if (as_json)
     print_json(check_json(checked));
   else

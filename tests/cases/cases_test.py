@@ -99,6 +99,37 @@ class Cases(unittest.TestCase):
         self.assertEqual(2, code, said)
         self.assertIn("Strain", said)
 
+    def test_a_strain_in_percent_is_asked_about_by_check(self):
+        self.case("percent-strain-no-unit")
+        self.assertIn("goes to 10.79", self.in_order())
+        self.changed(pct={"units": {"Stress": "kPa", "Strain": "%"}})
+        self.assertNotIn("Is it percent?", self.in_order())
+
+    def test_a_grip_distance_beside_a_gauge_length_is_refused(self):
+        self.case("grip-distance-ignored")
+        code, said = self.tunica("check", "experiment.json")
+        self.assertEqual(2, code, said)
+        self.assertIn('"grip_distance" changes nothing beside a "gauge_length" of 22.76 mm', said)
+
+    def test_a_spike_and_a_cylinder_that_may_be_pressed_are_asked_about(self):
+        self.case("compression-positive-load")
+        said = self.in_order()
+        self.assertIn("Is it a spike of the start?", said)
+        self.assertIn('add "compression": "positive"', said)
+        self.assertNotIn("several cycles", said)
+        self.changed(muscle={"compression": "positive", "rows": "1:"})
+        said = self.in_order()
+        self.assertNotIn("Is it a spike", said)
+        self.assertNotIn("as one to be pressed", said)
+
+    def test_rows_after_a_break_are_asked_about(self):
+        self.case("isotropic-holes-yeoh-large-stretch")
+        self.assertNotIn("Did the specimen break", self.in_order())
+        with open(self.folder / "mono.csv", "a", encoding="utf-8") as data:
+            for row in range(20):  # the specimen hangs in two parts, and the grips go on
+                data.write(f"0.0{row % 3},{230 + row}\n")
+        self.assertIn("Did the specimen break or slip? The 20 rows", self.in_order())
+
     def test_a_german_file_of_mts_is_imported(self):
         self.case("mts-german-locale")
         (self.folder / "experiment.json").unlink()

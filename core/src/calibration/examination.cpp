@@ -120,7 +120,8 @@ bool Examination::good() const {
   return std::all_of(problems.begin(), problems.end(), [](const auto& problem) { return problem.initial.good(); });
 }
 
-Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue, bool run_programs) {
+Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue, bool run_programs,
+                    const std::function<void(const std::string&)>& told) {
   Examination found{experiment,
                     execution::make_plan(experiment, catalogue),
                     {},
@@ -152,6 +153,8 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
     for (const auto& constraint : run.entry->constraints) problem += ", " + constraint.json;
     if (!posed.insert(problem).second) continue;
     const std::string programs = run_programs ? "" : programs_of(experiment, run);
+    if (told && programs.empty() && run.assembly->layout().has_costly_tests)
+      told(fmt::format("{}: simulating its tests at the initial point, and once more for each derivative", problem));
     found.problems.push_back({problem, &run, programs.empty() ? try_initial_point(run) : InitialPoint{}});
     found.problems.back().initial.not_run = programs;
   }

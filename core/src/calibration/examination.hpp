@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -72,8 +73,9 @@ struct Examination {
 
 /// A dry run: plans, and evaluates every problem once at its initial point. Where a test of the problem starts a
 /// program that the file names, with its option "command", that is left out unless `run_programs`: the file may be
-/// somebody else's. Throws InputError where experiment, data or analysis do not fit.
+/// somebody else's. `told`, if any, hears what is about to take long. Throws InputError where experiment, data or
+/// analysis do not fit.
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
-                    bool run_programs = false);
+                    bool run_programs = false, const std::function<void(const std::string&)>& told = {});
 
 }  // namespace tunica::calibration
