@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 
+#include "along_radius.hpp"
 #include "axes_path.hpp"
 #include "memory_path.hpp"
 #include "tensor_path.hpp"
@@ -40,7 +41,18 @@ bool may_shear(const TestInput& input) {
   });
 }
 
-/// A strip pulled along the circumferential or axial direction, or cut at an angle to it. Its lateral faces are free,
+/// Whether every part is a function of I1 and I2 alone, so that the axis of the strip does not matter. A model without
+/// parts does not say.
+bool is_isotropic(const TestInput& input) {
+  const auto parts = input.model.parts();
+  return !parts.empty() && std::all_of(parts.begin(), parts.end(), [&input](const auto& part) {
+    Invariant x;
+    part->invariant(input.model_parameters, x, {});
+    return x.fibre == 0 && x.normal == 0 && x.across == 0;
+  });
+}
+
+/// A strip pulled along a direction of the material, or cut at an angle to it. Its lateral faces are free,
 /// and the grips keep it from shearing.
 class Uniaxial final : public Test {
  public:
@@ -49,7 +61,7 @@ class Uniaxial final : public Test {
     description_.nulls = {0};
     description_.diagnostics = {"transverse_stretch", "normal_stretch"};
     description_.diagnostic_units = {"1", "1"};
-    const bool along_an_axis = strip_.turn == 0;
+    const bool along_an_axis = strip_.turn == 0 && !radial_;
     if (along_an_axis) description_.free_strip_axis = strip_.loaded;
     description_.path_derivatives = along_an_axis;
     description_.path_exceptions = {"misalignment"};
@@ -59,6 +71,13 @@ class Uniaxial final : public Test {
   [[nodiscard]] const TestRows& rows() const override { return rows_; }
 
   Status predict(const TestInput& input, const TestOutput& output) const override {
+    if (!radial_ || is_isotropic(input)) return predict_in_plane(input, output);
+    const AlongRadius turned(input.model);
+    return predict_in_plane({turned, input.model_parameters, input.test_parameters, input.abscissae}, output);
+  }
+
+ private:
+  Status predict_in_plane(const TestInput& input, const TestOutput& output) const {
     const ModelDescription& model = input.model.describe();
     const double misalignment = input.test_parameters[0];
     if (strip_.turn != 0) return predict_on_tensors(strip_, input, strip_.turn + misalignment, output);
@@ -70,7 +89,6 @@ class Uniaxial final : public Test {
     return predict_on_axes(input, output);
   }
 
- private:
   Status predict_on_axes(const TestInput& input, const TestOutput& output) const {
     if (!output.jacobian.empty() && may_shear(input)) return predict_on_tensors(strip_, input, 0, output);
     Status status = axes_.predict(strip_, input, output);
@@ -99,7 +117,13 @@ class Uniaxial final : public Test {
   }
 
   const Strip& bind(const TestSetup& setup) {
-    const bool circumferential = setup.options.text("direction") == "circumferential";
+    const std::string& direction = setup.options.text("direction");
+    radial_ = direction == "radial";
+    if (radial_ && setup.options.number("angle") != 0)
+      throw InputError(
+          "uniaxial: \"direction\" is 'radial' and \"angle\" is not 0, and a strip along the normal of the wall is not "
+          "turned in its plane; take \"angle\" out");
+    const bool circumferential = radial_ || direction == "circumferential";
     strip_.loaded = circumferential ? 0 : 1;
     strip_.transverse = 1 - strip_.loaded;
     // The angle turns z towards t, and t away from z; a misalignment turns the pulled axis towards the other one.
@@ -135,6 +159,7 @@ class Uniaxial final : public Test {
   }
 
   Strip strip_;
+  bool radial_ = false;  ///< through the thickness; the strip is then that of AlongRadius, along its first axis
   TestRows rows_;
   TestDescription description_;
   AxesPath axes_;
@@ -142,23 +167,25 @@ class Uniaxial final : public Test {
 };
 
 TestFactory factory() {
-  return {"uniaxial",
-          "A strip pulled along the circumferential or axial direction, lateral faces free.",
-          "Holzapfel & Ogden, J. R. Soc. Interface 7:787 (2010)",
-          {Option::choice("direction", {"circumferential", "axial"}, {}, "Material axis the strip is pulled along."),
-           Option::quantity("angle", "deg", -360,
-                            "Turn of the strip from that axis, from axial towards circumferential. The grips keep the "
-                            "strip from shearing.",
-                            0.0)},
-          {{"stretch", "1", Observable::Role::abscissa, true, "Stretch along the strip.", Observable::Kind::stretch},
-           {"time", "s", Observable::Role::time, false, "Time since the unloaded state.", Observable::Kind::plain},
-           {"stress", "kPa", Observable::Role::channel, false, "Stress along the strip.", Observable::Kind::stress},
-           {"transverse_stretch", "1", Observable::Role::channel, false, "In-plane stretch across the strip.",
-            Observable::Kind::stretch},
-           {"normal_stretch", "1", Observable::Role::channel, false, "Stretch through the thickness.",
-            Observable::Kind::stretch}},
-          [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); },
-          own_parameters()};
+  return {
+      "uniaxial",
+      "A strip pulled along a direction of the material, lateral faces free.",
+      "Holzapfel & Ogden, J. R. Soc. Interface 7:787 (2010)",
+      {Option::choice("direction", {"circumferential", "axial", "radial"}, {},
+                      "Material axis the strip is pulled along; radial is through the thickness."),
+       Option::quantity("angle", "deg", -360,
+                        "Turn of the strip from that axis, from axial towards circumferential. The grips keep the "
+                        "strip from shearing.",
+                        0.0)},
+      {{"stretch", "1", Observable::Role::abscissa, true, "Stretch along the strip.", Observable::Kind::stretch},
+       {"time", "s", Observable::Role::time, false, "Time since the unloaded state.", Observable::Kind::plain},
+       {"stress", "kPa", Observable::Role::channel, false, "Stress along the strip.", Observable::Kind::stress},
+       {"transverse_stretch", "1", Observable::Role::channel, false,
+        "In-plane stretch across the strip; of a radial one the circumferential stretch.", Observable::Kind::stretch},
+       {"normal_stretch", "1", Observable::Role::channel, false,
+        "Stretch through the thickness; of a radial strip the axial stretch.", Observable::Kind::stretch}},
+      [](const TestSetup& setup) -> std::unique_ptr<Test> { return std::make_unique<Uniaxial>(setup); },
+      own_parameters()};
 }
 
 }  // namespace
