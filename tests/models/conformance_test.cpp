@@ -34,6 +34,7 @@ std::vector<Case> cases() {
     for (const char* model : {"neo_hooke", "mooney_rivlin", "yeoh", "gent", "arruda_boyce"})
       all.push_back({model, "", property});
     for (const std::int64_t terms : {1, 3, 6}) all.push_back({"ogden", "", property, terms});
+    for (const std::int64_t terms : {3, 5, 9}) all.push_back({"mooney_rivlin", "", property, terms});
     for (const char* model : {"gho", "hgo", "holzapfel_2015", "four_fibre"}) {
       all.push_back({model, "strain", property});
       all.push_back({model, "none", property});

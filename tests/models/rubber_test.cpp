@@ -39,6 +39,40 @@ TEST(MooneyRivlin, EnergyIsTheFormula) {
   expect_energy("mooney_rivlin",
                 [](const Invariants& at, const Parameters& p) { return p[0] * (at.i1 - 3) + p[1] * (at.i2 - 3); });
 }
+/// Σ c_mn x^m y^n with the powers in the order of the parameters.
+void expect_polynomial(std::int64_t terms, const std::vector<std::pair<int, int>>& powers) {
+  Options options;
+  options.set("terms", terms);
+  const auto model = make_model("mooney_rivlin", options);
+  ASSERT_EQ(model->describe().parameters.size(), powers.size());
+  for (std::size_t k = 0; k < powers.size(); ++k)
+    EXPECT_EQ(model->describe().parameters[k].name,
+              "c" + std::to_string(powers[k].first) + std::to_string(powers[k].second));
+  Sampler sampler(11);
+  for (int draw = 0; draw < 50; ++draw) {
+    const auto [C, p] = sampler.point(*model);
+    const Invariants at(C);
+    double expected = 0, size = 1;
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+      const double term = p[k] * std::pow(at.i1 - 3, powers[k].first) * std::pow(at.i2 - 3, powers[k].second);
+      expected += term;
+      size += std::abs(term);
+    }
+    EXPECT_NEAR(evaluate(*model, C, p).energy, expected, 1e-12 * size);
+  }
+}
+TEST(MooneyRivlin, WithMoreConstantsIsThePolynomialOfTheInvariants) {
+  expect_polynomial(3, {{1, 0}, {0, 1}, {1, 1}});
+  expect_polynomial(5, {{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}});
+  expect_polynomial(9, {{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}});
+}
+TEST(MooneyRivlin, HasTwoThreeFiveOrNineConstants) {
+  for (const std::int64_t terms : {4, 6, 7, 8}) {
+    Options options;
+    options.set("terms", terms);
+    EXPECT_THROW(make_model("mooney_rivlin", options), InputError);
+  }
+}
 TEST(Yeoh, EnergyIsTheFormula) {
   expect_energy("yeoh", [](const Invariants& at, const Parameters& p) {
     const double x = at.i1 - 3;

@@ -17,6 +17,19 @@ namespace {
 
 std::string keyword_line(std::string_view form) { return fmt::format("*HYPERELASTIC, {}\n", form); }
 
+/// U = Σ C_mn (Ī1 − 3)^m (Ī2 − 3)^n + Σ (J − 1)^2i/D_i, the sum complete to degree N.
+std::string polynomial(const Draft& draft, std::size_t terms) {
+  std::vector<double> values;
+  for (const char* const name : {"c10", "c01", "c20", "c11", "c02"})
+    values.insert(values.end(), draft.material.values.contains(name) ? draft.modulus(name) : 0.0);
+  if (terms == 9)
+    for (const char* const name : {"c30", "c21", "c12", "c03"}) values.insert(values.end(), draft.modulus(name));
+  const std::size_t degree = terms == 9 ? 3 : 2;
+  values.insert(values.end(), draft.d1());
+  values.resize(values.size() + degree - 1, 0.0);
+  return keyword_line(fmt::format("POLYNOMIAL, N={}", degree)) + data_lines(values);
+}
+
 std::string orientation(const FibreEnergy& energy, bool normal) {
   std::string block = comment("**",
                               "Fibres: local direction 1 is the circumferential, 2 the axial, 3 the radial one. The "
@@ -84,6 +97,7 @@ std::string hyperelastic_keyword(const Draft& draft, std::size_t most_ogden_term
   // U = C10 (Ī1 − 3) + (J − 1)²/D1,  C10 = μ/2
   if (material.type == "neo_hooke")
     return keyword_line("NEO HOOKE") + data_lines(std::vector{0.5 * draft.modulus("mu"), d1});
+  if (material.type == "mooney_rivlin" && mooney_terms(material) > 2) return polynomial(draft, mooney_terms(material));
   if (material.type == "mooney_rivlin")
     return keyword_line("MOONEY-RIVLIN") + data_lines(std::vector{draft.modulus("c10"), draft.modulus("c01"), d1});
   if (material.type == "yeoh")

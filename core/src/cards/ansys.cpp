@@ -37,8 +37,19 @@ std::string ansys_card(const Draft& draft) {
   const std::string head = fmt::format("! Material number 1: {}\n", draft.settings.name);
   // W = μ/2 (Ī1 − 3) + (J − 1)²/d
   if (material.type == "neo_hooke") return head + table(2, "NEO", {draft.modulus("mu"), d});
-  if (material.type == "mooney_rivlin")
-    return head + table(2, "MOONEY", {draft.modulus("c10"), draft.modulus("c01"), d});
+  // W = Σ C_mn (Ī1 − 3)^m (Ī2 − 3)^n + (J − 1)²/d
+  if (material.type == "mooney_rivlin") {
+    const std::size_t terms = mooney_terms(material);
+    std::vector<double> constants = {draft.modulus("c10"), draft.modulus("c01")};
+    if (terms == 3) constants.insert(constants.end(), draft.modulus("c11"));
+    if (terms >= 5)
+      for (const char* const name : {"c20", "c11", "c02"}) constants.insert(constants.end(), draft.modulus(name));
+    if (terms == 9)
+      for (const char* const name : {"c30", "c21", "c12", "c03"})
+        constants.insert(constants.end(), draft.modulus(name));
+    constants.insert(constants.end(), d);
+    return head + table(terms, "MOONEY", constants);
+  }
   if (material.type == "yeoh")
     return head + table(3, "YEOH", {draft.modulus("c10"), draft.modulus("c20"), draft.modulus("c30"), d, 0, 0});
   if (material.type == "gent") return head + table(3, "GENT", {draft.modulus("mu"), value_of(material, "Jm"), d});

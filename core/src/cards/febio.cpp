@@ -71,6 +71,8 @@ std::string febio_card(const Draft& draft) {
   if (has_fibres(draft.material)) return fibres(draft);
   if (type == "neo_hooke")
     return material(draft, "Mooney-Rivlin", element("c1", 0.5 * draft.modulus("mu")) + element("c2", 0));
+  if (type == "mooney_rivlin" && mooney_terms(draft.material) > 2)
+    throw CannotExpress{"its Mooney-Rivlin energy has two constants", "fit two constants"};
   if (type == "mooney_rivlin")
     return material(draft, "Mooney-Rivlin", element("c1", draft.modulus("c10")) + element("c2", draft.modulus("c01")));
   if (type == "yeoh")

@@ -54,9 +54,10 @@ std::string head(const Draft& draft, std::string_view keyword) {
 }
 
 // W = Σ C_pq (Ī1 − 3)^p (Ī2 − 3)^q + W_H(J)
-std::string polynomial(const Draft& draft, double c10, double c01, double c20, double c30) {
+std::string polynomial(const Draft& draft, double c10, double c01, double c20, double c30, double c11 = 0,
+                       double c02 = 0) {
   return head(draft, "HYPERELASTIC_RUBBER") + "$      c10       c01       c11       c20       c02       c30\n" +
-         line(std::array{c10, c01, 0.0, c20, 0.0, c30});
+         line(std::array{c10, c01, c11, c20, c02, c30});
 }
 
 }  // namespace
@@ -67,7 +68,12 @@ std::string lsdyna_card(const Draft& draft) {
   if (material.type == "gent")
     throw CannotExpress{"it has no energy with a limit of extension of the chains", "fit 'yeoh' or 'ogden'"};
   if (material.type == "neo_hooke") return polynomial(draft, 0.5 * draft.modulus("mu"), 0, 0, 0);
-  if (material.type == "mooney_rivlin") return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), 0, 0);
+  if (material.type == "mooney_rivlin") {
+    const std::size_t terms = mooney_terms(material);
+    if (terms == 9) throw CannotExpress{"*MAT_HYPERELASTIC_RUBBER has no c21, c12 and c03", "fit 5 constants"};
+    return polynomial(draft, draft.modulus("c10"), draft.modulus("c01"), terms == 5 ? draft.modulus("c20") : 0, 0,
+                      terms > 2 ? draft.modulus("c11") : 0, terms == 5 ? draft.modulus("c02") : 0);
+  }
   if (material.type == "yeoh")
     return polynomial(draft, draft.modulus("c10"), 0, draft.modulus("c20"), draft.modulus("c30"));
   // W = Σ μ_j/α_j (λ̄1^α_j + λ̄2^α_j + λ̄3^α_j − 3)

@@ -55,6 +55,11 @@ std::vector<OgdenTerm> ogden_terms(const Material& material) {
   return terms;
 }
 
+std::size_t mooney_terms(const Material& material) {
+  const auto has = [&](const char* name) { return material.values.contains(name); };
+  return has("c30") ? 9 : has("c20") ? 5 : has("c11") ? 3 : 2;
+}
+
 bool has_fibres(const Material& material) {
   return std::find(fibre_models.begin(), fibre_models.end(), material.type) != fibre_models.end();
 }

@@ -37,6 +37,8 @@ struct FibreEnergy {
 /// The value of a parameter; throws InputError where it is missing or not finite.
 double value_of(const Material& material, const std::string& parameter);
 std::vector<OgdenTerm> ogden_terms(const Material& material);
+/// The constants of `mooney_rivlin`: 2, 3 (with c11), 5 (to the second degree) or 9 (to the third).
+std::size_t mooney_terms(const Material& material);
 bool has_fibres(const Material& material);
 FibreEnergy fibre_energy(const Material& material);
 

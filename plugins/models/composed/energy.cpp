@@ -11,6 +11,7 @@
 #include "fused.hpp"
 #include "term_part.hpp"
 #include "tunica/error.hpp"
+#include "tunica/models/invariant_polynomial.hpp"
 #include "tunica/models/principal_stretches.hpp"
 #include "tunica/models/rubber_laws.hpp"
 #include "with_stretches.hpp"
@@ -101,12 +102,19 @@ std::unique_ptr<Model> stretch_model(const std::vector<Parameter>& all, const st
   return makers.at(indices.size() / 2 - 1)(std::move(description));
 }
 
-/// All terms but those of the principal stretches.
+/// All terms but those of the principal stretches. A product is several parts.
 EnergyParts parts_of(const std::vector<Term>& terms, const Layout& layout) {
   EnergyParts parts;
-  for (const Term& term : terms)
-    if (term.quantity != Quantity::stretches)
+  for (const Term& term : terms) {
+    if (term.quantity == Quantity::stretches) continue;
+    if (term.quantity != Quantity::product) {
       parts.push_back(std::make_unique<TermPart>(term, layout.of(term).law, layout.of(term).invariant));
+      continue;
+    }
+    for (auto& part :
+         isotropic::polynomial_parts({{term.first_power, term.second_power, layout.of(term).law.front(), 0.5}}))
+      parts.push_back(std::move(part));
+  }
   return parts;
 }
 
@@ -125,7 +133,7 @@ EnergyParts fused_parts_of(const std::vector<Term>& terms, const Layout& layout)
     if (!alike.empty()) fused.push_back(std::make_unique<FusedPart>(parts_of(alike, layout)));
   }
   for (const Term& term : terms)
-    if (!term.isotropic()) others.push_back(term);
+    if (!term.isotropic() || term.quantity == Quantity::product) others.push_back(term);
   for (auto& part : parts_of(others, layout)) fused.push_back(std::move(part));
   return fused;
 }

@@ -39,6 +39,9 @@ std::string invariant_words(const Term& term) {
       return fmt::format("(I8 - cos 2 {}_theta)", angle);
     case Quantity::fibre:
       return fmt::format("({} - 1)", fibre_words(term));
+    case Quantity::product:
+      return fmt::format("(I1 - 3){} (I2 - 3){}", term.first_power == 2 ? "^2" : "",
+                         term.second_power == 2 ? "^2" : "");
     case Quantity::stretches:
       break;
   }

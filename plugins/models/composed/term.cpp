@@ -20,10 +20,11 @@ using Json = nlohmann::ordered_json;
 template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
-const Words<Quantity> quantities{{"I1", Quantity::first_invariant}, {"I2", Quantity::second_invariant},
-                                 {"fibre", Quantity::fibre},        {"coupling", Quantity::coupling},
-                                 {"radial", Quantity::radial},      {"across", Quantity::across},
-                                 {"stretches", Quantity::stretches}};
+const Words<Quantity> quantities{{"I1", Quantity::first_invariant},  {"I2", Quantity::second_invariant},
+                                 {"fibre", Quantity::fibre},         {"coupling", Quantity::coupling},
+                                 {"radial", Quantity::radial},       {"across", Quantity::across},
+                                 {"stretches", Quantity::stretches}, {"I1*I2", Quantity::product},
+                                 {"I1^2*I2", Quantity::product},     {"I1*I2^2", Quantity::product}};
 const Words<Family> families{{"axial", Family::axial},
                              {"circumferential", Family::circumferential},
                              {"diagonal", Family::diagonal},
@@ -113,6 +114,9 @@ void check(const Entry& entry, const Term& term) {
   if ((term.quantity == Quantity::coupling || term.quantity == Quantity::across) && !term.law.even)
     entry.fail(fmt::format("the law '{}' does not grow on both sides of 0, as a coupling needs it", term.law.name),
                "Take quadratic or exponential_square");
+  if (term.quantity == Quantity::product && term.law.name != "linear")
+    entry.fail(fmt::format("the law '{}' is given, and a product of invariants has no law but 'linear'", term.law.name),
+               "Write \"law\": \"linear\"");
   if (term.quantity == Quantity::radial && term.active == EnergyPart::Active::fibre_stretched)
     entry.fail("\"fibre_switch\" is 'stretch', and the invariant 'radial' has no fibres", "Write strain or none");
 }
@@ -139,6 +143,14 @@ Term read_term(const Json& json, std::size_t position) {
     entry.fail(fmt::format("\"law\" is '{}'", law_name), fmt::format("Write one of {}", fmt::join(law_names(), ", ")));
   const auto knots = law_name == "spline" ? entry.knots() : std::vector<double>{};
   term.law = law(law_name, knots, term.isotropic());
+  if (term.quantity == Quantity::product) {
+    const std::string powers = entry.text("invariant");
+    term.first_power = powers == "I1^2*I2" ? 2 : 1;
+    term.second_power = powers == "I1*I2^2" ? 2 : 1;
+    // A coefficient of a product is negative as often as not.
+    if (term.law.name == "linear")
+      term.law.parameters = {{"mu", "kPa", 0, -1e4, 1e4, Scale::linear, "Twice the weight of the product.", ""}};
+  }
   if (term.has_family()) term.family = entry.word("family", families);
   if (term.quantity == Quantity::radial)
     term.active = entry.word("fibre_switch", switches, std::optional(EnergyPart::Active::always));

@@ -16,7 +16,8 @@ enum class Quantity {
   coupling,          ///< M1·C M2 − cos 2θ of the two families at ±θ
   radial,            ///< C_rr − 1, across the wall
   across,            ///< M·C e_r, shear between a family and the normal of the wall
-  stretches          ///< Σ over the principal stretches (Ogden)
+  stretches,         ///< Σ over the principal stretches (Ogden)
+  product,           ///< (I1 − 3)^m (I2 − 3)^n with m + n = 2 or 3
 };
 enum class Family { axial, circumferential, diagonal, single };
 enum class Dispersion { none, rotational, two_planes };
@@ -28,12 +29,13 @@ struct Term {
   Family family = Family::diagonal;
   Dispersion dispersion = Dispersion::none;
   EnergyPart::Active active = EnergyPart::Active::always;
-  std::string angle_of;  ///< the term whose angle it shares; empty = its own, where it has one
-  Law law;               ///< empty for stretches
+  std::string angle_of;                           ///< the term whose angle it shares; empty = its own, where it has one
+  Law law;                                        ///< empty for stretches
+  std::size_t first_power = 0, second_power = 0;  ///< m and n of a product
 
   [[nodiscard]] bool isotropic() const {
     return quantity == Quantity::first_invariant || quantity == Quantity::second_invariant ||
-           quantity == Quantity::stretches;
+           quantity == Quantity::stretches || quantity == Quantity::product;
   }
   /// Whether it depends on an angle that is a parameter.
   [[nodiscard]] bool is_angled() const {

@@ -49,6 +49,7 @@ class TermPart final : public EnergyPart {
         return turn(parameters, value, derivatives);
       case Quantity::fibre:
       case Quantity::stretches:
+      case Quantity::product:  // neither is one part
         break;
     }
     fibre(parameters, value, derivatives);
