@@ -8,7 +8,7 @@ namespace {
 
 using From = Quantity::Kind;
 
-constexpr std::string_view stretch_word = "stretch", stress_word = "stress";
+constexpr std::string_view stretch_word = "stretch", stress_word = "stress", shear_word = "shear";
 
 /// "stress_axial" with "force" for "stress"; empty where the word does not stand alone between underscores.
 std::string replaced(std::string_view name, std::string_view word, std::string_view by) {
@@ -30,6 +30,14 @@ std::string direction_of(std::string_view observable) {
   return {};
 }
 
+static bool is_shear(const Observable& observable) {
+  return observable.name == shear_word && observable.role == Observable::Role::abscissa && observable.unit == "1";
+}
+
+bool shears(const std::vector<Observable>& observables) {
+  return std::any_of(observables.begin(), observables.end(), is_shear);
+}
+
 std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
   std::vector<RawName> names;
   const auto add = [&](const Observable& of, std::string_view word, std::string_view by, From kind, const char* unit) {
@@ -38,7 +46,12 @@ std::vector<RawName> raw_names(const std::vector<Observable>& observables) {
                                    [&](const Observable& observable) { return observable.name == name; });
     if (!name.empty() && !taken) names.push_back({std::move(name), {&of, kind, unit}});
   };
+  const bool plates = shears(observables);
   for (const Observable& observable : observables) {
+    if (is_shear(observable)) add(observable, shear_word, "shear_displacement", From::shear_displacement, "mm");
+    if (plates && observable.role == Observable::Role::channel && observable.kind == Observable::Kind::plain &&
+        observable.unit == "kPa")
+      add(observable, stress_word, "force", From::plate_force, "mN");
     if (observable.kind == Observable::Kind::stretch && observable.role == Observable::Role::abscissa) {
       add(observable, stretch_word, "displacement", From::displacement, "mm");
       add(observable, stretch_word, "length", From::length, "mm");

@@ -12,12 +12,24 @@
 /// What a testing machine measures, and the observables of a test that follow from it with the sizes of the specimen.
 ///
 /// The name of the quantity is that of the observable with one word replaced: `displacement`, `length`, `strain`,
-/// `true_strain` or `green_strain` gives a prescribed `stretch`, and `force` gives a `stress`. So `force_axial` gives `stress_axial`, and
-/// `axial_length` gives `axial_stretch`.
+/// `true_strain` or `green_strain` gives a prescribed `stretch`, and `force` gives a `stress`. So `force_axial` gives
+/// `stress_axial`, and `axial_length` gives `axial_stretch`. In simple shear `shear_displacement` over the height of
+/// the block gives `shear`, and a force over the area of the plate a stress, which is the same in every measure because
+/// that area stays.
 namespace tunica::data {
 
 struct Quantity {
-  enum class Kind { own, displacement, length, strain, true_strain, green_strain, force };
+  enum class Kind {
+    own,
+    displacement,
+    length,
+    strain,
+    true_strain,
+    green_strain,
+    force,
+    shear_displacement,
+    plate_force
+  };
   const Observable* observable;  ///< of the test: what it is, or what follows from it
   Kind kind = Kind::own;         ///< own: the column has the observable itself
   std::string unit;              ///< base unit of the column
@@ -29,6 +41,9 @@ struct RawName {
   Quantity quantity;
 };
 std::vector<RawName> raw_names(const std::vector<Observable>& observables);
+
+/// Whether the test shears a block between plates, so that its specimen has a height.
+bool shears(const std::vector<Observable>& observables);
 
 /// The meaning of a name in "columns"; none where it has none.
 std::optional<Quantity> quantity_named(std::string_view name, const std::vector<Observable>& observables);

@@ -34,6 +34,7 @@ struct Sizes {
 struct Specimen {
   std::optional<double> thickness;  ///< mm
   std::optional<double> area;       ///< mm², in place of width × thickness
+  std::optional<double> height;     ///< mm, of a sheared block: the distance of the plates
   bool gauge_at_preload = false;    ///< the gauge length is the length at the preload
   Sizes all;
   std::vector<std::pair<std::string, Sizes>> directions;  ///< "circumferential", "axial"

@@ -311,9 +311,9 @@ class Reader {
     const auto k = static_cast<std::size_t>(path - series_.columns.begin());
     RawColumn all = all_rows_of(k);
     double rest = rest_of(k);
-    if (series_.columns[k].derived) {  // the rate is that of the stretch
+    if (series_.columns[k].derived) {  // the rate is that of the stretch, or of the shear
       for (double& value : all.values) value = stretch(k, value);
-      rest = 1;
+      rest = quantities_[k].kind == From::shear_displacement ? 0 : 1;
     }
     const std::vector<double> time = time_along(all.values, rest, *request_.time_rate);
     for (const std::size_t row : selected) series_.time.push_back(time[row]);
@@ -325,19 +325,23 @@ class Reader {
                                  series_.header_place(series_.columns[k]), request_.columns[k].first, key));
   }
 
-  /// λ = 1 + ΔL/L or ℓ/L with the gauge length L; 1 + ε, exp ε of a true strain, √(1 + 2E) of Green's.
+  /// λ = 1 + ΔL/L or ℓ/L with the gauge length L; 1 + ε, exp ε of a true strain, √(1 + 2E) of Green's; γ = d/h
+  /// with the height h.
   double stretch(std::size_t k, double value) const {
     const From kind = quantities_[k].kind;
     if (kind == From::strain) return 1 + value;
     if (kind == From::true_strain) return std::exp(value);
     if (kind == From::green_strain) return std::sqrt(1 + 2 * value);
+    if (kind == From::shear_displacement) return value / required_size(request_.specimen.height, k, "height");
     const double gauge = series_.columns[k].gauge_length;
     return kind == From::length ? value / gauge : 1 + (value - offsets_[k]) / gauge;
   }
 
   void derive_stretches() {
     for (std::size_t k = 0; k < series_.columns.size(); ++k)
-      if (has_length(k) || is_strain(k)) {
+      if (quantities_[k].kind == From::shear_displacement) {
+        for (double& value : series_.columns[k].values) value = stretch(k, value);
+      } else if (has_length(k) || is_strain(k)) {
         const From kind = quantities_[k].kind;
         series_.columns[k].elongation = kind == From::displacement || kind == From::strain;
         for (std::size_t row = 0; row < series_.columns[k].values.size(); ++row) {
@@ -352,17 +356,19 @@ class Reader {
       }
   }
 
-  /// The nominal stress is P = F/(width·thickness); in an incompressible specimen σ = Pλ and S = P/λ.
+  /// The nominal stress is P = F/(width·thickness); in an incompressible specimen σ = Pλ and S = P/λ. The area of a
+  /// plate stays as it is.
   void derive_stresses() {
     for (std::size_t k = 0; k < series_.columns.size(); ++k) {
-      if (quantities_[k].kind != From::force) continue;
+      const bool on_plate = quantities_[k].kind == From::plate_force;
+      if (quantities_[k].kind != From::force && !on_plate) continue;
       const Observable& stress = *quantities_[k].observable;
       const Specimen& specimen = request_.specimen;
       const double area = specimen.area ? *specimen.area
                                         : required_size(sizes_along(specimen, stress.name).width, k, "width") *
                                               required_size(specimen.thickness, k, "thickness");
       for (double& value : series_.columns[k].values) value /= area;
-      if (request_.stress_measure == "first_piola_kirchhoff") continue;
+      if (on_plate || request_.stress_measure == "first_piola_kirchhoff") continue;
       const Series::Column& stretch = stretch_of(k, stress);
       for (std::size_t row = 0; row < stretch.values.size(); ++row)
         series_.columns[k].values[row] *=

@@ -46,7 +46,10 @@ std::string formula(const Series::Column& column, const Quantity& quantity, cons
       return fmt::format("{} = exp(true strain), from {}", name, source);
     case From::green_strain:
       return fmt::format("{} = √(1 + 2 Green strain), from {}", name, source);
+    case From::shear_displacement:
+      return fmt::format("{} = displacement / {:.5g} mm, from {}", name, request.specimen.height.value_or(0), source);
     case From::force:
+    case From::plate_force:
       break;
   }
   const Specimen& specimen = request.specimen;
@@ -54,6 +57,7 @@ std::string formula(const Series::Column& column, const Quantity& quantity, cons
   const std::string area =
       specimen.area ? fmt::format("{:.5g} mm²", *specimen.area)
                     : fmt::format("({:.5g} mm × {:.5g} mm)", width.value_or(0), specimen.thickness.value_or(0));
+  if (quantity.kind == From::plate_force) return fmt::format("{} = force / {}, from {}", name, area, source);
   const char* const factor = request.stress_measure == "cauchy"                  ? ", times the stretch"
                              : request.stress_measure == "first_piola_kirchhoff" ? ""
                                                                                  : ", over the stretch";

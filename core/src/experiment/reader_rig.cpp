@@ -81,9 +81,11 @@ void read_specimen(const Node& node, bool at_preload, const std::vector<Observab
   node.expect_object("the sizes of the specimen, {\"width\": …, \"thickness\": …, \"gauge_length\": …},");
   const std::vector<std::string> directions = data::directions_of(observables);
   std::vector<std::string> known = {"width", "thickness", "area", "gauge_length", "grip_distance"};
+  if (data::shears(observables)) known.insert(known.end(), "height");
   known.insert(known.end(), directions.begin(), directions.end());
   node.allow_only(known, "the specimen");
   if (const auto thickness = node.find("thickness")) specimen.thickness = positive(*thickness, "mm", "thickness");
+  if (const auto height = node.find("height")) specimen.height = positive(*height, "mm", "height");
   if (const auto area = node.find("area")) specimen.area = positive(*area, "mm2", "area");
   if (specimen.area && (specimen.thickness || node.find("width")))
     node.child_or_self("area").fail("the specimen has \"area\", and \"width\" or \"thickness\" too",
@@ -115,7 +117,8 @@ void require_sizes(const Node& block, std::string_view owner, const std::vector<
       require(sizes.gauge_length || data.specimen.gauge_at_preload, name, "gauge_length", "12.5 mm");
     if (quantity->kind == From::displacement && data.specimen.gauge_at_preload)
       require(sizes.grip_distance.has_value(), name, "grip_distance", "12 mm");
-    if (quantity->kind != From::force || data.specimen.area) continue;
+    if (quantity->kind == From::shear_displacement) require(data.specimen.height.has_value(), name, "height", "4 mm");
+    if ((quantity->kind != From::force && quantity->kind != From::plate_force) || data.specimen.area) continue;
     require(data.specimen.thickness.has_value(), name, "thickness", "1.2 mm");
     require(sizes.width.has_value(), name, "width", "10 mm");
   }

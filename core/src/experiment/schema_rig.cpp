@@ -68,6 +68,7 @@ Json specimen_schema(const std::vector<Observable>& observables) {
   Json properties = sizes_schema();
   properties["thickness"] = quantity_schema("Thickness [mm].");
   properties["area"] = quantity_schema("Area of the section, in place of width and thickness [mm2].");
+  if (data::shears(observables)) properties["height"] = quantity_schema("Distance of the plates [mm].");
   for (const std::string& direction : data::directions_of(observables))
     properties[direction] = object_schema("Sizes along this direction.", sizes_schema());
   return object_schema("Sizes of the unloaded specimen.", std::move(properties));

@@ -81,6 +81,7 @@ void add_rig_keys(Json& json, const data::DataRequest& data) {
   Json sizes = Json::object();
   if (specimen.thickness) sizes["thickness"] = *specimen.thickness;
   if (specimen.area) sizes["area"] = *specimen.area;
+  if (specimen.height) sizes["height"] = *specimen.height;
   add_sizes(sizes, specimen.all);
   if (specimen.gauge_at_preload) sizes["gauge_length"] = "preload";
   for (const auto& [direction, own] : specimen.directions) add_sizes(sizes[direction], own);

@@ -202,11 +202,11 @@ class File {
       specimen[key] = !given.empty() ? given : !found.empty() ? found : ask_(question);
     };
     direction_ = table.direction;
-    if (needs({From::force}) && !answers_.area.empty()) {
+    if (needs({From::force, From::plate_force}) && !answers_.area.empty()) {
       specimen["area"] = answers_.area;
-    } else if (needs({From::force}) && !answers_.diameter.empty()) {
+    } else if (needs({From::force, From::plate_force}) && !answers_.diameter.empty()) {
       specimen["area"] = circle(answers_.diameter);
-    } else if (needs({From::force})) {
+    } else if (needs({From::force, From::plate_force})) {
       size("width", answers_.width, table.width,
            {fmt::format(
                 "Width of the specimen of {} across the force, with its unit; of a cylinder --diameter, of another "
