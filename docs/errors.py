@@ -90,7 +90,7 @@ before the message.
 | exit code | meaning |
 |---|---|
 | 0 | done |
-| 1 | ran, but a run has no result, broke its constraints or was given up |
+| 1 | ran, but a run has no result, is no fit, did not converge, broke its constraints or was given up |
 | 2 | wrong input: command line, experiment file, data, a folder that cannot be written |
 | 3 | a plugin that was asked for was refused |
 | 4 | a fault of tunica or of a plugin: please report it with the files that caused it |

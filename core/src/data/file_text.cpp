@@ -11,6 +11,9 @@
 namespace tunica::data {
 namespace {
 
+/// How files of MATLAB before version 7.3 begin.
+constexpr std::string_view matlab_magic = "MATLAB 5.0 MAT-file";
+
 /// Files that are no text, by their first bytes.
 void refuse_binary(const std::filesystem::path& file, std::string_view bytes) {
   const auto is_no_text = [&](std::string_view kind, std::string_view cure) {
@@ -25,7 +28,7 @@ void refuse_binary(const std::filesystem::path& file, std::string_view bytes) {
     is_no_text("a workbook as XML", save);
   if (head.starts_with("<html") || head.starts_with("<HTML") || head.starts_with("<!DOCTYPE"))
     is_no_text("a web page", save);
-  if (bytes.starts_with("\x89HDF") || bytes.starts_with("MATLAB 5.0 MAT-file"))
+  if (bytes.starts_with("\x89HDF") || bytes.starts_with(matlab_magic))
     is_no_text("a file of MATLAB or HDF5", "Write its columns as CSV.");
   if (bytes.starts_with("TDSm"))
     is_no_text("a TDMS file of LabVIEW", "Open it with its add-in for spreadsheets, and save the sheet as CSV.");

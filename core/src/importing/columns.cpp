@@ -181,8 +181,8 @@ void guess_quantity(ColumnGuess& guess, const Words& words) {
     return;
   }
   guess.indexed = component(words) != nullptr || has_any(words, {"=exx", "=eyy"});
-  if (guess.kind == "force" && has_any(words, {"total"})) guess.kind = "total force";
-  guess.quantity = guess.kind == "total force" ? "" : word->quantity;
+  if (guess.kind == "force" && has_any(words, {"total"})) guess.kind = total_force;
+  guess.quantity = guess.kind == total_force ? "" : word->quantity;
   guess.direction = direction_in(words);
   if (guess.quantity == "time" && has_any(words, {"cycle", "step"})) guess.rank += 2;
 }

@@ -11,6 +11,9 @@
 /// What the columns of a machine's file probably are, from their names, their units and what stands in them.
 namespace tunica::importing {
 
+/// The kind of a column that holds the force on the closed end of a tube, pressure on the lumen included.
+inline constexpr const char* total_force = "total force";
+
 struct ColumnGuess {
   std::string name;                 ///< as "columns" takes it: the name, or "#3"
   std::string title;                ///< as the file has it, in UTF-8

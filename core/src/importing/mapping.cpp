@@ -267,7 +267,7 @@ class Mapper {
       if (used_.contains(k) || !column.numeric || column.quantity == "cycle") continue;
       const std::string kind = column.set_point ? "set point" : column.kind;
       unused.push_back(fmt::format("'{}'{}", column.title, kind.empty() ? "" : " (" + kind + ")"));
-      if (column.kind == "total force")
+      if (column.kind == total_force)
         mapping_.notes.push_back(
             fmt::format("'{}' is a total force, and the test takes the reduced one: total less pressure × π × inner "
                         "radius². Compute it, and name its column with --column axial_force=COLUMN",
