@@ -30,8 +30,6 @@ std::string digest(std::string_view text) {
 
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{256} << 20U;  ///< bytes
-
 /// False where it cannot be written. What stands there under the name, a link or what a killed process has left, is
 /// taken away; nothing is written through it.
 bool write_new(const std::filesystem::path& file, std::string_view text) {

@@ -23,7 +23,6 @@ namespace {
 using Json = nlohmann::json;
 using Found = std::variant<std::vector<double>, std::string>;
 
-constexpr std::size_t largest_file = std::size_t{256} << 20U;  ///< bytes
 constexpr double most_columns = 1e6;
 
 /// A number as C and Fortran print it: "1.5e-3", "+2", "1.5D-03".

@@ -24,6 +24,9 @@ struct ResultPlace {
   std::vector<double> start;  ///< put before what is found, in the solver's unit: the state that it does not print
 };
 
+/// The most that is read of one file, in bytes.
+inline constexpr std::size_t largest_file = std::size_t{256} << 20U;
+
 /// The whole text of a regular file of at most `largest` bytes; throws std::runtime_error that says what it is instead,
 /// for example "was not written".
 std::string text_below(const std::filesystem::path& file, std::size_t largest);
