@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 
 #include <gmock/gmock.h>
 
@@ -352,4 +353,17 @@ TEST(Check, ShowsTheSetUpAndWritesNothing) {
         "at the initial point: objective", "one evaluation takes", "In order. Next: tunica run experiment.json"})
     EXPECT_THAT(ended.out, HasSubstr(text));
   EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
+}
+
+TEST(Run, TheAnalysisEndsAtMaxTimeAndSaysWhatItLeftOut) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}};
+  bench.experiment["stop"]["max_time"] = "1 s";
+  bench.experiment["analysis"]["bootstrap"]["draws"] = 1000000;
+  const auto begun = std::chrono::steady_clock::now();
+  const auto ended = bench.tunica({"run", "experiment.json", "-o", "out"});
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::minutes(2));  // minutes without the limit
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(bench.text("out/result.json"), HasSubstr("of 1000000 draws of the bootstrap: max_time of 1 s was over"));
+  EXPECT_LT(bench.result("out")["runs"][0]["bootstrap"]["draws"], 1000000);
 }

@@ -60,7 +60,7 @@ void keep(const std::vector<uncertainty::Profile>& made, RunSummary& summary) {
 }
 
 /// What is said where profiles or draws are not there because time was over.
-void say_left_out(const char* what, double max_time, RunSummary& run) {
+void say_left_out(const std::string& what, double max_time, RunSummary& run) {
   run.uncertainty.push_back(fmt::format(
       "{}: max_time of {:g} s was over, which the analysis of a run may take as well. Raise \"max_time\" in "
       "\"stop\", or ask for less",
@@ -162,10 +162,15 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     } else if (analysis.bootstrap_draws > 0) {
       if (told) told("bootstrap of " + own.label);
       auto made = uncertainty::bootstrap(assembly, best, optimizer, analysis.bootstrap_draws, seed, interrupted);
-      for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
-      add_bootstrap_words(assembly, made, own);
-      drawn.push_back({&assembly, own.label, std::move(made)});
-      if (is_over()) say_left_out("not all draws of the bootstrap", *max_time, own);
+      const std::size_t found = made.draws.size();
+      const bool cut = is_over() && found < analysis.bootstrap_draws;
+      if (cut)
+        say_left_out(fmt::format("{} of {} draws of the bootstrap", found, analysis.bootstrap_draws), *max_time, own);
+      if (!cut || found > 0) {
+        for (std::size_t j = 0; j < best.size(); ++j) own.parameters[j].bootstrap = made.ci95[j];
+        add_bootstrap_words(assembly, made, own);
+        drawn.push_back({&assembly, own.label, std::move(made)});
+      }
     }
     add_words(own);
     if (interrupted && interrupted()) return;

@@ -115,12 +115,15 @@ Bootstrap bootstrap(const assembly::Assembly& assembly, std::span<const double> 
     return assembly.evaluator().evaluate(free, objective, {}, residuals, jacobian, workspace);
   };
   result.draws.resize(draws);
+  std::vector<char> left_out(draws, 0);  // for want of time
   const plugins::Clock::time_point deadline = plugins::deadline_of_this_thread();
   tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t k) {
     Bootstrap::Draw& draw = result.draws[k];
     const plugins::Call part{nullptr, "analysis", nullptr, nullptr, deadline};
     const plugins::CallScope scope(part);
-    if ((interrupted && interrupted()) || plugins::Clock::now() >= deadline) {
+    const auto is_over = [deadline] { return plugins::Clock::now() >= deadline; };
+    if (is_over()) return void(left_out[k] = 1);
+    if (interrupted && interrupted()) {
       draw.status = Status::failed("interrupted");
       return;
     }
@@ -129,12 +132,15 @@ Bootstrap bootstrap(const assembly::Assembly& assembly, std::span<const double> 
     assembly.evaluator().measure(drawn(pool, own), *workspace);
     Refit found = refit(assembly, target, optimizer, best, {}, own, *workspace);
     draw = {std::move(found.status), std::move(found.free), found.objective, found.converged};
+    left_out[k] = !draw.status.ok() && is_over() ? 1 : 0;
   });
+  std::size_t next = 0;
+  std::erase_if(result.draws, [&](const Bootstrap::Draw&) { return left_out[next++] != 0; });
   for (std::size_t j = 0; j < best.size(); ++j) {
     std::vector<double> sample;
     for (const auto& draw : result.draws)
       if (draw.status.ok()) sample.push_back(draw.free[j]);
-    result.failures = draws - sample.size();
+    result.failures = result.draws.size() - sample.size();
     if (sample.size() < fewest_draws) continue;
     std::sort(sample.begin(), sample.end());
     result.ci95[j] = {quantile(sample, 0.025), quantile(sample, 0.975)};
