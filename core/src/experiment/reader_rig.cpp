@@ -129,11 +129,12 @@ void refuse_idle_sizes(const Node& block, std::string_view owner, const std::vec
                        const data::DataRequest& data) {
   const auto node = block.find("specimen");
   if (!node) return;
-  bool force = false, length = false, displacement = false;
+  bool force = false, length = false, displacement = false, plate = false;
   std::vector<std::string> directions;  // that some mapped quantity lies along
   for (const auto& [name, column] : data.columns) {
     const auto quantity = data::quantity_named(name, observables);
-    force = force || quantity->kind == From::force;
+    force = force || quantity->kind == From::force || quantity->kind == From::plate_force;
+    plate = plate || quantity->kind == From::shear_displacement;
     length = length || quantity->kind == From::displacement || quantity->kind == From::length;
     displacement = displacement || quantity->kind == From::displacement;
     if (quantity->kind != From::own) directions.push_back(data::direction_of(quantity->observable->name));
@@ -161,6 +162,7 @@ void refuse_idle_sizes(const Node& block, std::string_view owner, const std::vec
       grips->fail(fmt::format("\"grip_distance\" changes nothing in {}", owner),
                   "It belongs to a displacement with \"gauge_length\": \"preload\". Leave it out.");
   };
+  refuse(*node, "height", plate, "a displacement of shear");
   look_at(*node, data.specimen.all);
   for (const auto& [direction, sizes] : data.specimen.directions) {
     const Node at = node->require(direction, "");

@@ -12,6 +12,7 @@
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
 #include "plugins/catalogue.hpp"
+#include "plugins/declared_bounds.hpp"
 #include "plugins/guarded_model.hpp"
 #include "plugins/guarded_test.hpp"
 #include "plugins/usual_arithmetic.hpp"
@@ -105,11 +106,16 @@ inline std::unique_ptr<Test> create_bare(const Catalogue::Entry<TestFactory>& en
   return guarded_object(entry.plugin, [&] { return entry.factory.create(setup); });
 }
 
+/// Names must differ here; those of a mechanism around a model have its own name before them.
 inline std::unique_ptr<Model> create(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
-  return std::make_unique<GuardedModel>(create_bare(entry, options), entry.plugin);
+  auto model = std::make_unique<GuardedModel>(create_bare(entry, options), entry.plugin);
+  refuse_equal_names(model->describe().parameters, entry.plugin, "model");
+  return model;
 }
 inline std::unique_ptr<Test> create(const Catalogue::Entry<TestFactory>& entry, const TestSetup& setup) {
-  return std::make_unique<GuardedTest>(create_bare(entry, setup), entry.plugin);
+  auto test = std::make_unique<GuardedTest>(create_bare(entry, setup), entry.plugin);
+  refuse_equal_names(test->describe().parameters, entry.plugin, "test");
+  return test;
 }
 
 inline std::unique_ptr<Optimizer> create(const Catalogue::Entry<OptimizerFactory>& entry, const Options& options) {

@@ -102,7 +102,6 @@ const Model*& last_failed_model() {
 GuardedModel::GuardedModel(std::unique_ptr<Model> model, std::string plugin)
     : model_(std::move(model)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
   description_ = guarded(plugin_, "describe", [this] { return &model_->describe(); });
-  refuse_equal_names(description_->parameters, plugin_, "model");
 }
 
 GuardedModel::~GuardedModel() { destroy(plugin_, model_); }

@@ -34,7 +34,6 @@ std::uint64_t test_key(const Call& call) {
 GuardedTest::GuardedTest(std::unique_ptr<Test> test, std::string plugin)
     : test_(std::move(test)), plugin_(std::move(plugin)), stricken_(is_stricken(plugin_)) {
   description_ = guarded(plugin_, "describe", [this] { return &test_->describe(); });
-  refuse_equal_names(description_->parameters, plugin_, "test");
   rows_ = guarded(plugin_, "rows", [this] { return &test_->rows(); });
 }
 
