@@ -90,7 +90,7 @@ int listen_for(const HttpService& service) {
 void serve_http(const HttpService& service) {
   constexpr int heartbeat = 50;  // ms
   const int listening = listen_for(service);
-  answer_open_requests_at_the_end();
+  answer_open_requests_at_the_end(listening);
   Server server(service);
   httplib::ThreadPool pool(service.threads);
   service.listening(port_of(listening));

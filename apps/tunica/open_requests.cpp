@@ -17,6 +17,7 @@ namespace {
 /// Sockets, each one larger by one; as many as there may be threads.
 constexpr int none = 0, taken = -1;  // `taken`: answered at the end of the process
 std::array<std::atomic<int>, 1024> places = {};
+std::atomic<int> listening_socket = -1;
 
 /// Text in memory that is there already: a signal handler may not ask for any.
 class Text {
@@ -37,6 +38,7 @@ class Text {
 };
 
 void answer_all(const plugins::Casualty* casualty) {
+  if (const int listening = listening_socket.exchange(-1); listening >= 0) ::close(listening);
   Text text;
   text.add(
       "HTTP/1.1 500 Internal Server Error\r\nContent-Type: application/json\r\nConnection: close\r\n\r\n"
@@ -75,6 +77,9 @@ OpenRequest::~OpenRequest() {
   for (;;) ::pause();
 }
 
-void answer_open_requests_at_the_end() { plugins::at_end_of_process = answer_all; }
+void answer_open_requests_at_the_end(int listening) {
+  listening_socket = listening;
+  plugins::at_end_of_process = answer_all;
+}
 
 }  // namespace tunica::app

@@ -21,7 +21,8 @@ class OpenRequest {
   int socket_;
 };
 
-/// From here on.
-void answer_open_requests_at_the_end();
+/// From here on. The descriptor that listens is closed before, so that nobody who reads the answer is taken in by a
+/// process that ends: a successor has a copy of it.
+void answer_open_requests_at_the_end(int listening);
 
 }  // namespace tunica::app

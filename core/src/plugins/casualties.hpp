@@ -48,7 +48,7 @@ struct Casualty {
 struct CasualtyList {
   /// A plugin that ended this many processes is not evaluated again; calls that hang or take the memory cost time, and
   /// count more.
-  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 5;
+  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 2;
 
   /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
   static constexpr unsigned most_leaks = 20;
