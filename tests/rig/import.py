@@ -49,7 +49,7 @@ printed, _ = rig.tunica(program, "check", folder / "strip.json", "--page", folde
 assert "5 rows" in printed, printed
 assert "stretch = 1 + displacement / 20 mm, from 'Weg' in mm" in words(printed), printed
 assert "stress = force / (5 mm × 1.5 mm): first Piola-Kirchhoff stress (nominal), from 'Kraft' in N" in words(printed), printed
-assert "rows: the last cycle, loading only" in words(printed), printed
+assert "rows: 5 of the 13 in the file: the last cycle, loading only" in words(printed), printed
 page = (folder / "data.html").read_text(encoding="utf-8")
 assert "5 of 13 rows are used" in page and "the curve that is fitted" in page and "Kraft [N]" in page
 _, said = imported(strip, "--width", "5 mm", "--thickness", "1 mm", "--gauge-length", "preload", "--preload", "0.5 N", code=2)
