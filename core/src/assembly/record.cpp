@@ -72,24 +72,20 @@ void look_at_noise(const experiment::TestEntry& entry, const data::Dataset& data
   constexpr double too_much = 0.5;
   for (const auto& [name, noise] : entry.data.noise) {
     const auto* const values = column_of(dataset, name);
-    double low = INFINITY, high = -INFINITY;
-    for (const double value : values == nullptr ? std::vector<double>() : *values) {
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
+    double largest = 0;  // not the span: a channel that was held has next to none
+    for (const double value : values == nullptr ? std::vector<double>() : *values)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
     if (noise.relative >= too_much)
       findings.push_back(
           {data::FindingKind::record_noise,
            fmt::format("the relative noise of '{}' is {:g}, which is {:g} % of each value. For {:g} % "
                        "write {:g}",
                        name, noise.relative, 100 * noise.relative, noise.relative, noise.relative / 100)});
-    else if (high > low && noise.absolute >= too_much * (high - low) && noise.level.empty())
-      findings.push_back(
-          {data::FindingKind::record_noise,
-           fmt::format("the absolute noise of '{}' is {:.3g}, and the values span {:.3g} … {:.3g}: so large a noise "
-                       "explains every fit. Is its unit right?",
-                       name, noise.absolute, low, high)});
+    else if (largest > 0 && noise.absolute >= too_much * largest && noise.level.empty())
+      findings.push_back({data::FindingKind::record_noise,
+                          fmt::format("the absolute noise of '{}' is {:.3g}, and no value is beyond {:.3g}: so large a "
+                                      "noise explains every fit. Is its unit right?",
+                                      name, noise.absolute, largest)});
   }
 }
 

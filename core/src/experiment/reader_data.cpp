@@ -168,9 +168,6 @@ void refuse_idle_keys(const Node& block, const std::vector<Observable>& observab
       node && measured && !maps([](const Observable& one) { return one.kind == Observable::Kind::stress; }))
     node->fail(fmt::format("\"stress_measure\" changes nothing in {}: no stress is mapped", owner),
                "Map one in \"columns\", or leave the measure out.");
-  if (const auto node = block.find("noise"); node && !measured)
-    node->fail(fmt::format("\"noise\" changes nothing in {}: nothing measured is mapped", owner),
-               "Map a channel in \"columns\", or leave the noise out.");
 }
 
 }  // namespace
