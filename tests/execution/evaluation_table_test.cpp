@@ -54,7 +54,7 @@ TEST(EvaluationTable, LeavesCellsEmptyThatARunDoesNotHave) {
 TEST(EvaluationTable, WritesNoObjectiveForAFailedEvaluation) {
   EXPECT_EQ(
       row(two_runs(), 0, {1, 0.1}, std::nan(""), {1, 2}, Status::failed("row 3, stretch 1.2: no, \"root\"\nfound"), 8),
-      trial::checked("9,gho/es,3,1,0.1,,,,,failed,,\"row 3, stretch 1.2: no, \"\"root\"\" found\",0.250000"));
+      trial::checked("9,gho/es,3,1,0.1,,,,,failed,,\"row 3, stretch 1.2: no, \"\"root\"\"\\nfound\",0.250000"));
 }
 
 // 2000 random bit patterns of finite doubles, seed 1; any loss of a bit fails, so there is no false alarm.

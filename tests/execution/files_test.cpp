@@ -68,9 +68,16 @@ TEST(Files, LocksAreNotInherited) {
   const trial::Folder folder;
   const auto path = folder.path() / "run";
   std::optional<execution::RunDirectory> held(execution::RunDirectory::create(path, "x"));
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
   const pid_t child = ::fork();
-  if (child == 0)
+  if (child == 0) {
+    [[maybe_unused]] const auto told = ::write(ready[1], "!", 1);
     for (;;) ::pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  for (const int end : ready) ::close(end);
   EXPECT_THROW(execution::RunDirectory::reopen(path, "x"), InputError);
   held.reset();
   EXPECT_NO_THROW(execution::RunDirectory::reopen(path, "x"));
