@@ -99,6 +99,14 @@ class Cases(unittest.TestCase):
         self.assertEqual(2, code, said)
         self.assertIn("Strain", said)
 
+    def test_honest_records_raise_no_question(self):
+        for name in ("lamb_aorta", "treloar", "james_1975", "human_brain_cortex",
+                     "human_brain_corona_radiata", "vhb4910_cause", "murine_tube_cause"):
+            code, said = self.tunica("check", CASES.parents[1] / "examples" / name / "experiment.json", "--json")
+            self.assertEqual(0, code, said)
+            found = [one["sentence"] for one in json.loads(said)["warning_details"] if one["kind"].startswith("record_")]
+            self.assertEqual([], found, name)
+
     def test_a_strain_in_percent_is_asked_about_by_check(self):
         self.case("percent-strain-no-unit")
         self.assertIn("goes to 10.79", self.in_order())

@@ -95,6 +95,13 @@ def a_model_that_always_fails_costs_its_own_run():
         expect(outcome(folder)[0].get("best") is None, f"{how}: a result that nobody calculated")
 
 
+def a_model_that_always_fails_is_not_assessed():
+    for how in ("throws", "segfaults", "exits"):
+        _, tunica = laboratory(f"stability_{how}", how)
+        said = tunica("stability", "experiment.json", "--model", "bad", code=1)
+        expect(said.count("NOT ASSESSED") >= 3, f"{how}: something was assessed:\n{said}")
+
+
 def a_crash_costs_one_evaluation():
     """The search finds its optimum around the points where the process ends."""
     for how in ("aborts", "segfaults", "exits", "exits_at_once", "loops"):
@@ -364,7 +371,8 @@ def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
 
 
 chosen = sys.argv[3:]
-cases = [a_model_that_always_fails_costs_its_own_run, a_crash_costs_one_evaluation,
+cases = [a_model_that_always_fails_costs_its_own_run, a_model_that_always_fails_is_not_assessed,
+           a_crash_costs_one_evaluation,
            a_call_that_takes_all_memory_costs_one_evaluation, a_leak_costs_nothing_but_time,
            a_test_that_writes_nothing_fails, a_plugin_that_crashes_when_it_is_loaded_is_refused,
            a_plugin_that_changes_the_arithmetic_changes_no_number,
