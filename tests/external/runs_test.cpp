@@ -267,7 +267,7 @@ TEST(External, MaxTimeEndsAProgramThatHangs) {
 }
 
 TEST(External, AFileWithoutEndIsEndedAtItsLimit) {
-  trial::SolverBench bench(310, 12, "yes > large");
+  trial::SolverBench bench(310, 12, "exec yes > large");
   bench.test["output_limit"] = 1;
   bench.experiment["stop"]["max_evaluations"] = 1;
   EXPECT_NE(bench.run().code, 0);
