@@ -133,9 +133,10 @@ void analyse(const execution::Plan& plan, const plugins::Catalogue& catalogue, c
     const std::uint64_t seed = derive_seed(run.seed, "analysis");
     const std::optional<double> max_time = run.entry->stop.max_time;
     const plugins::Call whole{nullptr, "analysis", nullptr, nullptr,
-                              max_time ? plugins::Clock::now() + std::chrono::duration_cast<plugins::Clock::duration>(
-                                                                     std::chrono::duration<double>(*max_time))
-                                       : plugins::Clock::time_point::max()};
+                              max_time
+                                  ? plugins::Clock::now() + std::chrono::duration_cast<plugins::Clock::duration>(
+                                                                std::chrono::duration<double>(std::min(*max_time, 1e9)))
+                                  : plugins::Clock::time_point::max()};
     const plugins::CallScope scope(whole);
     const auto is_over = [&] { return plugins::Clock::now() >= whole.deadline; };
     if (const auto indices = wanted(analysis, assembly); !indices.empty()) {
