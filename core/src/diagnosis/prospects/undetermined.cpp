@@ -120,7 +120,8 @@ std::optional<NextExperiment> determining_experiment(const Inquiry& inquiry, con
     }
   });
   const auto best = std::min_element(outcomes.begin(), outcomes.end(), [](const Outcome& a, const Outcome& b) {
-    return a.repeats != b.repeats ? a.repeats < b.repeats : a.sd < b.sd;
+    // Designs that symmetry makes equal differ by rounding: the first of them is taken.
+    return a.repeats != b.repeats ? a.repeats < b.repeats : a.sd < b.sd * (1 - 1e-6);
   });
   NextExperiment next;
   next.separates = {parameter.name};
