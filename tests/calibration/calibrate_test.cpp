@@ -193,7 +193,7 @@ TEST(Calibrate, EndsWithoutAResultWhereItIsInterruptedAfterTheSearches) {
 TEST(Calibrate, IsSoundWhereEveryRunCameToAGoodEnd) {
   calibration::Outcome outcome;
   outcome.summary.runs.resize(2);
-  for (auto& run : outcome.summary.runs) run.has_result = true;
+  for (auto& run : outcome.summary.runs) run.has_result = run.converged = true;
   EXPECT_TRUE(outcome.sound());
   auto& last = outcome.summary.runs.back();
   last.has_result = false;

@@ -24,7 +24,8 @@ nlohmann::json charts(const trial::Scratch& scratch) {
   return found;
 }
 
-const char* const one_run = R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1}}],
+const char* const one_run =
+    R"({"format": 1, "runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1}}],
                                 "ranking": [{"run": "m/o", "rank": 1, "group": "g"}]})";
 
 const char* const grid = R"(<?xml version="1.0"?>
@@ -95,8 +96,9 @@ TEST(FitChart, DrawsTheCurvesOfAFamilyApart) {
 
 TEST(FitChart, LaysAChannelOverWhatTheResultSays) {
   const trial::Scratch scratch;
-  scratch.write("result.json",
-                R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1, "per_test": {"t":
+  scratch.write(
+      "result.json",
+      R"({"format": 1, "runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1, "per_test": {"t":
                     {"channels": [{"channel": "force", "over": "b"}]}}}}]})");
   scratch.write("fit_t.csv",
                 "run,a [1],b [1],force [mN],force.predicted [mN],held_out\n"
@@ -112,8 +114,9 @@ TEST(ParameterChart, SaysWhereADotIsNotFixed) {
       "k3": {"value": 9, "unit": "1", "ci95": null, "at_bound": "upper", "min": 0, "max": 9}}})";
   const std::string unknown =
       R"({"objective": 2, "parameters": {"mu": {"value": 1}, "k2": {"value": 3}, "k3": {"value": 9}}})";
-  scratch.write("result.json", R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": )" + loose +
-                                   R"(}, {"run": "m/p", "model": "m", "optimizer": "p", "best": )" + unknown + "}]}");
+  scratch.write("result.json", R"({"format": 1, "runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": )" +
+                                   loose + R"(}, {"run": "m/p", "model": "m", "optimizer": "p", "best": )" + unknown +
+                                   "}]}");
   const auto found = charts(scratch);
   EXPECT_EQ(found.at("parameter_mu_m")["labels"], nlohmann::json({"m/o", "m/p"}));
   EXPECT_EQ(found.at("parameter_k2_m")["labels"], nlohmann::json({"m/o, not fixed", "m/p"}));
@@ -123,7 +126,7 @@ TEST(ParameterChart, SaysWhereADotIsNotFixed) {
 TEST(SimulationChart, DrawsEveryCurveOfAFamilyOverItsOwnAbscissa) {
   const trial::Scratch scratch;
   scratch.write("t.csv", "l1 [1],l2 [1],p [kPa]\n1,1.3,1\n1.1,1.3,2\n1.2,1.3,3\n1,1.5,2\n1.1,1.5,3\n1.2,1.5,4\n");
-  scratch.write("simulation.json", R"({"name": "n", "model": "m", "tests": ["t"],
+  scratch.write("simulation.json", R"({"format": 1, "name": "n", "model": "m", "tests": ["t"],
       "curves": [{"test": "t", "column": "p", "over": "l1", "prescribed": ["l1", "l2"]}]})");
   const auto found = charts(scratch);
   EXPECT_FALSE(found.contains("t_l2")) << "what is prescribed is no prediction";
@@ -135,7 +138,7 @@ TEST(SimulationChart, DrawsEveryCurveOfAFamilyOverItsOwnAbscissa) {
 
 TEST(ResidualChart, EndsALittleBeyondTheResidualsAndSaysHowFarASignatureGoes) {
   const trial::Scratch scratch;
-  scratch.write("result.json", R"({"diagnosis": {"verdict": "named"}})");
+  scratch.write("result.json", R"({"format": 1, "diagnosis": {"verdict": "named"}})");
   scratch.write("residuals.csv",
                 "test,channel,row,abscissa,abscissa_unit,abscissa_name,curve,unit,measured,predicted,extended,sigma,"
                 "residual,residual_extended,signature_drift,signature_other\n"
@@ -150,7 +153,7 @@ TEST(ResidualChart, EndsALittleBeyondTheResidualsAndSaysHowFarASignatureGoes) {
 
 TEST(ResidualChart, IsNotCutWhereTheSignaturesKeepToTheResiduals) {
   const trial::Scratch scratch;
-  scratch.write("result.json", R"({"diagnosis": {"verdict": "named"}})");
+  scratch.write("result.json", R"({"format": 1, "diagnosis": {"verdict": "named"}})");
   scratch.write("residuals.csv",
                 "test,channel,row,abscissa,abscissa_unit,abscissa_name,unit,measured,predicted,extended,sigma,residual,"
                 "residual_extended,signature_drift\nt,s,0,1,1,stretch,kPa,1,1,1,1,-1,1,-2\n");
@@ -160,7 +163,7 @@ TEST(ResidualChart, IsNotCutWhereTheSignaturesKeepToTheResiduals) {
 
 TEST(ScoreCharts, OfTheMaterialAndOfTheRigHaveTheSameAxis) {
   const trial::Scratch scratch;
-  scratch.write("result.json", R"({"diagnosis": {"verdict": "unknown", "scores": [
+  scratch.write("result.json", R"({"format": 1, "diagnosis": {"verdict": "unknown", "scores": [
       {"id": "crimp", "group": "material", "score": 5, "p_value": 0.1},
       {"id": "drift", "group": "rig", "score": 70, "p_value": 0.01}],
       "ranking": [{"id": "drift", "group": "rig", "probability": 0.9, "score": 70, "gain": 71},
@@ -175,7 +178,7 @@ TEST(ScoreCharts, OfTheMaterialAndOfTheRigHaveTheSameAxis) {
 
 TEST(Confusability, ShowsOnlyWhatLeavesATrace) {
   const trial::Scratch scratch;
-  scratch.write("result.json", R"({"diagnosis": {"verdict": "unknown", "detectable": [
+  scratch.write("result.json", R"({"format": 1, "diagnosis": {"verdict": "unknown", "detectable": [
       {"id": "tethering", "absent": "no test that it applies to"}, {"id": "drift", "absent": ""}]}})");
   scratch.write("confusability.csv",
                 "mechanism,crimp,tethering,drift\ncrimp,1,0,0.4\ntethering,0,1,0\ndrift,0.4,0,1\n");

@@ -64,15 +64,15 @@ TEST(ResultFolder, KnowsWhatWroteIt) {
   const trial::Scratch scratch;
   scratch.write("tube.csv", "pressure [kPa],diameter [1]\n0,1\n");
   EXPECT_EQ(report::Folder(scratch.path()).kind(), report::Folder::Kind::simulation);
-  scratch.write("result.json", "{}");
+  scratch.write("result.json", R"({"format": 1})");
   EXPECT_EQ(report::Folder(scratch.path()).kind(), report::Folder::Kind::run);
-  scratch.write("result.json", R"({"diagnosis": {"verdict": "unknown"}})");
+  scratch.write("result.json", R"({"format": 1, "diagnosis": {"verdict": "unknown"}})");
   EXPECT_EQ(report::Folder(scratch.path()).kind(), report::Folder::Kind::diagnosis);
 }
 
 TEST(ResultFolder, RemembersTablesThatCannotBeRead) {
   const trial::Scratch scratch;
-  scratch.write("result.json", "{}");
+  scratch.write("result.json", R"({"format": 1})");
   scratch.write("good.csv", "# a\nrun,x [kPa]\na,1\nb,text\n");
   scratch.write("broken.csv", "run,x\n\"open,1\n");
   scratch.write("header.csv", "# only\nrun,x\n");

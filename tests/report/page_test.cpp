@@ -66,7 +66,7 @@ TEST(Page, EmptyChartsAreLeftOut) {
 
 TEST(Report, OfAnEmptyResultSaysThatThereIsNone) {
   const trial::Scratch scratch;
-  scratch.write("result.json", "{}");
+  scratch.write("result.json", R"({"format": 1})");
   EXPECT_THAT(report::report({scratch.path()}, scratch.path()), HasSubstr("No run has a result."));
 }
 
@@ -74,10 +74,10 @@ TEST(Report, TakesWrongTypesEverywhere) {
   const trial::Scratch scratch;
   for (
       const char* text :
-      {R"({"name": 3, "runs": {"a": 1}, "ranking": [1, null, {"run": 2, "rank": "x"}], "warnings": "w", "provenance": []})",
-       R"({"runs": [{"run": "a", "best": {"parameters": {"k": 1}, "per_test": [1], "stability": 3}}],
+      {R"({"format": 1, "name": 3, "runs": {"a": 1}, "ranking": [1, null, {"run": 2, "rank": "x"}], "warnings": "w", "provenance": []})",
+       R"({"format": 1, "runs": [{"run": "a", "best": {"parameters": {"k": 1}, "per_test": [1], "stability": 3}}],
             "ranking": [{"run": "a", "rank": 1, "group": "g"}]})",
-       R"({"diagnosis": {"verdict": 1, "causes": [{"amplitude": [1]}], "misfit": [null], "gain": {"held_out": [1]},
+       R"({"format": 1, "diagnosis": {"verdict": 1, "causes": [{"amplitude": [1]}], "misfit": [null], "gain": {"held_out": [1]},
             "scores": [{}], "detectable": [[]], "noise": {"a": 1}, "alternatives": [3]}})"}) {
     scratch.write("result.json", text);
     EXPECT_THAT(report::report({scratch.path()}, scratch.path()), HasSubstr("</html>")) << text;
@@ -92,7 +92,7 @@ TEST(Report, SaysHowManyRealisationsItDraws) {
   scratch.write("convergence.csv", convergence);
   scratch.write(
       "result.json",
-      R"({"runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1, "parameters": {}}}],
+      R"({"format": 1, "runs": [{"run": "m/o", "model": "m", "optimizer": "o", "best": {"objective": 1, "parameters": {}}}],
                     "ranking": [{"run": "m/o", "rank": 1, "group": "g", "objective": 1}]})");
   EXPECT_THAT(report::report({scratch.path()}, scratch.path()), HasSubstr("100 of 300 realisations are drawn"));
 }

@@ -13,7 +13,8 @@ using ::testing::Not;
 namespace {
 
 std::string page_of(const trial::Scratch& scratch, const char* result) {
-  scratch.write("result.json", result);
+  // Pages of words need no more of a format than that there is one.
+  scratch.write("result.json", R"({"format": 1, )" + std::string(result).substr(1));
   return report::report({scratch.path()}, scratch.path());
 }
 
