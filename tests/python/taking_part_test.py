@@ -118,7 +118,7 @@ class Tests(Case):
                    "py_text": {"stress": "much"}}
         expected = {"py_empty": "KeyError", "py_short": "ValueError", "py_nan": "nan", "py_text": "ValueError"}
         for name, answer in answers.items():
-            tunica.test(name, {"stretch": ("1", "abscissa"), "stress": ("kPa",)})(lambda material, rows: answer)
+            tunica.test(name, {"stretch": ("1", "abscissa"), "stress": ("kPa", "channel", "stress")})(lambda material, rows: answer)
             found = tunica.Problem(one_test(name), base=TRELOAR).evaluate([100.0])
             self.assertEqual("failed", found.status)
             self.assertIn(expected[name], found.reason)
