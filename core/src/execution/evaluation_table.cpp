@@ -58,13 +58,13 @@ Number read_number(std::string_view cell, Number when_empty) {
 }
 
 std::string unquoted(std::string_view cell) {
-  if (cell.size() < 2 || cell.front() != '"') return std::string(text::cell_text(cell));
+  if (cell.size() < 2 || cell.front() != '"') return text::cell_text(cell);
   std::string text;
   for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
     text += cell[i];
     if (cell[i] == '"') ++i;
   }
-  return std::string(text::cell_text(text));
+  return text::cell_text(text);
 }
 
 void split(std::string_view line, std::vector<std::string_view>& cells) {

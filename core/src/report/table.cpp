@@ -30,7 +30,7 @@ std::optional<Table> Table::read(const std::filesystem::path& file, std::string&
     if (lines < 2) return std::nullopt;
     table.csv_ = data::parse_csv(file, text);
     for (auto& row : table.csv_.rows)
-      for (std::string& cell : row.cells) cell = std::string(text::cell_text(cell));
+      for (std::string& cell : row.cells) cell = text::cell_text(cell);
     return table;
   } catch (const std::exception& reason) {
     problem = reason.what();

@@ -37,22 +37,33 @@ bool is_number(std::string_view text) {
   return text.empty();
 }
 
+std::string_view between_blanks(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
 }  // namespace
 
 std::string csv_cell(std::string_view text) {
   const std::string plain = escaped(text);
-  const bool acts = plain.size() > 1 && formula.find(plain.front()) != std::string_view::npos && !is_number(plain);
-  std::string cell = acts ? "'" : "";
-  for (const char character : plain) {
+  // A reader takes blanks off both ends: what is left must tell a mark of ours from an apostrophe of the text.
+  const std::string_view core = between_blanks(plain);
+  const bool acts = core.size() > 1 && formula.find(core.front()) != std::string_view::npos && !is_number(core);
+  std::string cell;
+  for (const char& character : plain) {
+    if (acts && &character == core.data()) cell += '\'';
     cell += character;
     if (character == '"') cell += '"';
   }
   return plain.find_first_of(",\"") == std::string::npos ? cell : '"' + cell + '"';
 }
 
-std::string_view cell_text(std::string_view cell) {
-  if (cell.size() > 2 && cell.front() == '\'' && formula.find(cell[1]) != std::string_view::npos) cell.remove_prefix(1);
-  return cell;
+std::string cell_text(std::string_view cell) {
+  std::string text(cell);
+  const std::string_view core = between_blanks(cell);
+  if (core.size() > 2 && core.front() == '\'' && formula.find(core[1]) != std::string_view::npos)
+    text.erase(static_cast<std::size_t>(core.data() - cell.data()), 1);
+  return text;
 }
 
 }  // namespace tunica::text

@@ -12,6 +12,6 @@ namespace tunica::text {
 std::string csv_cell(std::string_view text);
 
 /// The text of a cell, quotes taken off, without the apostrophe that csv_cell() put before it.
-std::string_view cell_text(std::string_view cell);
+std::string cell_text(std::string_view cell);
 
 }  // namespace tunica::text
