@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is asserted of a report that is open in the browser."""
+import re
+import shutil
+import subprocess
 import time
+import zlib
 
 
 # Two seconds are meant, and printed; a test on a machine that does other things at once fails at what nobody would bear.
@@ -133,3 +137,38 @@ def check_theme_and_paper(browser, file, pictures):
     browser.devtools("Emulation.setEmulatedVisionDeficiency", type="none")
     (pictures / "paper.pdf").write_bytes(browser.pdf())
     browser.devtools("Emulation.setEmulatedMedia", media="screen")
+
+
+def lines_of(pdf):
+    """How many lines and curves are drawn on its pages."""
+    drawn = 0
+    for begin in re.finditer(rb"stream\r?\n", pdf):
+        try:
+            drawn += len(re.findall(rb"[\d.] [lc]\n", zlib.decompressobj().decompress(pdf[begin.end():])))
+        except zlib.error:  # a font or a picture
+            pass
+    return drawn
+
+
+def check_printed_unseen(browser, file, pdf):
+    """Printed by a program that opens the page and waits for nothing, the paper has what a reader prints who has seen
+    every chart. The width of the window, and with it the number of ticks, differs."""
+    browser.look(1280, "light")
+    browser.open(file)
+    for _ in range(2):  # the first opens every fold
+        seen = lines_of(browser.pdf())
+    subprocess.run([shutil.which("chromium"), "--headless=new", "--no-sandbox", "--disable-gpu", f"--print-to-pdf={pdf}",
+                    file.as_uri()], check=True, capture_output=True, timeout=120)
+    unseen = lines_of(pdf.read_bytes())
+    assert seen > 1000 and unseen > 0.9 * seen, f"{file}: {unseen} lines are printed of {seen}"
+
+
+def check_intervals_apart(browser, file):
+    """Intervals of several kinds lie side by side: each has a height of its own."""
+    browser.open(file)
+    charts = browser.run("""return tunicaFigures.filter((f) => f.chart.kind === 'rows' && !f.chart.bars).map((f) => [f.chart.title,
+        [...f.canvas.querySelectorAll('.mark-rule.role-mark line')].map((line) => line.getAttribute('transform').split(/[(,)]/)[2])])""")
+    several = [chart for chart in charts if len(chart[1]) > 1]
+    assert several, f"{file}: no chart has several intervals"
+    for title, heights in several:
+        assert len(set(heights)) == len(heights), f"{file}: intervals of '{title}' lie on each other: {heights}"

@@ -2,7 +2,7 @@
 """Makes reports as a user would and opens them in headless Chromium: of every folder under examples (budgets cut, see
 making.py), of a diagnosis with a named cause, of a tie, of nothing detected, of profiles and bootstrap, of fields, of 100
 realisations of four optimisers, of several folders, and of hostile names. Every chart is drawn, nothing on the console, no
-request but for the file itself, values under pointer and keys, legend, zoom and saving at work, names inert. What was
+request but for the file itself, values under pointer and keys, legend, zoom and saving at work, names inert; a page that is printed at once has every chart. What was
 measured is printed. With --pictures there is one of every report, wide and light, narrow and dark, in OUTPUT/screenshots."""
 import argparse
 import pathlib
@@ -10,7 +10,8 @@ import sys
 
 import making
 from browser import Browser, available
-from checks import check_drawn, check_each_kind, check_quiet, check_theme_and_paper, check_use
+from checks import (check_drawn, check_each_kind, check_intervals_apart, check_printed_unseen, check_quiet,
+                    check_theme_and_paper, check_use)
 
 
 def look_at(browser, file, name, pictures):
@@ -49,6 +50,9 @@ def main():
         lamb = options.output.resolve() / "lamb_aorta/report.html"
         check_use(browser, lamb, downloads)
         check_theme_and_paper(browser, lamb, pictures)
+        uncertainty = options.output.resolve() / "uncertainty/report.html"
+        check_printed_unseen(browser, uncertainty, pictures / "unseen.pdf")
+        check_intervals_apart(browser, uncertainty)
     many = (options.output / "many/report.html").read_text()
     assert "100 of 400 realisations are drawn" in many, "the report of 400 realisations does not say what it leaves out"
     return 0

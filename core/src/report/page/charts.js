@@ -66,7 +66,7 @@ tunicaReport.Figure = class {
 
   size(width) {
     const most = Math.max(240, width), {chart} = this;
-    if (chart.kind === "rows") return {width: most, height: 64 + tunicaReport.specs.rowHeight(chart.labels, most, 26) * chart.labels.length};
+    if (chart.kind === "rows") return {width: most, height: 64 + tunicaReport.specs.rowHeight(chart.labels, most, 26 + 13 * tunicaReport.specs.sideBySide(chart, chart.series).length) * chart.labels.length};
     if (chart.kind === "heat") {
       const room = 190 + (tunicaReport.specs.longest(chart.columns) > 34 ? 14 : 17) * chart.columns.length;
       const wide = chart.numeric ? Math.min(most, 620) : Math.max(most, room);

@@ -29,11 +29,13 @@
   };
 
   const spent = () => Math.round(performance.now() - began);
-  const make = async (element) => {
+  const make = async (element, look) => {
+    if (element.dataset.made) return;
+    element.dataset.made = "yes";
     try {
       vega = vega || tunicaReport.vega();
       const figure = new tunicaReport.Figure(element, charts[Number(element.dataset.chart)], vega);
-      await figure.draw();
+      await figure.draw(look);
       figures.push(figure);
     } catch (problem) {
       fail(element, problem);
@@ -77,11 +79,14 @@
     clearTimeout(waiting);
     waiting = setTimeout(() => all(), 150);
   });
-  // On paper: light, and nothing folded away.
+  // On paper: light, and nothing folded away or still to come. The printer waits for what is done without a pause.
   const opened = [];
   addEventListener("beforeprint", () => {
+    const light = tunicaReport.marks.themes.light;
     for (const fold of document.querySelectorAll("details:not([open])")) { fold.open = true; opened.push(fold); }
-    all(tunicaReport.marks.themes.light);
+    const waiting = [...document.querySelectorAll("figure[data-chart]")].filter((element) => !element.dataset.made);
+    all(light);
+    Promise.all(waiting.map((element) => make(element, light))).then(count);
   });
   addEventListener("afterprint", () => { opened.splice(0).forEach((fold) => { fold.open = false; }); all(); });
 

@@ -194,20 +194,28 @@ tunicaReport.specs = (() => {
                ...(size.width < 400 ? {orient: "bottom", direction: "horizontal"} : {})}],
   });
 
-  /// One row a category: a bar or an interval, and values on it.
+  /// The series whose intervals would lie on each other; none where there is one only.
+  const sideBySide = (chart, series) => {
+    const found = series.filter((one) => one.rows.some((row) => usable(row.low, chart.x) && usable(row.high, chart.x)));
+    return chart.bars || found.length < 2 ? [] : found;
+  };
+
+  /// One row a category: a bar or an interval, and values on it. Several intervals of a category lie side by side.
   const rowsSpec = (chart, look, size, hidden) => {
     const shown = chart.series.filter((series) => !hidden.has(series.name));
     const points = [], bars = [];
+    const beside = sideBySide(chart, shown);
     for (const series of shown)
       series.rows.forEach((row, i) => {
-        const at = {...row, label: chart.labels[i], style: series.style};
+        const place = beside.includes(series) ? (beside.indexOf(series) + 1) / (beside.length + 1) : 0.5;
+        const at = {...row, label: chart.labels[i], style: series.style, place};
         if (usable(row.value, chart.x)) points.push(at);
         if (usable(row.low, chart.x) && usable(row.high, chart.x)) bars.push(at);
       });
     const reach = span([...points.map((p) => p.value), ...bars.flatMap((b) => [b.low, b.high])], chart.x);
     const paint = (channel) => shown.map((series) => ({test: "datum.style === " + series.style, [channel]: series})).map(
         ({test}, k) => ({test, value: channel === "shape" ? shape(shown[k].style) : colour(look, shown[k].style)}));
-    const middle = {scale: "y", field: "label", band: 0.5};
+    const middle = {signal: "scale('y', datum.label) + datum.place * bandwidth('y')"};
     return {
       ...frame(chart, size), config: config(look), signals: [{name: "xdom", value: reach}, linesSignal(chart.labels, labelLines(chart.labels, size.width))],
       data: [{name: "points", values: points}, {name: "bars", values: bars}],
@@ -257,5 +265,5 @@ tunicaReport.specs = (() => {
     if (chart.kind === "mesh") return tunicaReport.mesh.spec(chart, look, size, hidden);
     return (chart.kind === "rows" ? rowsSpec : xy)(chart, look, size, hidden);
   };
-  return {make, usable, text, finite, frame, config, axes, lines, rows, rowHeight, headings, longest};
+  return {make, usable, text, finite, frame, config, axes, lines, rows, rowHeight, sideBySide, headings, longest};
 })();
