@@ -43,7 +43,7 @@ struct DiagnoseOptions {
   unsigned threads = static_cast<unsigned>(tbb::info::default_concurrency());
   std::optional<std::uint64_t> seed;
   std::optional<double> alpha;
-  std::vector<std::string> mechanisms;
+  std::vector<std::string> mechanisms, groups;
   bool quick = false, batch = false, no_discovery = false;
 };
 
@@ -54,6 +54,7 @@ diagnosis::Request request_of(const experiment::Experiment& experiment, const Se
   if (options.seed) request.seed = *options.seed;
   if (options.alpha) request.alpha = *options.alpha;
   request.quick = options.quick;
+  if (!options.groups.empty()) request.groups = options.groups;
   std::vector<std::string> known;
   for (const auto& [id, entry] : session.catalogue().mechanisms()) known.push_back(id);
   for (const std::string& id : options.mechanisms) {
@@ -152,6 +153,12 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("MECHANISMS");
+  verb->add_option("--groups", options->groups,
+                   "Where causes may lie, separated by commas: material, rig, file (what the file says and is not so)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(experiment::cause_groups))
+      ->type_name("GROUPS");
   verb->add_flag(
       "--quick", options->quick,
       "Linear bootstrap only, and only the likeliest causes at finite amplitude: a second instead of several");
@@ -169,6 +176,7 @@ void add_diagnose(CLI::App& app, GlobalOptions& global, Action& action) {
       "  tunica diagnose experiment.json\n"
       "  tunica diagnose experiment.json -o results/a --quick\n"
       "  tunica diagnose experiment.json --mechanisms fibre_dispersion,force_offset\n"
+      "  tunica diagnose experiment.json --groups material,rig\n"
       "  tunica diagnose --batch --quick cases/\n"
       "  tunica diagnose --batch --quick --shard 2/7 cases/\n\n"
       "Writes report.html, result.json, extended.json (the experiment with the cause added: `tunica run` takes it),\n"

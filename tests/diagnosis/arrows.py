@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["result", "request", "evidence", "hypotheses", "detection", "naming", "prospects", "diagnosis", "output"]
+ROOMS = ["result", "request", "evidence", "hypotheses", "detection", "naming", "file", "prospects", "diagnosis", "output"]
 INCLUDE = re.compile(r'^#include "diagnosis/([^"]+)"', re.M)
 
 

@@ -361,7 +361,10 @@ SpecimenEvidence evidence_of(std::string id, const experiment::Experiment& exper
 
 SpecimenEvidence evidence_of(std::string id, const experiment::Experiment& experiment,
                              const diagnosis::Request& request, const plugins::Catalogue& catalogue) {
-  return evidence_of(std::move(id), experiment, diagnosis::diagnose(experiment, request, catalogue), catalogue);
+  // What the file of one specimen says and is not so is no evidence on the tissue.
+  diagnosis::Request physical = request;
+  std::erase(physical.groups, "file");
+  return evidence_of(std::move(id), experiment, diagnosis::diagnose(experiment, physical, catalogue), catalogue);
 }
 
 double own_log_weight(const SpecimenEvidence& specimen, const std::string& id) {

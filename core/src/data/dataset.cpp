@@ -117,7 +117,17 @@ std::optional<std::string> cycles_as_one_curve(const Series& series, const DataR
 
 }  // namespace
 
+static Dataset given_dataset(const DataRequest& request) {
+  Dataset dataset = *request.given;
+  for (Channel& channel : dataset.channels)
+    for (const auto& [name, noise] : request.noise)
+      if (name == channel.observable) channel.noise = noise;
+  if (request.sorted) sort_rows(dataset);
+  return dataset;
+}
+
 Dataset read_dataset(const DataRequest& request, const std::vector<Observable>& observables) {
+  if (request.given) return given_dataset(request);
   check_request(request, observables);
   Dataset dataset;
   std::vector<Series> replicates;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +41,8 @@ enum class Order {
 };
 inline constexpr text::Codes<Order, 2> order_names{{{Order::unknown, "unknown"}, {Order::loading, "loading"}}};
 
+struct Dataset;
+
 /// What the experiment file says about the data of one test ("data": {…}).
 struct DataRequest {
   std::vector<std::filesystem::path> files;  ///< several: replicates
@@ -61,6 +64,9 @@ struct DataRequest {
   CompressionPositive compression;
   std::optional<std::size_t> resample;  ///< points of each branch
   bool sorted = false;                  ///< rows by their values, whatever their order in the file; for a diagnosis
+  /// Rows in memory, which are taken in place of those of the files; empty = those of the files. Their noise and their
+  /// order are still those of the request.
+  std::shared_ptr<const Dataset> given = {};
 };
 
 /// One fitted channel: the measured values and what is known of their noise.

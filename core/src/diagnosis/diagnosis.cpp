@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnosis/evidence/gross_rows.hpp"
+#include "diagnosis/file/weighing.hpp"
 #include "diagnosis/naming/gross_causes.hpp"
 #include "diagnosis/naming/intervals.hpp"
 
@@ -68,6 +69,7 @@ Diagnosis diagnose(const experiment::Experiment& experiment, const Request& requ
   const experiment::Experiment measured = experiment::measured_only(experiment);
   const Inquiry inquiry{measured, request, catalogue, progress};
   Explained found = explained(inquiry);
+  found.explanation = weighed_with_file(inquiry, found.analysis, std::move(found.explanation));
   Explanation explanation = with_refitted_intervals(inquiry, found.analysis, std::move(found.explanation));
   Prospects prospects = prospects_of(inquiry, found.analysis, explanation);
   inquiry.report("done", 1);

@@ -14,6 +14,8 @@ Request request_of(const experiment::Experiment& experiment) {
   request.alpha = entry.alpha.value_or(request.alpha);
   request.admissibility = entry.admissibility.value_or(false);
   request.mechanisms = entry.mechanisms;
+  if (!entry.groups.empty()) request.groups = entry.groups;
+  request.wrong_files = entry.wrong_files.value_or(request.wrong_files);
   return request;
 }
 

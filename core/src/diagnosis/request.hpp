@@ -23,6 +23,12 @@ struct Request {
   bool admissibility = false;           ///< lost stability changes the verdict
   bool quick = false;                   ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
+  std::vector<std::string> groups = {"material", "rig", "file"};  ///< where causes may lie
+  double wrong_files = 0.1;  ///< share of files that are expected to say what is not so
+
+  [[nodiscard]] bool considers(const std::string& group) const {
+    return std::find(groups.begin(), groups.end(), group) != groups.end();
+  }
 };
 
 /// Fills in what the file leaves open: the model of the first run.

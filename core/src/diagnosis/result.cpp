@@ -58,10 +58,50 @@ const char* code_of(ReasonKind kind) {
       return "lost_stability";
     case ReasonKind::stability_restored:
       return "stability_restored";
+    case ReasonKind::file_suspected:
+      return "file_suspected";
+    case ReasonKind::file_as_likely:
+      return "file_as_likely";
     case ReasonKind::restored_by_larger:
       break;
   }
   return "restored_by_larger";
+}
+
+const char* code_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::stress_measure:
+      return "stress_measure";
+    case FileKind::strain_definition:
+      return "strain_definition";
+    case FileKind::exchange:
+      return "exchange";
+    case FileKind::sign:
+      return "sign";
+    case FileKind::unit:
+      return "unit";
+    case FileKind::geometry:
+      return "geometry";
+    case FileKind::angle:
+      return "angle";
+    case FileKind::clock:
+      break;
+  }
+  return "clock";
+}
+
+const char* code_of(FileStanding standing) {
+  switch (standing) {
+    case FileStanding::not_looked_for:
+      return "not_looked_for";
+    case FileStanding::far:
+      return "far";
+    case FileStanding::near:
+      return "near";
+    case FileStanding::ahead:
+      break;
+  }
+  return "ahead";
 }
 
 const char* code_of(CauseGroup group) { return group == CauseGroup::material ? "material" : "rig"; }

@@ -39,7 +39,9 @@ enum class ReasonKind {
   lost_stability,
   stability_restored,
   restored_by_larger,
-  terms_discovered
+  terms_discovered,
+  file_suspected,  ///< what the file says is not so, and that explains the misfit
+  file_as_likely   ///< it may not be so, and nothing else explains the misfit better
 };
 const char* code_of(ReasonKind kind);
 
@@ -78,6 +80,51 @@ struct Warning {
 /// What a cause is a property of: causes are ranked by the same evidence, and shown in these two groups.
 enum class CauseGroup { material, rig };
 const char* code_of(CauseGroup group);
+
+/// What a file may say that is not so.
+enum class FileKind {
+  stress_measure,     ///< Cauchy, first or second Piola–Kirchhoff
+  strain_definition,  ///< engineering, logarithmic, Green–Lagrange, squares, percent
+  exchange,           ///< the two directions for one another
+  sign,               ///< compression for tension
+  unit,               ///< a factor: a unit, a prefix, an area
+  geometry,           ///< radii, diameters, thickness and forces of a tube
+  angle,              ///< from the other axis, or radians
+  clock               ///< the unit of the time
+};
+const char* code_of(FileKind kind);
+
+/// A mistake that the file may have: with it mended, the base model is fitted again.
+struct FileCause {
+  FileKind kind = FileKind::unit;
+  std::vector<std::string> tests;
+  std::string sentence;    ///< "the stresses of 'axial' are first Piola–Kirchhoff stresses, not Cauchy ones"
+  std::string mend;        ///< "\"stress_measure\": \"first_piola_kirchhoff\" in the data of 'axial'"
+  double squares = 0;      ///< |r|² of the base model then
+  double p_after = 0;      ///< of what it then leaves
+  double probability = 0;  ///< among the mistakes that were tried
+  bool near = false;       ///< as good as the likeliest of them: one answer with it
+};
+
+/// How a mistake of the file stands against causes in the material and in the rig.
+enum class FileStanding {
+  not_looked_for,  ///< the group is switched off, or nothing is wrong
+  far,             ///< none leaves noise, or another cause is clearly ahead
+  near,            ///< as likely as the others: a question
+  ahead            ///< clearly ahead of all others
+};
+const char* code_of(FileStanding standing);
+
+/// What came of the group `file`.
+struct FileFindings {
+  FileStanding standing = FileStanding::not_looked_for;
+  double wrong_files = 0;         ///< share of files that are expected to say what is not so
+  std::size_t tried = 0;          ///< mistakes
+  std::vector<FileCause> causes;  ///< likeliest first
+  /// By how much, in units of BIC, the likeliest mistake is ahead of the likeliest other cause.
+  std::optional<double> lead;
+  std::vector<std::string> untellable;  ///< mistakes that leave no trace in these data
+};
 
 /// Why a mechanism is not looked for, or would not be seen.
 enum class Absence {

@@ -142,7 +142,12 @@ struct DiagnosisEntry {
   bool all_mechanisms = false;                  ///< "all", said outright
   std::vector<std::string> mechanisms;          ///< those to consider; empty = all
   std::optional<bool> admissibility;            ///< whether lost stability changes the verdict
+  std::vector<std::string> groups;              ///< of causes to consider; empty = all
+  std::optional<double> wrong_files;            ///< share of files that are expected to say what is not so
 };
+
+/// Where causes may lie, as "diagnosis" names it.
+inline const std::vector<std::string> cause_groups{"material", "rig", "file"};
 
 /// What a term may be a function of, as "discovery" names it.
 inline const std::vector<std::string> discovery_invariants{

@@ -219,16 +219,37 @@ double read_alpha(const Node& node) {
   return alpha;
 }
 
+std::vector<std::string> read_groups(const Node& node) {
+  std::vector<std::string> groups;
+  for (const Node& name : node.elements("a list of groups of causes"))
+    groups.push_back(name.one_of(cause_groups, "group"));
+  const auto physical = [](const std::string& group) { return group != "file"; };
+  if (std::none_of(groups.begin(), groups.end(), physical))
+    node.fail("no group of physical causes is in the list",
+              "Name \"material\", \"rig\" or both, or leave \"groups\" out to try every one.");
+  return groups;
+}
+
+double read_wrong_files(const Node& node) {
+  const double share = node.number("a share of files");
+  if (!(share >= 0.0001 && share <= 0.9))
+    node.fail(fmt::format("the share of files is {}", share), "Expected a number from 0.0001 to 0.9, for example 0.1.");
+  return share;
+}
+
 }  // namespace
 
 DiagnosisEntry read_diagnosis(const Node& node, const Experiment& experiment, const plugins::Catalogue& catalogue) {
-  node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility"}, "\"diagnosis\"");
+  node.allow_only({"model", "optimizer", "alpha", "mechanisms", "admissibility", "groups", "wrong_files"},
+                  "\"diagnosis\"");
   DiagnosisEntry diagnosis;
   if (const auto child = node.find("model")) diagnosis.model = child->one_of(entry_names(experiment.models), "model");
   if (const auto child = node.find("optimizer"))
     diagnosis.optimizer = child->one_of(entry_names(experiment.optimizers), "optimizer");
   if (const auto child = node.find("admissibility")) diagnosis.admissibility = child->flag("true or false");
   if (const auto child = node.find("alpha")) diagnosis.alpha = read_alpha(*child);
+  if (const auto child = node.find("groups")) diagnosis.groups = read_groups(*child);
+  if (const auto child = node.find("wrong_files")) diagnosis.wrong_files = read_wrong_files(*child);
   const auto child = node.find("mechanisms");
   if (!child) return diagnosis;
   if (child->is_text()) {

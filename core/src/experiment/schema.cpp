@@ -226,7 +226,14 @@ Json diagnosis_schema() {
          {"minimum", 0.0001},
          {"maximum", 0.5}}},
        {"mechanisms", std::move(mechanisms)},
-       {"admissibility", {{"description", "Lost stability changes the verdict."}, {"type", "boolean"}}}});
+       {"admissibility", {{"description", "Lost stability changes the verdict."}, {"type", "boolean"}}},
+       {"groups", list_schema("Where causes may lie (default: material, rig and file).",
+                              choice_schema("A group of causes.", cause_groups))},
+       {"wrong_files",
+        {{"description", "Share of files that are expected to say what is not so (default 0.1)."},
+         {"type", "number"},
+         {"minimum", 0.0001},
+         {"maximum", 0.9}}}});
 }
 
 Json discovery_schema() {

@@ -245,6 +245,8 @@ Json to_json(const DiagnosisEntry& diagnosis) {
   if (diagnosis.all_mechanisms) json["mechanisms"] = "all";
   if (!diagnosis.mechanisms.empty()) json["mechanisms"] = diagnosis.mechanisms;
   if (diagnosis.admissibility) json["admissibility"] = *diagnosis.admissibility;
+  if (!diagnosis.groups.empty()) json["groups"] = diagnosis.groups;
+  if (diagnosis.wrong_files) json["wrong_files"] = *diagnosis.wrong_files;
   return json;
 }
 

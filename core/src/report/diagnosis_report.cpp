@@ -190,8 +190,27 @@ void add_noise(Page& page, const Json& diagnosis) {
 
 }  // namespace
 
+/// Mistakes of the file that are as likely as the causes, or likelier: each with what to write into the file.
+static void add_file(Page& page, const Json& diagnosis) {
+  const Json& file = member(diagnosis, "file");
+  const std::string standing = word(file, "standing");
+  if (standing != "near" && standing != "ahead") return;
+  std::vector<std::vector<Cell>> rows;
+  for (const Json& cause : list(file, "causes"))
+    if (member(cause, "near") == true)
+      rows.push_back({{word(cause, "sentence")},
+                      {word(cause, "mend")},
+                      {figure(number(cause, "squares")), true},
+                      {chance(number(cause, "p_after")), true}});
+  page.section("What the file may say that is not so");
+  page.paragraph(standing == "ahead" ? "Mended, the base model describes the data. No other cause comes close."
+                                     : "Mended, the base model describes the data. Ask this before any other cause.");
+  page.html(table_html({"it may be that", "to try it, write", "sum of squares then", "p of what is left"}, rows));
+}
+
 void add_candidates(Page& page, const Folder& folder) {
   const Json& diagnosis = member(folder.result(), "diagnosis");
+  add_file(page, diagnosis);
   const std::vector<Candidate> candidates = candidates_of(diagnosis);
   if (candidates.empty() && list(diagnosis, "causes").empty()) return;
   page.section("Candidate causes");

@@ -34,6 +34,8 @@ std::string verdict_words(const Json& diagnosis) {
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));
   const bool unlisted = member(diagnosis, "unlisted") == true;
+  if (verdict == "indistinguishable" && word(member(diagnosis, "file"), "standing") == "near")
+    return fmt::format("Indistinguishable: {}.", reasons);
   if (verdict == "indistinguishable" && unlisted && list(diagnosis, "explanations").size() < 2)
     return fmt::format("Indistinguishable: {} together, or an effect that the catalogue does not list. {}.",
                        text::joined(named_causes(diagnosis)), reasons);

@@ -23,6 +23,7 @@ struct Explanation {
   std::vector<Cause> left_out;  ///< gross rows that the extension takes out beside its causes
   std::vector<Misfit> misfit;
   Admissibility admissibility;
+  FileFindings file;  ///< what the file may say that is not so
 };
 
 /// What the probability of one of its causes is worth.

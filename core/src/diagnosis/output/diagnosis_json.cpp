@@ -210,6 +210,21 @@ json admissibility_json(const Admissibility& admissibility) {
           {"remedy", admissibility.remedy.empty() ? json(nullptr) : json(admissibility.remedy)}};
 }
 
+json file_json(const FileFindings& file) {
+  json causes = json::array();
+  for (const FileCause& cause : file.causes)
+    causes.push_back({{"kind", code_of(cause.kind)},
+                      {"tests", cause.tests},
+                      {"sentence", cause.sentence},
+                      {"mend", cause.mend},
+                      {"squares", cause.squares},
+                      {"p_after", cause.p_after},
+                      {"probability", cause.probability},
+                      {"near", cause.near}});
+  return {{"standing", code_of(file.standing)}, {"wrong_files", file.wrong_files}, {"tried", file.tried},
+          {"lead", or_null(file.lead)},         {"causes", std::move(causes)},     {"untellable", file.untellable}};
+}
+
 json gross_json(const std::vector<GrossRow>& gross) {
   json rows = json::array();
   for (const GrossRow& row : gross)
@@ -271,6 +286,7 @@ json diagnosis_json(const Diagnosis& d) {
                  {"confusable", confusable_json(analysis.hypotheses.candidates,
                                                 likeness(analysis.hypotheses, explanation.best_direction))}};
   if (alarm.p_is_bound()) result["p_value_is_bound"] = true;
+  if (explanation.file.wrong_files > 0) result["file"] = file_json(explanation.file);
   if (claim.best) result["extension"] = extension_json(explanation);
   if (d.prospects.gain) result["gain"] = gain_json(*d.prospects.gain);
   if (!evidence.gross.empty()) result["left_out"] = gross_json(evidence.gross);

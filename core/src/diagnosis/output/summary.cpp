@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "diagnosis/output/outputs.hpp"
+#include "text/lists.hpp"
 #include "text/wrapping.hpp"
 
 namespace tunica::diagnosis {
@@ -48,6 +49,11 @@ std::string verdict_line(const Diagnosis& d) {
       return fmt::format("NAMED: consistent with {}", fmt::join(ids, " and "));
     }
     case Verdict::indistinguishable:
+      if (explanation.file.standing == FileStanding::near)
+        return claim.ambiguity_set.empty()
+                   ? "INDISTINGUISHABLE: " + joined_reasons(explanation)
+                   : fmt::format("INDISTINGUISHABLE: what the file says may not be so, or it is {}",
+                                 fmt::join(explanations(claim), ", or "));
       if (explanation.unlisted && claim.ambiguity_set.size() == claim.named)
         return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
                            fmt::join(claim.ambiguity_set, " and "));
@@ -231,6 +237,29 @@ std::string could_hide(const std::vector<Detectable>& detectable) {
   return text;
 }
 
+/// What the file may say that is not so, as a question, with what to try; mirror images of it beside it.
+std::string file_line(const FileFindings& file) {
+  if (file.standing != FileStanding::near && file.standing != FileStanding::ahead) return "";
+  const FileCause& first = file.causes.front();
+  std::string text =
+      fmt::format("is it so that {}? Then the base model leaves |r|² = {:.1f} (p = {:.2g}). To try it, write {}",
+                  first.sentence, first.squares, first.p_after, first.mend);
+  std::vector<std::string> others;
+  for (const FileCause& cause : file.causes)
+    if (&cause != &first && cause.near) others.push_back(cause.sentence);
+  if (!others.empty()) text += fmt::format(". Or as well: {}", fmt::join(others, "; "));
+  return text;
+}
+
+/// Mistakes that nothing in the data would show.
+std::string untellable_line(const FileFindings& file) {
+  return file.untellable.empty() ? ""
+                                 : fmt::format(
+                                       "{} would leave no trace in these data: compare the parameters with "
+                                       "published ones",
+                                       text::joined(file.untellable));
+}
+
 /// Mechanisms that the base has: a second one of the same kind is no hypothesis of a diagnosis.
 std::string not_tried(const std::vector<Detectable>& detectable) {
   std::vector<std::string> ids;
@@ -271,6 +300,7 @@ text::StyledText summary(const Diagnosis& d) {
     if (!text.empty()) lines += text::hanging(lead, text) + '\n';
   };
   line("Alarm:    ", alarm_line(d.analysis));
+  line("File:     ", file_line(explanation.file));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
@@ -281,6 +311,7 @@ text::StyledText summary(const Diagnosis& d) {
   line("Material: ", material_line(explanation.admissibility));
   if (d.prospects.next) line("Next:     ", d.prospects.next->description);
   if (!wrong) line("May hide: ", could_hide(d.prospects.detectable));
+  line("Untold:   ", untellable_line(explanation.file));
   return lines;
 }
 

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The blind benchmark of files that say what is not so: write honest data of a true base model into files with one
+mistake, and honest files with a real effect; let tunica diagnose them, and count.
+
+    bench/wrong_files.py OUT                   every mistake once, development seed 301
+    bench/wrong_files.py OUT --draws 3         three specimens of each
+    bench/wrong_files.py OUT --reduced         every fourth mistake
+    bench/wrong_files.py OUT --only measure    mistakes whose name has this word
+
+A case is `right` where the mistake, or one that the data cannot tell from it, is named or stands in the verdict as a
+question; `false science` where a cause in the material or in the rig, or a term, is the verdict and no question is asked.
+Nothing here links or calls tunica but to diagnose. Needs numpy and scipy."""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import typing
+import zlib
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+import numpy as np  # noqa: E402
+
+from hidden_terms.bases import curves, draw  # noqa: E402
+from hidden_terms.case_files import columns, model_entry, test_entry  # noqa: E402
+from hidden_terms.generate import Spec, make  # noqa: E402
+from hidden_terms.protocol import Curve, observe, channel_slices  # noqa: E402
+
+DEVELOPMENT_SEED = 301
+NOISE = 0.01  # of the range of every channel
+PROGRAM = os.environ.get("TUNICA", "tunica")
+
+
+class Case:
+    """An experiment file and its tables, to be spoilt."""
+
+    def __init__(self, base: str, protocol: typing.Sequence[Curve], readings: np.ndarray, sd: typing.Sequence[float]):
+        self.base, self.model = base, model_entry(base)
+        self.tests: typing.Dict[str, typing.Dict[str, typing.Any]] = {}
+        self.tables: typing.Dict[str, typing.Dict[str, np.ndarray]] = {}
+        slices, at = channel_slices(protocol), 0
+        for curve in protocol:
+            own = range(at, at + curve.channels)
+            at += curve.channels
+            prescribed = [1 + curve.load * m for m in curve.most] if curve.kind == "sheet" else [curve.load]
+            names = [name for name, _ in columns(curve)]
+            self.tables[curve.name] = dict(zip(names, [*prescribed, *(readings[slices[k]] for k in own)]))
+            self.tests[curve.name] = test_entry(curve, [(sd[k], 0.0) for k in own])
+
+    def stretches(self, test: str) -> typing.List[str]:
+        return [name for name in self.tables[test] if name.startswith("stretch")]
+
+    def stresses(self, test: str) -> typing.List[str]:
+        return [name for name in self.tables[test] if name.startswith("stress")]
+
+    def shown(self, test: str, name: str, values: np.ndarray, factor: float = 1) -> None:
+        """Writes other values; the noise that the file states is that of the numbers in it."""
+        self.tables[test][name] = values
+        noise = self.tests[test]["data"]["noise"]
+        if name in noise:
+            noise[name]["absolute"] = float(noise[name]["absolute"] * abs(factor))
+
+    def write(self, folder: pathlib.Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, table in self.tables.items():
+            units = {column: "kPa" if "stress" in column else "-" for column in table}
+            lines = [",".join(f"{column} [{units[column]}]" for column in table)]
+            lines += [",".join(f"{value:.7g}" for value in row) for row in np.column_stack(list(table.values()))]
+            (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
+        (folder / "experiment.json").write_text(json.dumps({
+            "format": 1, "name": folder.name, "seed": 1, "models": {self.base: self.model}, "tests": self.tests,
+            "objective": "least_squares", "optimizers": {"lm": {"type": "ceres_lm", "starts": 10}},
+            "runs": [{"model": self.base, "optimizer": "lm"}]}, indent=1) + "\n")
+
+
+Truth = typing.Tuple[str, typing.List[str]]  # the kind, and the tests that it is in
+Spoil = typing.Callable[[Case, typing.List[str]], None]
+
+
+def in_measure(power: int) -> Spoil:
+    """Values of another measure: v λ^power."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for stress in case.stresses(test):
+                stretch = stress.replace("stress", "stretch")
+                if stretch not in case.tables[test]:
+                    continue
+                factors = case.tables[test][stretch]**power
+                # One absolute noise is stated for the numbers of the file.
+                case.shown(test, stress, case.tables[test][stress] * factors, float(np.mean(factors)))
+    return spoil
+
+
+def in_strain(shown: typing.Callable[[np.ndarray], np.ndarray], key: str = "stretch") -> Spoil:
+    """What the column has of a stretch, under the name `key`."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for name in case.stretches(test):
+                case.tables[test][name] = shown(case.tables[test][name])
+                named = case.tests[test]["data"]["columns"]
+                case.tests[test]["data"]["columns"] = {
+                    (k.replace("stretch", key) if k == name else k): v for k, v in named.items()}
+    return spoil
+
+
+def exchanged(what: str) -> Spoil:
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            if case.tests[test]["type"] == "uniaxial":
+                other = {"circumferential": "axial", "axial": "circumferential"}
+                case.tests[test]["direction"] = other[case.tests[test]["direction"]]
+                continue
+            table, noise = case.tables[test], case.tests[test]["data"]["noise"]
+            for word in ("stretch", "stress"):
+                if what in (word, "both"):
+                    one, two = f"{word}_circumferential", f"{word}_axial"
+                    table[one], table[two] = table[two], table[one]
+                    if word == "stress":
+                        noise[one], noise[two] = noise[two], noise[one]
+    return spoil
+
+
+def times(factor: float, only: str = "stress") -> Spoil:
+    """The file has 1/factor of the true value."""
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for name in case.tables[test]:
+                if "stress" in name and only in name:
+                    case.shown(test, name, case.tables[test][name] / factor, 1 / factor)
+    return spoil
+
+
+def opposite(stretches: bool, stresses: bool) -> Spoil:
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            for name in case.stretches(test) if stretches else []:
+                case.tables[test][name] = 2 - case.tables[test][name]
+            for name in case.stresses(test) if stresses else []:
+                case.shown(test, name, -case.tables[test][name])
+    return spoil
+
+
+def held_angle(shown: typing.Callable[[float], float]) -> Spoil:
+    def spoil(case: Case, _: typing.List[str]) -> None:
+        theta = case.model["parameters"]["theta"]["true"]
+        case.model["parameters"]["theta"] = {"fixed": float(shown(theta))}
+    return spoil
+
+
+class Mistake(typing.NamedTuple):
+    name: str
+    base: str
+    kind: str
+    tests: typing.List[str]  # empty: all
+    spoil: Spoil
+    told: bool = True  # whether the data can tell
+
+
+def mistakes() -> typing.List[Mistake]:
+    found: typing.List[Mistake] = []
+    strip, sheet = ["axial_strip"], ["sheet_2"]
+    sheets = [f"sheet_{k}" for k in range(1, 6)]
+    pulled = ["uniaxial", "equibiaxial", "pure_shear"]
+
+    def add(name: str, kind: str, spoil: Spoil, base: str, tests: typing.List[str], told: bool = True) -> None:
+        found.append(Mistake(f"{name}-{base}-{'all' if len(tests) != 1 else tests[0]}", base, kind, tests, spoil, told))
+
+    everywhere = {"gho": strip[:0] + ["circumferential_strip", "axial_strip", *sheets], "hgo": ["circumferential_strip", "axial_strip", *sheets],
+                  "mooney_rivlin": pulled}
+    one = {"gho": strip, "hgo": sheet, "mooney_rivlin": ["pure_shear"]}
+    for base in ("gho", "hgo", "mooney_rivlin"):
+        rubber = base == "mooney_rivlin"
+        for scope in (everywhere[base], one[base]):
+            for power, name in ((1, "cauchy"), (-1, "second")) if rubber else ((-1, "nominal"), (-2, "second")):
+                add(f"measure-{name}", "stress_measure", in_measure(power), base, scope)
+            add("strain-hencky", "strain_definition", in_strain(lambda l: 1 + np.log(l)), base, scope)
+            add("strain-green", "strain_definition", in_strain(lambda l: 1 + (l * l - 1) / 2), base, scope)
+            add("strain-declared", "strain_definition", in_strain(np.log, "strain"), base, scope)
+            add("strain-reverse", "strain_definition", in_strain(lambda l: l - 1, "green_strain"), base, scope)
+        add("strain-squared", "strain_definition", in_strain(np.square), base, one[base])
+        for factor in (1000, 9.80665, 10, 7.500617, 6.894757, 4.448222, 4, 2):
+            add(f"unit-{factor:.4g}", "unit", times(factor), base, one[base])
+        for factor in (9.80665, 4, 2):
+            add(f"unit-by-{factor:.4g}", "unit", times(1 / factor), base, one[base])
+        add("unit-1000", "unit", times(1000), base, everywhere[base], told=False)
+    for base in ("gho", "hgo"):
+        add("unit-direction-4", "unit", times(4, "stress_axial"), base, ["sheet_4"])
+        add("exchange-stretch", "exchange", exchanged("stretch"), base, ["sheet_4"])
+        add("exchange-stress", "exchange", exchanged("stress"), base, ["sheet_5"])
+        add("exchange-both", "exchange", exchanged("both"), base, ["sheet_2"])
+        add("exchange-stretch", "exchange", exchanged("stretch"), base, sheets)
+        add("exchange-strip", "exchange", exchanged("both"), base, strip)
+        add("angle-other", "angle", held_angle(lambda a: 90 - a), base, [])
+        add("angle-radians", "angle", held_angle(np.radians), base, [])
+        add("sign-stress", "sign", opposite(False, True), base, strip)
+    return found
+
+
+def honest(base: str, seed: int, held: bool) -> Case:
+    random = np.random.default_rng([seed, zlib.crc32(base.encode())])
+    while True:
+        form = draw(base, random)
+        try:
+            protocol = curves(base, form, random)
+            clean = observe(protocol, form.material)
+            break
+        except ArithmeticError:
+            continue
+    sd = [NOISE * float(np.ptp(clean[rows])) for rows in channel_slices(protocol)]
+    noisy = clean.copy()
+    for rows, one in zip(channel_slices(protocol), sd):
+        noisy[rows] += one * random.standard_normal(rows.stop - rows.start)
+    case = Case(base, protocol, noisy, sd)
+    if held:
+        case.model["parameters"]["theta"] = {"true": next(p.values["theta"] for p in form.material if "theta" in p.values)}
+    return case
+
+
+def diagnosed(folder: pathlib.Path) -> typing.Tuple[typing.Dict[str, typing.Any], float]:
+    """The diagnosis of a folder, and CPU seconds."""
+    out = folder / "out"
+    if not (out / "result.json").exists():
+        told = subprocess.run(
+            ["/usr/bin/time", "-f", "%U", PROGRAM, "diagnose", "--quick", "--quiet", str(folder / "experiment.json"), "-o",
+             str(out)], capture_output=True, text=True, check=False)
+        (folder / "said.txt").write_text(told.stdout + told.stderr)
+    if not (out / "result.json").exists():
+        return {}, 0
+    seconds = float((folder / "said.txt").read_text().strip().splitlines()[-1])
+    return json.loads((out / "result.json").read_text())["diagnosis"], seconds
+
+
+def judged(d: typing.Dict[str, typing.Any], kind: str, tests: typing.List[str], everything: typing.List[str]) -> str:
+    """What the diagnosis makes of a file with this mistake. A mistake in some tests is the reverse one in all others."""
+    if not d:
+        return "refused"
+    if d["verdict"] == "nothing_detected":
+        return "silent"
+    file = d.get("file", {"standing": "not_looked_for", "causes": []})
+    if file["standing"] in ("near", "ahead"):
+        mirror = sorted(set(everything) - set(tests))
+        for cause in file["causes"]:
+            if cause["near"] and cause["kind"] == kind and (sorted(cause["tests"]) in (sorted(tests), mirror) or kind == "angle"):
+                return "named" if file["standing"] == "ahead" else "tied"
+        if any(cause["near"] for cause in file["causes"]):
+            return "other mistake"
+    return "false science" if d["verdict"] in ("named", "discovered", "indistinguishable", "leading") else d["verdict"]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--draws", type=int, default=1)
+    parser.add_argument("--reduced", action="store_true")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--seed", type=int, default=DEVELOPMENT_SEED)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--effects", type=int, default=4, help="honest files with a real effect, of each base and size")
+    told = parser.parse_args()
+    chosen = [one for one in mistakes() if told.only in one.name][::4 if told.reduced else 1]
+    jobs: typing.List[typing.Tuple[pathlib.Path, typing.Optional[Mistake], typing.List[str]]] = []
+    for mistake in chosen:
+        for k in range(told.draws):
+            case = honest(mistake.base, told.seed + k, mistake.kind == "angle")
+            everything = list(case.tests)
+            mistake.spoil(case, mistake.tests or everything)
+            folder = told.out / "mistakes" / f"{mistake.name}-{k}"
+            case.write(folder)
+            jobs.append((folder, mistake, everything))
+    for base in ("gho", "hgo", "mooney_rivlin") if not told.only else ():
+        for target in (60, 150):
+            for k in range(told.effects):
+                name = make(Spec("single", base, target, k, "white", True), told.seed, told.out / "effects")
+                jobs.append((told.out / "effects" / "cases" / name, None, []))
+        for k in range(told.effects):
+            folder = told.out / "honest" / f"{base}-{k}"
+            honest(base, told.seed + 1000 + k, False).write(folder)
+            jobs.append((folder, None, []))
+    with concurrent.futures.ThreadPoolExecutor(told.jobs) as pool:
+        found = list(pool.map(lambda job: diagnosed(job[0]), jobs))
+    counts: typing.Dict[str, typing.List[str]] = {}
+    for (folder, mistake, everything), (d, seconds) in zip(jobs, found):
+        file = d.get("file", {})
+        if mistake is None:
+            group = folder.relative_to(told.out).parts[0]
+            word = f"file {file.get('standing')}" if d.get("verdict") != "nothing_detected" else "silent"
+        else:
+            group = f"mistakes{'' if mistake.told else ' that cannot be told'}"
+            word = judged(d, mistake.kind, mistake.tests or everything, everything)
+        counts.setdefault(group, []).append(word)
+        first = file["causes"][0] if file.get("causes") else {}
+        print(f"{word:14} {folder.name:44} {seconds:6.1f} s {d.get('verdict')}; {file.get('standing')}, lead "
+              f"{file.get('lead') if file.get('lead') is None else round(file['lead'], 1)}, p {first.get('p_after', 0):.3f}: {first.get('sentence', '')}")
+    for group, words in counts.items():
+        rates = ", ".join(f"{word} {words.count(word)}" for word in sorted(set(words)))
+        print(f"{group}: {len(words)} files: {rates}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/file/record.hpp"
+#include "diagnosis/request.hpp"
+#include "diagnosis/result.hpp"
+
+namespace tunica::diagnosis {
+
+/// One thing that the file may say and that is not so: an exact transform of the data, or of what they were taken for,
+/// without a parameter.
+struct Correction {
+  FileKind kind = FileKind::unit;
+  std::vector<std::string> tests;
+  bool common = false;   ///< the same mistake in all tests that it can be in, not in one of them
+  std::string sentence;  ///< "the stresses of 'axial' are first Piola–Kirchhoff stresses, not Cauchy stresses"
+  std::string mend;      ///< what to write into the file
+  std::function<bool(Record&)> apply;
+  double log_prior = 0;  ///< of this mistake, before the data
+  /// Factors on the same numbers are rungs of one ladder, at their logarithms: where one rung is worse than the one
+  /// before it, those beyond are worse still. Empty: no ladder.
+  std::string ladder = {};
+  double rung = 0;
+};
+
+using Corrections = std::vector<Correction>;
+
+/// All mistakes that these tests can have, with their shares of the prior: kinds of mistakes are equally likely, half
+/// of each for mistakes that all tests share, half for those of one test, and equal shares within.
+Corrections corrections_of(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run,
+                           bool scale_is_seen);
+
+// The kinds, each by itself.
+void add_stress_measures(const Record& record, const std::vector<std::string>& tests, Corrections& all);
+void add_strain_definitions(const Record& record, const std::vector<std::string>& tests, Corrections& all);
+void add_exchanges(const Record& record, const std::vector<std::string>& tests, Corrections& all);
+void add_signs(const Record& record, const std::vector<std::string>& tests, Corrections& all);
+/// `scale_is_seen`: one factor on all stresses is not taken up by the parameters.
+void add_units(const Record& record, const std::vector<std::string>& tests, bool scale_is_seen, Corrections& all);
+void add_tube_sizes(const Record& record, const std::vector<std::string>& tests, Corrections& all);
+void add_angles(const Record& record, const experiment::RunEntry& run, const plugins::Catalogue& catalogue,
+                Corrections& all);
+void add_clocks(const Inquiry& inquiry, const Record& record, const experiment::RunEntry& run, Corrections& all);
+
+/// One correction for each of the tests, and one for all where there are several.
+struct Wording {
+  std::string sentence, mend;
+};
+void add_for_each_and_all(FileKind kind, const std::vector<std::string>& tests,
+                          const std::function<Wording(const std::vector<std::string>&)>& words,
+                          const std::function<bool(Record&, const std::string&)>& apply, Corrections& all);
+
+/// "'a'", "'a' and 'b'".
+std::string quoted(const std::vector<std::string>& names);
+
+}  // namespace tunica::diagnosis

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the file says and is not so: a base model that is true, honest numbers, and a file that says something else of
+// them. Noise is 1 % of each range; seeds are stated. A true base raises a false alarm in 1 of 20 files.
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "assembly/assembly.hpp"
+#include "diagnosis/measured.hpp"
+#include "diagnosis/output/outputs.hpp"
+#include "tunica/random.hpp"
+
+namespace tunica::trial {
+namespace {
+
+using diagnosis::Diagnosis;
+using diagnosis::FileCause;
+using diagnosis::FileKind;
+using diagnosis::FileStanding;
+using diagnosis::Verdict;
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Two strips and three sheets of a gho wall, in a folder of its own.
+class Wall {
+ public:
+  Wall() {
+    experiment = {{"format", 1},
+                  {"name", "wall"},
+                  {"seed", 1},
+                  {"models",
+                   {{"gho",
+                     {{"type", "gho"},
+                      {"parameters",
+                       {{"mu", {{"min", 1}, {"max", 100}, {"scale", "log"}, {"initial", 18.668}}},
+                        {"kappa", {{"fixed", 0.1367}}},
+                        {"k1", {{"min", 1}, {"max", 200}, {"scale", "log"}, {"initial", 24.905}}},
+                        {"k2", {{"min", 0.01}, {"max", 5}, {"scale", "log"}, {"initial", 0.2912}}},
+                        {"theta", {{"fixed", 38}}}}}}}}},
+                  {"tests", json::object()},
+                  {"objective", "least_squares"},
+                  {"optimizers", {{"lm", {{"type", "ceres_lm"}}}}},
+                  {"runs", {{{"model", "gho"}, {"optimizer", "lm"}}}}};
+    for (const char* const direction : {"circumferential", "axial"})
+      add(direction, {{"type", "uniaxial"}, {"direction", direction}}, {"stretch"}, {"stress"}, {0.5});
+    int number = 0;
+    for (const auto& [around, along] : {std::pair{0.35, 0.35}, {0.35, 0.15}, {0.15, 0.35}})
+      add(fmt::format("sheet_{}", ++number), {{"type", "biaxial"}}, {"stretch_circumferential", "stretch_axial"},
+          {"stress_circumferential", "stress_axial"}, {around, along});
+  }
+
+  struct Table {
+    std::vector<std::string> stretches, stresses;
+    std::map<std::string, std::vector<double>> values;
+  };
+
+  /// Numbers of what the model shows at its initial values once `hide` has changed a copy of the experiment.
+  void measure(std::uint64_t seed, const std::function<void(json&)>& hide = {}) {
+    json truth = experiment;
+    if (hide) hide(truth);
+    const auto read = experiment::read_experiment(folder.write("truth.json", truth.dump(2)), testing::catalogue());
+    const assembly::Assembly assembly(read, read.runs.front(), testing::catalogue());
+    std::vector<double> free(assembly.layout().parameters.size()), exact(assembly.layout().prediction_count);
+    assembly.box().from_unit(assembly.box().initial(), free);
+    if (!assembly.evaluator().predict(free, exact, {}, *assembly.evaluator().make_workspace()).ok())
+      throw std::runtime_error("no prediction");
+    for (const auto& view : assembly.layout().channels) {
+      const auto from = exact.begin() + static_cast<std::ptrdiff_t>(view.offset);
+      const auto to = from + static_cast<std::ptrdiff_t>(view.count);
+      const auto [least, most] = std::minmax_element(from, to);
+      const double sd = 0.01 * (*most - *least);
+      std::mt19937_64 generator(derive_seed(seed, view.test + view.observable));
+      std::normal_distribution<double> normal(0, sd);
+      std::vector<double>& values = tables.at(view.test).values[view.observable];
+      values.assign(from, to);
+      for (double& value : values) value += normal(generator);
+      experiment["tests"][view.test]["data"]["noise"][view.observable]["absolute"] = sd;
+    }
+    write();
+  }
+
+  /// Numbers of a channel, and their noise, times a factor.
+  void scale(const std::string& test, const std::string& channel, double factor) {
+    for (double& value : tables.at(test).values.at(channel)) value *= factor;
+    json& sd = experiment["tests"][test]["data"]["noise"][channel]["absolute"];
+    sd = sd.get<double>() * factor;
+    write();
+  }
+  void rename(const std::string& test, const std::string& one, const std::string& other) {
+    json& columns = experiment["tests"][test]["data"]["columns"];
+    std::swap(columns[one], columns[other]);
+  }
+
+  [[nodiscard]] Diagnosis diagnose() const {
+    folder.write("experiment.json", experiment.dump(2));
+    const auto own = experiment::read_experiment(folder.path() / "experiment.json", testing::catalogue());
+    diagnosis::Request request = diagnosis::request_of(own);
+    request.quick = true;
+    return diagnosis::diagnose(own, request, testing::catalogue());
+  }
+
+  void write() const {
+    for (const auto& [name, table] : tables) {
+      std::vector<std::string> columns = table.stretches;
+      columns.insert(columns.end(), table.stresses.begin(), table.stresses.end());
+      std::string text;
+      for (const std::string& column : columns)
+        text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, column.starts_with("stress") ? "kPa" : "1");
+      text += '\n';
+      for (std::size_t i = 0; i < rows; ++i)
+        for (const std::string& column : columns)
+          text += fmt::format("{}{}", table.values.at(column)[i], column == columns.back() ? '\n' : ',');
+      folder.write(name + ".csv", text);
+    }
+  }
+
+  json experiment;
+  std::map<std::string, Table> tables;
+
+ private:
+  static constexpr std::size_t rows = 14;
+
+  void add(const std::string& name, json entry, const std::vector<std::string>& stretches,
+           const std::vector<std::string>& stresses, const std::vector<double>& most) {
+    Table table{stretches, stresses, {}};
+    entry["data"] = {
+        {"file", name + ".csv"}, {"order", "loading"}, {"columns", json::object()}, {"noise", json::object()}};
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+      for (std::size_t i = 1; i <= rows; ++i)
+        table.values[stretches[k]].push_back(1 + most[k] * static_cast<double>(i) / rows);
+      entry["data"]["columns"][stretches[k]] = stretches[k];
+    }
+    for (const std::string& stress : stresses) {
+      table.values[stress].assign(rows, 1.0);
+      entry["data"]["columns"][stress] = stress;
+      entry["data"]["noise"][stress]["absolute"] = 1;
+    }
+    experiment["tests"][name] = std::move(entry);
+    tables[name] = std::move(table);
+    write();
+  }
+
+  Folder folder;
+};
+
+/// The mistake is the verdict, or a question beside it.
+void expect_found(const Diagnosis& found, FileKind kind, const std::vector<std::string>& tests) {
+  const diagnosis::FileFindings& file = found.explanation.file;
+  EXPECT_TRUE(file.standing == FileStanding::ahead || file.standing == FileStanding::near)
+      << diagnosis::summary(found).plain();
+  const bool there = std::any_of(file.causes.begin(), file.causes.end(), [&](const FileCause& cause) {
+    return cause.near && cause.kind == kind && cause.tests == tests;
+  });
+  EXPECT_TRUE(there) << diagnosis::summary(found).plain();
+  EXPECT_NE(found.explanation.verdict, Verdict::named);
+  if (file.standing == FileStanding::ahead) EXPECT_EQ(found.explanation.verdict, Verdict::suspect_data);
+}
+
+const std::vector<std::string> everything{"axial", "circumferential", "sheet_1", "sheet_2", "sheet_3"};
+
+TEST(File, NominalStressesReadAsCauchyStressesAreSaidWithWhatMendsIt) {
+  Wall wall;
+  wall.measure(1, [](json& truth) {
+    for (auto& [name, test] : truth["tests"].items()) test["data"]["stress_measure"] = "first_piola_kirchhoff";
+  });
+  const Diagnosis found = wall.diagnose();
+  expect_found(found, FileKind::stress_measure, everything);
+  const std::string said = in_one_line(diagnosis::summary(found).plain());
+  EXPECT_THAT(said, HasSubstr("SUSPECT DATA: the stresses of 'axial', 'circumferential', 'sheet_1', 'sheet_2' and "
+                              "'sheet_3' are first Piola–Kirchhoff stresses, not Cauchy ones"));
+  EXPECT_THAT(said, HasSubstr("\"stress_measure\": \"first_piola_kirchhoff\""));
+  EXPECT_THAT(said, Not(HasSubstr("Cause:")));
+}
+
+TEST(File, WithoutTheGroupNothingOfItIsSaid) {
+  Wall wall;
+  wall.measure(1, [](json& truth) {
+    for (auto& [name, test] : truth["tests"].items()) test["data"]["stress_measure"] = "first_piola_kirchhoff";
+  });
+  wall.experiment["diagnosis"]["groups"] = {"material", "rig"};
+  const Diagnosis found = wall.diagnose();
+  EXPECT_EQ(found.explanation.file.standing, FileStanding::not_looked_for);
+  EXPECT_FALSE(diagnosis::diagnosis_json(found).contains("file"));
+  EXPECT_THAT(diagnosis::summary(found).plain(), Not(HasSubstr("File:")));
+}
+
+TEST(File, OneSheetOfSecondPiolaKirchhoffStressesIsFound) {
+  Wall wall;
+  wall.measure(2, [](json& truth) { truth["tests"]["sheet_1"]["data"]["stress_measure"] = "second_piola_kirchhoff"; });
+  expect_found(wall.diagnose(), FileKind::stress_measure, {"sheet_1"});
+}
+
+TEST(File, LogarithmicStrainsInPlaceOfEngineeringOnesAreFound) {
+  Wall wall;
+  wall.measure(3);
+  for (auto& [name, table] : wall.tables)
+    for (const std::string& stretch : table.stretches)
+      for (double& value : table.values.at(stretch)) value = 1 + std::log(value);
+  wall.write();
+  expect_found(wall.diagnose(), FileKind::strain_definition, everything);
+}
+
+TEST(File, ThePrefixOfOneTestIsFound) {
+  Wall wall;
+  wall.measure(4);
+  wall.scale("sheet_2", "stress_circumferential", 0.001);
+  wall.scale("sheet_2", "stress_axial", 0.001);
+  const Diagnosis found = wall.diagnose();
+  expect_found(found, FileKind::unit, {"sheet_2"});
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()),
+              HasSubstr("the unit MPa for 'stress_axial' and 'stress_circumferential' of 'sheet_2'"));
+}
+
+TEST(File, AKilogramForceTakenForANewtonIsFoundOrItsMirror) {
+  Wall wall;
+  wall.measure(5);
+  wall.scale("axial", "stress", 1 / 9.80665);
+  expect_found(wall.diagnose(), FileKind::unit, {"axial"});
+}
+
+TEST(File, ExchangedStretchesOfASheetAreFound) {
+  Wall wall;
+  wall.measure(6);
+  wall.rename("sheet_3", "stretch_circumferential", "stretch_axial");
+  expect_found(wall.diagnose(), FileKind::exchange, {"sheet_3"});
+}
+
+TEST(File, AnAngleFromTheOtherAxisIsFound) {
+  Wall wall;
+  wall.measure(7);
+  wall.experiment["models"]["gho"]["parameters"]["theta"]["fixed"] = 52;
+  expect_found(wall.diagnose(), FileKind::angle, everything);
+}
+
+TEST(File, AnHonestFileWithARealEffectIsNotBlamed) {
+  for (const std::uint64_t seed : {11u, 12u}) {
+    Wall wall;
+    wall.measure(seed,
+                 [](json& truth) { truth["models"]["gho"]["mechanisms"] = {mechanism("axial_fibres", "k", 25)}; });
+    const Diagnosis found = wall.diagnose();
+    EXPECT_EQ(found.explanation.file.standing, FileStanding::far) << diagnosis::summary(found).plain();
+  }
+}
+
+TEST(File, WhereNothingIsWrongOnlyWhatCannotBeToldIsSaid) {
+  Wall wall;
+  wall.measure(21);
+  const Diagnosis found = wall.diagnose();
+  EXPECT_EQ(found.explanation.verdict, Verdict::nothing_detected);
+  EXPECT_EQ(found.explanation.file.standing, FileStanding::not_looked_for);
+  EXPECT_THAT(in_one_line(diagnosis::summary(found).plain()),
+              HasSubstr("one factor on all stresses would leave no trace in these data"));
+}
+
+}  // namespace
+}  // namespace tunica::trial
