@@ -113,6 +113,8 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   if (found.discovered()) words += discovery::term_summary(*found.search);
   answer("{}\nReport:   {}\nResults:  {}\n", words.shown_on(answer_descriptor()), page.string(),
          (directory.path() / "result.json").string());
+  if (found.diagnosis.explanation.mended)
+    answer("Try:      tunica diagnose {}\n", (directory.path() / "mended.json").string());
   if (found.diagnosis.explanation.claim.best || found.discovered())
     answer("Try:      tunica run {}\n", (directory.path() / "extended.json").string());
   return done;

@@ -41,6 +41,8 @@ void write_diagnosis(const std::filesystem::path& directory, const DiagnosisAndS
   if (found.discovered()) extended = discovery::extended_experiment(*found.search, catalogue);
   if (extended.empty()) extended = diagnosis::extended_experiment(found.diagnosis, catalogue);
   if (!extended.empty()) execution::write_atomically(directory / "extended.json", extended);
+  for (const auto& [name, text] : diagnosis::mended_files(found.diagnosis, directory, catalogue))
+    execution::write_atomically(directory / name, text);
   diagnosis::write_tables(directory, found.diagnosis);
   if (found.discovered())
     execution::write_atomically(directory / "residuals.csv", discovery::residual_table(*found.search));

@@ -19,10 +19,10 @@
 namespace tunica::diagnosis {
 namespace {
 
-constexpr std::size_t first_evaluations = 30, full_evaluations = 60;
-constexpr std::size_t searched_again = 8;  ///< corrections, the likeliest
-constexpr std::size_t random_starts = 4;
-constexpr double least_gain = 2;  ///< of |r|²: less is no explanation
+constexpr std::size_t first_steps = 30, full_steps = 60;
+constexpr std::size_t corrections_searched_again = 8;  ///< corrections, the likeliest
+constexpr std::size_t starts_again = 4;
+constexpr double gain_of_note = 2;  ///< of |r|²: less is no explanation
 constexpr double same_rung = 1;   ///< of |r|²: a rung that is worse by more ends the ladder
 
 class Fitting {
@@ -46,7 +46,7 @@ class Fitting {
     std::vector<double> initial(parameters.size());
     corrected.assembly->box().from_unit(corrected.assembly->box().initial(), initial);
     for (const std::vector<double>& start : {evidence_.fit.free, initial})
-      try_from(corrected, start, first_evaluations, true);
+      try_from(corrected, start, first_steps, true);
     if (!corrected.fit.status.ok() || corrected.fit.residuals.size() != evidence_.fit.residuals.size())
       return std::nullopt;
     corrected.log_weight = correction.log_prior - corrected.fit.chi2 / 2;
@@ -57,20 +57,20 @@ class Fitting {
     const assembly::Assembly& assembly = *corrected.assembly;
     boost::random::mt19937_64 generator(derive_seed(inquiry_.request.seed, corrected.correction->sentence));
     boost::random::uniform_real_distribution<double> uniform(0.02, 0.98);
-    try_from(corrected, corrected.fit.free, full_evaluations, false);
-    for (std::size_t k = 0; k < random_starts; ++k) {
+    try_from(corrected, corrected.fit.free, full_steps, false);
+    for (std::size_t k = 0; k < starts_again; ++k) {
       std::vector<double> unit(assembly.layout().parameters.size()), free(unit.size());
       for (double& x : unit) x = uniform(generator);
       assembly.box().from_unit(unit, free);
-      try_from(corrected, free, first_evaluations, false);
+      try_from(corrected, free, first_steps, false);
     }
-    try_from(corrected, corrected.fit.free, full_evaluations, false);
+    try_from(corrected, corrected.fit.free, full_steps, false);
     corrected.log_weight = corrected.correction->log_prior - corrected.fit.chi2 / 2;
   }
 
   /// One that is better than the base fit by more than nothing.
   [[nodiscard]] bool helps(const CorrectedFit& corrected) const {
-    return corrected.fit.chi2 < evidence_.fit.chi2 - least_gain;
+    return corrected.fit.chi2 < evidence_.fit.chi2 - gain_of_note;
   }
 
  private:
@@ -132,7 +132,7 @@ std::vector<CorrectedFit> corrected_fits(const Inquiry& inquiry, const Analysis&
   for (auto& climb : fits) std::move(climb.begin(), climb.end(), std::back_inserter(all));
   const auto by_weight = [](const CorrectedFit& a, const CorrectedFit& b) { return a.log_weight > b.log_weight; };
   std::stable_sort(all.begin(), all.end(), by_weight);
-  tbb::parallel_for(std::size_t{0}, std::min(all.size(), searched_again),
+  tbb::parallel_for(std::size_t{0}, std::min(all.size(), corrections_searched_again),
                     [&](std::size_t k) { fitting.search_again(all[k]); });
   std::stable_sort(all.begin(), all.end(), by_weight);
   return all;

@@ -117,7 +117,7 @@ void add_signs(const Record& record, const std::vector<std::string>& tests, Corr
         FileKind::sign, stressed,
         [&](const std::vector<std::string>& in) -> Wording {
           return {fmt::format("the {} of {} count compression positive", what, quoted(in)),
-                  fmt::format("\"compression_positive\" in the data of {}", quoted(in))};
+                  fmt::format("\"compression\": \"positive\" in the data of {}", quoted(in))};
         },
         [stretches, stresses](Record& read, const std::string& test) {
           if (stretches)

@@ -8,6 +8,7 @@
 
 #include "assembly/memory.hpp"
 #include "diagnosis/file/correction.hpp"
+#include "plugins/guarded.hpp"
 
 namespace tunica::diagnosis {
 namespace {
@@ -33,7 +34,8 @@ void add_angles(const Record& record, const experiment::RunEntry& run, const plu
     if (std::find(used.begin(), used.end(), model.name) == used.end()) continue;
     const auto type = catalogue.models().find(model.type);
     if (type == catalogue.models().end()) continue;
-    for (const Parameter& parameter : type->second.factory.parameters) {
+    const auto made = plugins::create(type->second, model.options);
+    for (const Parameter& parameter : made->describe().parameters) {
       const auto held = model.parameters.find(parameter.name);
       if (parameter.unit != "deg" || held == model.parameters.end() || !held->second.fixed) continue;
       const double angle = *held->second.fixed;
@@ -64,9 +66,9 @@ void add_clocks(const Inquiry& inquiry, const Record& record, const experiment::
       timed.push_back(test);
   // One factor on all clocks is taken up by the relaxation times.
   if (timed.size() < 2) return;
-  constexpr std::array factors{10.0, 60.0, 1000.0};
+  constexpr std::array clock_factors{10.0, 60.0, 1000.0};
   for (const std::string& test : timed)
-    for (const double up : factors)
+    for (const double up : clock_factors)
       for (const double factor : {up, 1 / up})
         all.push_back({FileKind::clock,
                        {test},

@@ -119,6 +119,11 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
                                                  "|r|² {:.1f} → {:.1f}",
                                                  first.sentence, evidence.fit.chi2, first.squares)});
   }
+  if (file.standing != FileStanding::far) {
+    Record mended = record;
+    if (fits.front().correction->apply(mended))
+      explanation.mended = std::make_shared<const experiment::Experiment>(std::move(mended.experiment()));
+  }
   return explanation;
 }
 

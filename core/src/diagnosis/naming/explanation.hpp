@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Explanation {
   std::vector<Misfit> misfit;
   Admissibility admissibility;
   FileFindings file;  ///< what the file may say that is not so
+  /// Where a mistake is near or ahead: the experiment with the likeliest one mended, its data in memory.
+  std::shared_ptr<const experiment::Experiment> mended = {};
 };
 
 /// What the probability of one of its causes is worth.

@@ -34,6 +34,14 @@ text::StyledText summary(const Diagnosis& diagnosis);
 /// text of extended.json. Empty without an extension.
 std::string extended_experiment(const Diagnosis& diagnosis, const plugins::Catalogue& catalogue);
 
+struct NamedText {
+  std::string name, text;
+};
+/// Where the file may say what is not so: mended.json, the experiment with the likeliest mistake mended, and the tables
+/// of the tests that it was in, in base units. Their place is `directory`. Else empty.
+std::vector<NamedText> mended_files(const Diagnosis& diagnosis, const std::filesystem::path& directory,
+                                    const plugins::Catalogue& catalogue);
+
 /// The text of residuals.csv, from a fit of an extension or without one (both null); signatures by the name of their
 /// column.
 std::string residual_table(const Evidence& evidence, const assembly::Assembly* extension, const Fit* fit,
