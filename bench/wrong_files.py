@@ -27,7 +27,7 @@ import numpy as np  # noqa: E402
 from hidden_terms.bases import curves, draw  # noqa: E402
 from hidden_terms.case_files import columns, model_entry, test_entry  # noqa: E402
 from hidden_terms.generate import Spec, make  # noqa: E402
-from hidden_terms.protocol import Curve, observe, channel_slices  # noqa: E402
+from hidden_terms.protocol import Curve, channel_slices, observe  # noqa: E402
 
 DEVELOPMENT_SEED = 301
 NOISE = 0.01  # of the range of every channel
@@ -35,9 +35,10 @@ PROGRAM = os.environ.get("TUNICA", "tunica")
 
 
 class Case:
-    """An experiment file and its tables, to be spoilt."""
+    """An experiment file and its tables without noise, to be spoilt. Noise belongs to the numbers of the file."""
 
-    def __init__(self, base: str, protocol: typing.Sequence[Curve], readings: np.ndarray, sd: typing.Sequence[float]):
+    def __init__(self, base: str, protocol: typing.Sequence[Curve], readings: np.ndarray, random: np.random.Generator):
+        self.random = random
         self.base, self.model = base, model_entry(base)
         self.tests: typing.Dict[str, typing.Dict[str, typing.Any]] = {}
         self.tables: typing.Dict[str, typing.Dict[str, np.ndarray]] = {}
@@ -48,7 +49,7 @@ class Case:
             prescribed = [1 + curve.load * m for m in curve.most] if curve.kind == "sheet" else [curve.load]
             names = [name for name, _ in columns(curve)]
             self.tables[curve.name] = dict(zip(names, [*prescribed, *(readings[slices[k]] for k in own)]))
-            self.tests[curve.name] = test_entry(curve, [(sd[k], 0.0) for k in own])
+            self.tests[curve.name] = test_entry(curve, [(1.0, 0.0) for _ in own])
 
     def stretches(self, test: str) -> typing.List[str]:
         return [name for name in self.tables[test] if name.startswith("stretch")]
@@ -56,16 +57,12 @@ class Case:
     def stresses(self, test: str) -> typing.List[str]:
         return [name for name in self.tables[test] if name.startswith("stress")]
 
-    def shown(self, test: str, name: str, values: np.ndarray, factor: float = 1) -> None:
-        """Writes other values; the noise that the file states is that of the numbers in it."""
-        self.tables[test][name] = values
-        noise = self.tests[test]["data"]["noise"]
-        if name in noise:
-            noise[name]["absolute"] = float(noise[name]["absolute"] * abs(factor))
-
     def write(self, folder: pathlib.Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         for name, table in self.tables.items():
+            for channel, noise in self.tests[name]["data"]["noise"].items():
+                noise["absolute"] = NOISE * float(np.ptp(table[channel]))
+                table[channel] = table[channel] + noise["absolute"] * self.random.standard_normal(len(table[channel]))
             units = {column: "kPa" if "stress" in column else "-" for column in table}
             lines = [",".join(f"{column} [{units[column]}]" for column in table)]
             lines += [",".join(f"{value:.7g}" for value in row) for row in np.column_stack(list(table.values()))]
@@ -88,9 +85,7 @@ def in_measure(power: int) -> Spoil:
                 stretch = stress.replace("stress", "stretch")
                 if stretch not in case.tables[test]:
                     continue
-                factors = case.tables[test][stretch]**power
-                # One absolute noise is stated for the numbers of the file.
-                case.shown(test, stress, case.tables[test][stress] * factors, float(np.mean(factors)))
+                case.tables[test][stress] = case.tables[test][stress] * case.tables[test][stretch]**power
     return spoil
 
 
@@ -113,13 +108,11 @@ def exchanged(what: str) -> Spoil:
                 other = {"circumferential": "axial", "axial": "circumferential"}
                 case.tests[test]["direction"] = other[case.tests[test]["direction"]]
                 continue
-            table, noise = case.tables[test], case.tests[test]["data"]["noise"]
+            table = case.tables[test]
             for word in ("stretch", "stress"):
                 if what in (word, "both"):
                     one, two = f"{word}_circumferential", f"{word}_axial"
                     table[one], table[two] = table[two], table[one]
-                    if word == "stress":
-                        noise[one], noise[two] = noise[two], noise[one]
     return spoil
 
 
@@ -129,7 +122,7 @@ def times(factor: float, only: str = "stress") -> Spoil:
         for test in tests:
             for name in case.tables[test]:
                 if "stress" in name and only in name:
-                    case.shown(test, name, case.tables[test][name] / factor, 1 / factor)
+                    case.tables[test][name] = case.tables[test][name] / factor
     return spoil
 
 
@@ -139,7 +132,7 @@ def opposite(stretches: bool, stresses: bool) -> Spoil:
             for name in case.stretches(test) if stretches else []:
                 case.tables[test][name] = 2 - case.tables[test][name]
             for name in case.stresses(test) if stresses else []:
-                case.shown(test, name, -case.tables[test][name])
+                case.tables[test][name] = -case.tables[test][name]
     return spoil
 
 
@@ -156,7 +149,6 @@ class Mistake(typing.NamedTuple):
     kind: str
     tests: typing.List[str]  # empty: all
     spoil: Spoil
-    told: bool = True  # whether the data can tell
 
 
 def mistakes() -> typing.List[Mistake]:
@@ -165,8 +157,8 @@ def mistakes() -> typing.List[Mistake]:
     sheets = [f"sheet_{k}" for k in range(1, 6)]
     pulled = ["uniaxial", "equibiaxial", "pure_shear"]
 
-    def add(name: str, kind: str, spoil: Spoil, base: str, tests: typing.List[str], told: bool = True) -> None:
-        found.append(Mistake(f"{name}-{base}-{'all' if len(tests) != 1 else tests[0]}", base, kind, tests, spoil, told))
+    def add(name: str, kind: str, spoil: Spoil, base: str, tests: typing.List[str]) -> None:
+        found.append(Mistake(f"{name}-{base}-{'all' if len(tests) != 1 else tests[0]}", base, kind, tests, spoil))
 
     everywhere = {"gho": strip[:0] + ["circumferential_strip", "axial_strip", *sheets], "hgo": ["circumferential_strip", "axial_strip", *sheets],
                   "mooney_rivlin": pulled}
@@ -185,7 +177,7 @@ def mistakes() -> typing.List[Mistake]:
             add(f"unit-{factor:.4g}", "unit", times(factor), base, one[base])
         for factor in (9.80665, 4, 2):
             add(f"unit-by-{factor:.4g}", "unit", times(1 / factor), base, one[base])
-        add("unit-1000", "unit", times(1000), base, everywhere[base], told=False)
+        add("unit-1000", "unit", times(1000), base, everywhere[base])
     for base in ("gho", "hgo"):
         add("unit-direction-4", "unit", times(4, "stress_axial"), base, ["sheet_4"])
         add("exchange-stretch", "exchange", exchanged("stretch"), base, ["sheet_4"])
@@ -209,11 +201,7 @@ def honest(base: str, seed: int, held: bool) -> Case:
             break
         except ArithmeticError:
             continue
-    sd = [NOISE * float(np.ptp(clean[rows])) for rows in channel_slices(protocol)]
-    noisy = clean.copy()
-    for rows, one in zip(channel_slices(protocol), sd):
-        noisy[rows] += one * random.standard_normal(rows.stop - rows.start)
-    case = Case(base, protocol, noisy, sd)
+    case = Case(base, protocol, clean, random)
     if held:
         case.model["parameters"]["theta"] = {"true": next(p.values["theta"] for p in form.material if "theta" in p.values)}
     return case
@@ -288,7 +276,7 @@ def main() -> int:
             group = folder.relative_to(told.out).parts[0]
             word = f"file {file.get('standing')}" if d.get("verdict") != "nothing_detected" else "silent"
         else:
-            group = f"mistakes{'' if mistake.told else ' that cannot be told'}"
+            group = "mistakes"
             word = judged(d, mistake.kind, mistake.tests or everything, everything)
         counts.setdefault(group, []).append(word)
         first = file["causes"][0] if file.get("causes") else {}

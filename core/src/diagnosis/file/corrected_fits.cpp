@@ -23,7 +23,7 @@ constexpr std::size_t first_steps = 30, full_steps = 60;
 constexpr std::size_t corrections_searched_again = 8;  ///< corrections, the likeliest
 constexpr std::size_t starts_again = 4;
 constexpr double gain_of_note = 2;  ///< of |r|²: less is no explanation
-constexpr double same_rung = 1;   ///< of |r|²: a rung that is worse by more ends the ladder
+constexpr double same_rung = 1;     ///< of |r|²: a rung that is worse by more ends the ladder
 
 class Fitting {
  public:

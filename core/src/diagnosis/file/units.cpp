@@ -72,8 +72,7 @@ std::string mending(const Record& record, const std::vector<std::string>& tests,
 std::string scaled_words(const std::vector<std::string>& tests, const Numbers& numbers, double factor) {
   return factor >= 1
              ? fmt::format("the {} of {} are {:.6g} times what the file says", numbers.name, quoted(tests), factor)
-             : fmt::format("the {} of {} are a {:.6g}th of what the file says", numbers.name, quoted(tests),
-                           1 / factor);
+             : fmt::format("the {} of {} are 1/{:.6g} of what the file says", numbers.name, quoted(tests), 1 / factor);
 }
 
 void add_ladder(const Record& record, const std::vector<std::string>& tests, bool common, const Numbers& numbers,
@@ -114,6 +113,19 @@ std::vector<Numbers> numbers_in(const Record& record, const std::string& test) {
   return found;
 }
 
+/// The stresses of all tests, whatever their type; none where a test has other numbers that set the scale.
+void add_all_stresses(const Record& record, const std::vector<std::string>& tests, Corrections& all) {
+  Numbers stresses{"stresses", {}};
+  for (const std::string& test : tests) {
+    const std::vector<Numbers> found = numbers_in(record, test);
+    if (found.size() != 1 || found.front().name != "stresses") return;
+    for (const std::string& channel : found.front().channels)
+      if (std::find(stresses.channels.begin(), stresses.channels.end(), channel) == stresses.channels.end())
+        stresses.channels.push_back(channel);
+  }
+  add_ladder(record, tests, true, stresses, all);
+}
+
 }  // namespace
 
 void add_units(const Record& record, const std::vector<std::string>& tests, bool scale_is_seen, Corrections& all) {
@@ -121,6 +133,7 @@ void add_units(const Record& record, const std::vector<std::string>& tests, bool
   for (const std::string& test : tests)
     if (std::find(types.begin(), types.end(), record.test(test).type) == types.end())
       types.push_back(record.test(test).type);
+  if (scale_is_seen) add_all_stresses(record, tests, all);
   for (const std::string& type : types) {
     std::vector<std::string> alike;
     for (const std::string& test : tests)
@@ -128,7 +141,7 @@ void add_units(const Record& record, const std::vector<std::string>& tests, bool
     for (const Numbers& numbers : numbers_in(record, alike.front())) {
       // All stresses there are: their scale is that of the moduli.
       const bool whole = types.size() == 1 && numbers.name == "stresses";
-      if ((!whole || scale_is_seen) && (alike.size() > 1 || whole)) add_ladder(record, alike, true, numbers, all);
+      if (!whole && alike.size() > 1) add_ladder(record, alike, true, numbers, all);
     }
     for (const std::string& test : alike)
       for (const Numbers& numbers : numbers_in(record, test)) {

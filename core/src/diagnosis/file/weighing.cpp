@@ -16,9 +16,14 @@ namespace {
 
 /// Margins in units of BIC, calibrated on files that are not so and on honest files with a real effect.
 constexpr double ahead_by = 6, near_within = 6;
+/// A mistake that takes nearly all of the misfit, and far more than any cause, is worth a question where it leaves a
+/// little more than noise: noise is seldom stated to the per cent.
+constexpr double nearly_clean = 1e-4, nearly_all = 0.95, far_ahead = 20;
+/// What a cause loses whose amplitude is implausible, or at its bound. A factor of two is one for a gain.
+constexpr double unbelievable = 20;
 constexpr std::size_t most_causes = 6;  ///< that are tested and listed
 
-/// S of what is claimed; infinite where nothing is.
+/// S of what is claimed, more where nobody would believe it; infinite where nothing is claimed.
 double score_of_claim(const Inquiry& inquiry, const Analysis& analysis, const Explanation& explanation) {
   const Claim& claim = explanation.claim;
   if (!claim.best) return INFINITY;
@@ -26,7 +31,11 @@ double score_of_claim(const Inquiry& inquiry, const Analysis& analysis, const Ex
   const auto effects = static_cast<double>(claim.best->additions.size());
   const double share =
       (1 - inquiry.request.wrong_files) / static_cast<double>(std::max<std::size_t>(explanation.ranking.size(), 1));
-  return claim.best->fit.chi2 + effects * (std::log(rows) - 2 * std::log(share));
+  const bool believable =
+      std::all_of(claim.causes.begin(),
+                  claim.causes.begin() + static_cast<std::ptrdiff_t>(std::min(claim.named, claim.causes.size())),
+                  [](const Cause& cause) { return cause.amplitude.plausible && !cause.amplitude.at_bound; });
+  return claim.best->fit.chi2 + effects * (std::log(rows) - 2 * std::log(share)) + (believable ? 0 : unbelievable);
 }
 
 double score_of(const Inquiry& inquiry, const CorrectedFit& corrected) {
@@ -94,10 +103,13 @@ Explanation weighed_with_file(const Inquiry& inquiry, const Analysis& analysis, 
   const double claimed = score_of_claim(inquiry, analysis, explanation);
   const double lead = claimed - score_of(inquiry, fits.front());
   if (std::isfinite(lead)) file.lead = lead;
-  if (!clean) return explanation;
+  const double misfit = evidence.fit.chi2 - static_cast<double>(evidence.fit.residuals.size());
+  const double share = (evidence.fit.chi2 - file.causes.front().squares) / std::max(misfit, 1.0);
+  const bool nearly = file.causes.front().p_after > nearly_clean && share > nearly_all && lead > far_ahead;
+  if (!clean && !nearly) return explanation;
 
   const FileCause& first = file.causes.front();
-  if (lead > ahead_by) {
+  if (clean && lead > ahead_by) {
     file.standing = FileStanding::ahead;
     explanation.verdict = Verdict::suspect_data;
     explanation.reasons = {{ReasonKind::file_suspected,
