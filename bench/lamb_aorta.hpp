@@ -26,7 +26,7 @@ inline const experiment::RunEntry& run_of(std::string_view model, std::string_vi
   throw std::runtime_error("examples/lamb_aorta has no such run");
 }
 
-inline std::unique_ptr<Optimizer> make_optimizer(std::string_view name) {
+inline auto make_optimizer(std::string_view name) {
   const experiment::OptimizerEntry& entry = lamb_aorta().optimizer(name);
   return plugins::create(catalogue().optimizers().at(entry.type), entry.options);
 }

@@ -50,7 +50,7 @@ void answer_all(const plugins::Casualty* casualty) {
     text.add_word(casualty->end.data());
     text.add(" in ");
     text.add_word(casualty->what.data());
-    text.add("()");
+    if (casualty->what.data() != std::string_view(plugins::own_thread)) text.add("()");
   } else {
     text.add("memory came to its limit while plugins were evaluated");
   }

@@ -49,7 +49,10 @@ plugins::CallWatch::Limits limits_of(const GlobalOptions& options) {
   plugins::CallWatch::Limits limits;
   limits.longest_model_call = std::chrono::duration<double>(options.call_limit);
   constexpr double gibibyte = 1024.0 * 1024 * 1024;
-  if (options.memory_limit > 0) limits.memory = options.memory_limit * gibibyte;
+  if (options.memory_limit > 0) {
+    limits.memory = options.memory_limit * gibibyte;
+    limits.memory_of_model = 0.25 * limits.memory;
+  }
   return limits;
 }
 

@@ -50,6 +50,16 @@ TEST(Guarded, ANullObjectIsABrokenPromise) {
             "plugin 'gho 0.1.0' made no object: its factory returned a null pointer");
 }
 
+// A file could not say which one it means.
+TEST(Guarded, TwoParametersOfOneNameAreRefused) {
+  const Parameter mu{"mu", "kPa", 10, 0.1, 1000, Scale::log, "", "none"};
+  EXPECT_EQ(message_of<InputError>([&] { refuse_equal_names({mu}, "x 1", "model"); }), "no exception");
+  EXPECT_EQ(message_of<InputError>([&] {
+              refuse_equal_names({mu, mu}, "x 1", "model");
+            }).substr(0, 57),
+            "plugin 'x 1' made a model with two parameters named 'mu',");
+}
+
 TEST(Guarded, TurnsExceptionsOfARealPluginIntoHostTypes) {
   const testing::TemporaryFolder folder;
   Catalogue catalogue;

@@ -127,10 +127,10 @@ Jobs optimizer_jobs(const std::string& type, const CheckContext& context) {
     return made_with_every_option(entry.factory.options, [&](const Options& o) { plugins::create(entry, o); });
   });
   add_properties(jobs, head, optimizer_properties(), context.settings.seed, [&entry](const auto& check) {
-    return check(Candidate{[&entry] { return plugins::create(entry, plausible_options(entry.factory.options)); }});
+    return check(Candidate{[&entry] { return plugins::create_bare(entry, plausible_options(entry.factory.options)); }});
   });
   const auto make = [&entry](const Choices& choices) {
-    return plugins::create(entry, with_choices(entry.factory.options, choices));
+    return plugins::create_bare(entry, with_choices(entry.factory.options, choices));
   };
   std::vector<OptimizerProperty> properties = optimizer_properties();
   std::erase_if(properties, [](const OptimizerProperty& one) { return !is_of_conduct(one); });

@@ -22,6 +22,11 @@ void copy(std::array<char, N>& to, const char* from) {
 
 }  // namespace
 
+std::string place_of(const Casualty& casualty) {
+  const std::string what = casualty.what.data();
+  return what == own_thread ? what : what + "()";
+}
+
 CallKey::CallKey(std::string_view plugin, std::string_view what) {
   for (const char c : plugin) add(static_cast<unsigned char>(c));
   for (const char c : what) add(static_cast<unsigned char>(c));
@@ -29,6 +34,7 @@ CallKey::CallKey(std::string_view plugin, std::string_view what) {
 
 void CasualtyList::add(std::uint64_t key, const char* plugin, const char* what, const char* end, double seconds,
                        unsigned weight) {
+  if (open_to_write != nullptr) open_to_write();
   const unsigned place = count.fetch_add(1);
   if (place >= entries.size()) {
     if (at_end_of_process != nullptr) at_end_of_process(nullptr);
@@ -45,6 +51,7 @@ void CasualtyList::add(std::uint64_t key, const char* plugin, const char* what, 
 }
 
 void CasualtyList::add_leak() {
+  if (open_to_write != nullptr) open_to_write();
   leaks.fetch_add(1);
   if (at_end_of_process != nullptr) at_end_of_process(nullptr);
 }
@@ -70,8 +77,7 @@ std::string refusal(const std::string& plugin, std::uint64_t key) {
   const Casualty* known = casualties == nullptr ? nullptr : casualties->find(key);
   if (known == nullptr) return {};
   time_lost += known->seconds;
-  return fmt::format("plugin '{}' {} in {}(); this call is not made again", plugin, known->end.data(),
-                     known->what.data());
+  return fmt::format("plugin '{}' {} in {}; this call is not made again", plugin, known->end.data(), place_of(*known));
 }
 
 std::string refusal_of_evaluation(const std::string& plugin, std::uint64_t key) {

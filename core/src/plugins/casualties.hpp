@@ -40,15 +40,20 @@ struct Casualty {
   double seconds = 0;                ///< that it took before it was given up
   std::array<char, 96> plugin = {};  ///< as Catalogue::Entry names it: "gho 0.1.0"
   std::array<char, 32> what = {};    ///< "evaluate", "predict", …
-  std::array<char, 96> end = {};     ///< "ended the program: segmentation fault (SIGSEGV)"
+  std::array<char, 256> end = {};    ///< "ended the program: segmentation fault (SIGSEGV)"
 };
+
+/// `what` of a casualty that came of no call.
+constexpr char own_thread[] = "a thread of its own";
+/// "evaluate()", or `own_thread`.
+std::string place_of(const Casualty& casualty);
 
 /// The list, in memory that a process shares with its successors. Signal handlers write to it, so nothing in it
 /// allocates or locks.
 struct CasualtyList {
   /// A plugin that ended this many processes is not evaluated again; calls that hang or take the memory cost time, and
-  /// count more.
-  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 2;
+  /// count more. So do threads of its own, for no call can be left out.
+  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 4, weight_of_thread = 5;
 
   /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
   static constexpr unsigned most_leaks = 20;
@@ -68,6 +73,10 @@ struct CasualtyList {
 /// Called when an entry was made, or null for a leak: the process ends at once. In signal handlers: nothing that
 /// allocates or locks.
 inline void (*at_end_of_process)(const Casualty* entry) = nullptr;
+
+/// Called before the list is written to: its owner may hold it closed, so that no plugin writes into it. Once open it
+/// stays open, for the process ends. In signal handlers, too.
+inline void (*open_to_write)() = nullptr;
 
 /// The list of this process, or null where nobody takes up its work.
 inline CasualtyList* casualties = nullptr;

@@ -13,6 +13,7 @@
 #include "plugins/casualties.hpp"
 #include "plugins/catalogue.hpp"
 #include "plugins/declared_bounds.hpp"
+#include "plugins/destroyed.hpp"
 #include "plugins/guarded_model.hpp"
 #include "plugins/guarded_test.hpp"
 #include "plugins/usual_arithmetic.hpp"
@@ -106,6 +107,10 @@ inline std::unique_ptr<Test> create_bare(const Catalogue::Entry<TestFactory>& en
   return guarded_object(entry.plugin, [&] { return entry.factory.create(setup); });
 }
 
+inline std::unique_ptr<Optimizer> create_bare(const Catalogue::Entry<OptimizerFactory>& entry, const Options& options) {
+  return guarded_object(entry.plugin, [&] { return entry.factory.create(options); });
+}
+
 /// Names must differ here; those of a mechanism around a model have its own name before them.
 inline std::unique_ptr<Model> create(const Catalogue::Entry<ModelFactory>& entry, const Options& options) {
   auto model = std::make_unique<GuardedModel>(create_bare(entry, options), entry.plugin);
@@ -118,8 +123,18 @@ inline std::unique_ptr<Test> create(const Catalogue::Entry<TestFactory>& entry, 
   return test;
 }
 
-inline std::unique_ptr<Optimizer> create(const Catalogue::Entry<OptimizerFactory>& entry, const Options& options) {
-  return guarded_object(entry.plugin, [&] { return entry.factory.create(options); });
+/// Takes a search away as a call that is watched.
+struct WatchedEnd {
+  std::string plugin;
+  void operator()(Optimizer* search) const {
+    std::unique_ptr<Optimizer> owned(search);
+    destroy(plugin, owned);
+  }
+};
+
+inline std::unique_ptr<Optimizer, WatchedEnd> create(const Catalogue::Entry<OptimizerFactory>& entry,
+                                                     const Options& options) {
+  return {create_bare(entry, options).release(), WatchedEnd{entry.plugin}};
 }
 
 /// What the optimizer asks of its problems.

@@ -21,6 +21,7 @@
 
 #include "plugins/calls.hpp"
 #include "plugins/casualties.hpp"
+#include "plugins/images.hpp"
 #include "plugins/signal_stack.hpp"
 
 namespace tunica::plugins {
@@ -39,27 +40,31 @@ constexpr std::array<Fatal, 5> fatal{{{SIGSEGV, "ended the program with a segmen
 
 pid_t process_of_work = 0;
 
-/// Whether this thread is in a plugin, which then is the culprit.
+/// Whether this thread is in a plugin, which then is the culprit: in a call, or in a thread that the plugin has made.
 bool enter_culprit(const char* end) {
+  if (casualties == nullptr || ::getpid() != process_of_work) return false;
   const CallsOfThread* thread = known_calls_of_this_thread;
-  const Call* call = thread == nullptr ? nullptr : innermost_plugin_call(*thread);
-  if (call == nullptr || casualties == nullptr) return false;
-  casualties->add(call->key(*call), call->plugin, call->what, end, 0);
-  return true;
+  if (const Call* call = thread == nullptr ? nullptr : innermost_plugin_call(*thread); call != nullptr) {
+    casualties->add(call->key(*call), call->plugin, call->what, end, 0);
+    return true;
+  }
+  const char* const plugin = plugin_on_the_stack();
+  if (plugin != nullptr) casualties->add(0, plugin, own_thread, end, 0, CasualtyList::weight_of_thread);
+  return plugin != nullptr;
 }
 
 /// Where the watch goes on when what it reads is no longer mapped; null while it reads nothing of other threads.
 std::atomic<sigjmp_buf*> way_back = nullptr;
 std::atomic<pid_t> reader = 0;
 
-/// Back in the default action, the fault repeats itself and ends the process as it would have ended without us. A
-/// signal that was sent does not.
-void on_fatal(int number, siginfo_t* info, void*) {
+/// Ends the process as it would have ended without us. To go back would repeat the instruction, which may succeed now:
+/// the list is open to be written to.
+void on_fatal(int number, siginfo_t*, void*) {
   if (sigjmp_buf* const to = way_back.load(); to != nullptr && ::gettid() == reader.load()) siglongjmp(*to, 1);
   for (const Fatal& signal : fatal)
     if (signal.number == number) enter_culprit(signal.end);
   std::signal(number, SIG_DFL);
-  if (number == SIGABRT || info->si_code <= 0) std::raise(number);
+  std::raise(number);
 }
 
 void on_exit_in_plugin() {
@@ -217,24 +222,29 @@ class Inspection {
     ::_exit(fell);
   }
 
-  /// A batch of a model takes kilobytes. One that has taken a quarter of the limit takes the rest as well, and is ended
-  /// before the machine suffers: where it is the only call of a model that lasts.
+  /// A batch of a model takes kilobytes. One that has come to `memory_of_model` takes the rest as well, and is ended
+  /// before the machine suffers: where no call into a model of another plugin lasts.
   void end_model_without_end(double memory, Clock::time_point now) {
-    std::optional<Sight> only;
+    std::vector<Sight> suspects;
     for (const Watched& one : watched_) {
-      if (one.since == now || memory - one.memory < 0.25 * limits_.memory || !is_in_plugin(*one.thread)) continue;
+      if (one.since == now || memory - one.memory < limits_.memory_of_model || !is_in_plugin(*one.thread)) continue;
       const auto call = sight_of(*one.thread, one.entered);
-      if (!call || call->kind != of_model) continue;
-      if (only) return;
-      only = call;
+      if (call && call->kind == of_model) suspects.push_back(*call);
     }
-    if (!only) return;
-    const std::string end = fmt::format(
-        "took the memory of the program to {:.3g} GiB in one call, and a model may take a quarter of the {:.3g} GiB "
-        "that "
-        "are allowed,",
-        memory / gibibyte, limits_.memory / gibibyte);
-    casualties->add(only->key, only->plugin.data(), only->what, end.c_str(), 0, CasualtyList::weight_of_memory);
+    if (suspects.empty() || !is_of_one_plugin(suspects)) return;
+    end_with(suspects, fmt::format("took the memory of the program to {:.3g} GiB in a call of a model, which may take "
+                                   "{:.3g} GiB, a quarter of --memory-limit,",
+                                   memory / gibibyte, limits_.memory_of_model / gibibyte));
+  }
+
+  static bool is_of_one_plugin(const std::vector<Sight>& calls) {
+    return std::all_of(calls.begin(), calls.end(),
+                       [&](const Sight& one) { return one.plugin == calls.front().plugin; });
+  }
+
+  [[noreturn]] static void end_with(const std::vector<Sight>& culprits, const std::string& end) {
+    for (const Sight& one : culprits)
+      casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0, CasualtyList::weight_of_memory);
     ::_exit(fell);
   }
 
@@ -254,14 +264,10 @@ class Inspection {
       suspects.push_back(*call);
     }
     if (!inside) return;
-    const bool of_one = !suspects.empty() && std::all_of(suspects.begin(), suspects.end(), [&](const Sight& one) {
-      return one.plugin == suspects.front().plugin;
-    });
-    const std::string end = fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
-                                        memory / gibibyte, limits_.memory / gibibyte);
-    for (const Sight& one : suspects)
-      if (of_one) casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0, CasualtyList::weight_of_memory);
-    if (!of_one) casualties->add_leak();
+    if (!suspects.empty() && is_of_one_plugin(suspects))
+      end_with(suspects, fmt::format("took the memory of the program to {:.3g} GiB, and {:.3g} GiB are allowed,",
+                                     memory / gibibyte, limits_.memory / gibibyte));
+    casualties->add_leak();
     ::_exit(fell);
   }
 
@@ -299,7 +305,7 @@ double memory_limit() {
                    limit_of(RLIMIT_DATA)});
 }
 
-bool enter_exit_in_plugin(const char* end) { return ::getpid() == process_of_work && enter_culprit(end); }
+bool enter_exit_in_plugin(const char* end) { return enter_culprit(end); }
 
 /// A fork within a call of a plugin is the plugin's own.
 void note_copy() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -37,7 +38,8 @@ class CallWatch {
  public:
   struct Limits {
     std::chrono::duration<double> longest_model_call{60}, grace{1}, first_prediction{600};
-    double memory = 0.9 * memory_limit();  ///< bytes
+    double memory = 0.9 * memory_limit();                                    ///< bytes
+    double memory_of_model = std::min(0.25 * memory, 1024.0 * 1024 * 1024);  ///< bytes that a call of a model may take
   };
   explicit CallWatch(Limits limits);
   ~CallWatch();

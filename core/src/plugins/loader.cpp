@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "plugins/guarded.hpp"
+#include "plugins/images.hpp"
 #include "plugins/refusals.hpp"
 #include "plugins/usual_arithmetic.hpp"
 #include "tunica/detail/vector_level.hpp"
@@ -182,6 +183,7 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
     if (const std::string reason = refusal(name, plain_key(call)); !reason.empty()) throw LoadError(reason);
   const CallScope scope(call);
   const boost::dll::shared_library& library = map_for_good(file);
+  note_image(library.native(), name);
   if (!library.has(entry_symbol)) {
     throw LoadError(
         fmt::format("a shared library, but not a plugin: it exports no symbol '{}'; define the plugin with "
@@ -193,6 +195,7 @@ LoadedPlugin load_file(const fs::path& file, Catalogue& catalogue, bool allow_wo
   if (const std::string reason = refuse_header(header); !reason.empty()) throw LoadError(reason);
 
   const std::string plugin = fmt::format("{} {}", header->name, header->version);
+  note_image(library.native(), plugin);
   Catalogue::Registration registration = shielded(fmt::format("registration of plugin '{}'", plugin), [&] {
     Catalogue::Registration fresh;
     header->register_into(fresh);
