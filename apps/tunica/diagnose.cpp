@@ -14,6 +14,7 @@
 
 #include "answer.hpp"
 #include "batch.hpp"
+#include "calibration/examination.hpp"
 #include "data/nearest.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
 #include "diagnosis/output/outputs.hpp"
@@ -31,7 +32,7 @@
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
-#include "unfinished_folder.hpp"
+#include "unfinished_results.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -88,17 +89,17 @@ int diagnose(const GlobalOptions& global, const DiagnoseOptions& options) {
   std::vector<std::filesystem::path> made;
   if (!was_there) made.push_back(directory.path());
   if (requested.empty() && !results_were_there) made.push_back(directory.path().parent_path());
-  supervised::unfinished(directory.path(), made);
+  supervised::unfinished(made, directory.path());
   DiagnosisAndSearch found;
   try {
-    UnfinishedFolder folder(made, interruption_message());
+    UnfinishedResults folder(made, interruption_message());
     Stages stages(global.quiet);
     found = diagnosed(experiment, request, session.catalogue(), !options.no_discovery,
                       [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
   } catch (const diagnosis::BaseFitFailure& problem) {
-    say_error(fmt::format("{}. Run `tunica check {}`, which evaluates the initial point and shows what fails",
-                          problem.what(), options.file));
+    say_error(fmt::format("{}. Run `{}`, which evaluates the initial point and shows what fails", problem.what(),
+                          calibration::check_command(experiment, options.file)));
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done

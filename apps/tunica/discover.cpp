@@ -13,6 +13,7 @@
 
 #include "answer.hpp"
 #include "batch.hpp"
+#include "calibration/examination.hpp"
 #include "cohort/discovery_study.hpp"
 #include "data/read_bytes.hpp"
 #include "diagnosis/evidence/base_fit.hpp"
@@ -31,7 +32,7 @@
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/detail/bounded_json.hpp"
-#include "unfinished_folder.hpp"
+#include "unfinished_results.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -84,15 +85,15 @@ int discover(const GlobalOptions& global, const DiscoverOptions& options) {
   Output output(options.directory, experiment.name);
   discovery::Discovery found;
   try {
-    supervised::unfinished(output.directory.path(), output.made);
-    UnfinishedFolder folder(output.made, discovery_interrupted());
+    supervised::unfinished(output.made, output.directory.path());
+    UnfinishedResults folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
     found = discovery::discover(experiment, request, session.catalogue(),
                                 [&stages](const std::string& what, double share) { stages.tell(what, share); });
     folder.keep();
   } catch (const diagnosis::BaseFitFailure& problem) {
-    say_error(fmt::format("{}. Run `tunica check {}`, which evaluates the initial point and shows what fails",
-                          problem.what(), options.file));
+    say_error(fmt::format("{}. Run `{}`, which evaluates the initial point and shows what fails", problem.what(),
+                          calibration::check_command(experiment, options.file)));
     return not_converged;
   }
   const execution::InterruptWatch watch;  // writing takes a moment, and is not left half done
@@ -130,8 +131,8 @@ int discover_cohort(const GlobalOptions& global, const DiscoverOptions& options)
   Output output(options.directory, specification.name);
   std::optional<cohort::DiscoveryStudy> study;
   {
-    supervised::unfinished(output.directory.path(), output.made);
-    UnfinishedFolder folder(output.made, discovery_interrupted());
+    supervised::unfinished(output.made, output.directory.path());
+    UnfinishedResults folder(output.made, discovery_interrupted());
     Stages stages(global.quiet);
     study = cohort::study_discovery(specification, table, pattern, session.catalogue(), asked,
                                     [&stages](const std::string& what, double share) { stages.tell(what, share); });

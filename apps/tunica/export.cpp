@@ -14,6 +14,7 @@
 #include "exporting/fitted_material.hpp"
 #include "finite_range.hpp"
 #include "tunica/error.hpp"
+#include "unfinished_results.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -41,12 +42,15 @@ int export_card(const ExportOptions& options) {
                                               .density = density,
                                               .subroutine = !options.subroutine.empty(),
                                               .remarks = fitted.remarks});
+  UnfinishedResults files({options.subroutine, options.file}, "interrupted; nothing is left behind\n");
   if (!options.subroutine.empty()) execution::write_atomically(options.subroutine, cards::uanisohyper_inv());
   if (options.file.empty()) {
+    files.keep();
     answer("{}", card);
     return done;
   }
   execution::write_atomically(options.file, card);
+  files.keep();
   answer("{}\n", options.file);
   if (!options.subroutine.empty()) answer("{}\n", options.subroutine);
   return done;

@@ -23,9 +23,11 @@
 #include "importing/joined.hpp"
 #include "importing/proposal.hpp"
 #include "messages.hpp"
+#include "supervisor.hpp"
 #include "text/aside.hpp"
 #include "text/wrapping.hpp"
 #include "tunica/error.hpp"
+#include "unfinished_results.hpp"
 #include "verbs.hpp"
 
 namespace tunica::app {
@@ -152,52 +154,41 @@ std::optional<std::string> toe_of(const data::Dataset& dataset) {
       abscissa, path[row], dataset.channels.front().observable);
 }
 
-/// What was written is checked as `tunica check` will; what that refuses is taken back. Whether all is in order.
+/// What was written is checked as `tunica check` will. Whether all is in order.
 bool checked(const std::filesystem::path& file, const Session& session) {
-  try {
-    const auto experiment = session.read(file);
-    const auto examined = calibration::examine(experiment, session.catalogue());
-    for (const auto& warning : examined.warnings) say_wrapped_warning(warning.text());
-    for (const auto& test : experiment.tests) {
-      if (test.data.preload || test.data.files.empty()) continue;
-      const data::Dataset dataset =
-          data::read_dataset(test.data, session.catalogue().tests().find(test.type)->second.factory.observables);
-      if (const auto toe = toe_of(dataset)) say_wrapped_warning(fmt::format("test '{}': {}", test.name, *toe));
-    }
-    for (const auto& problem : examined.problems)
-      if (problem.initial.status.kind() == Status::Kind::failed)
-        say_wrapped_warning(fmt::format("{}: the initial point cannot be evaluated: {}", problem.title,
-                                        problem.initial.status.reason()));
-    return examined.good();
-  } catch (const InputError&) {
-    std::filesystem::remove(file);
-    throw;
+  const auto experiment = session.read(file);
+  const auto examined = calibration::examine(experiment, session.catalogue());
+  for (const auto& warning : examined.warnings) say_wrapped_warning(warning.text());
+  for (const auto& test : experiment.tests) {
+    if (test.data.preload || test.data.files.empty()) continue;
+    const data::Dataset dataset =
+        data::read_dataset(test.data, session.catalogue().tests().find(test.type)->second.factory.observables);
+    if (const auto toe = toe_of(dataset)) say_wrapped_warning(fmt::format("test '{}': {}", test.name, *toe));
   }
+  for (const auto& problem : examined.problems)
+    if (problem.initial.status.kind() == Status::Kind::failed)
+      say_wrapped_warning(
+          fmt::format("{}: the initial point cannot be evaluated: {}", problem.title, problem.initial.status.reason()));
+  return examined.good();
 }
 
-/// A file that is removed unless it is kept.
-struct TakenBack {
-  std::filesystem::path file;
-  mutable bool keep = false;
-  ~TakenBack() {
-    std::error_code ignored;
-    if (!keep && !file.empty()) std::filesystem::remove(file, ignored);
-  }
-};
-
-/// The two files of a sheet become one beside the experiment; its path, or nothing.
-std::filesystem::path join_files(ImportOptions& options, const std::filesystem::path& experiment) {
+/// Where the two files of a sheet are joined; empty = they are not.
+std::filesystem::path joined_of(const ImportOptions& options, const std::filesystem::path& experiment) {
   if (!options.join) return {};
   std::filesystem::path joined = experiment;
   joined.replace_extension(".csv");
   if (std::filesystem::exists(joined))
     throw InputError(
         fmt::format("--join: there is a file {} already. Name another experiment with -o FILE", joined.string()));
+  return joined;
+}
+
+/// The two files of a sheet become one beside the experiment.
+void join_files(ImportOptions& options, const std::filesystem::path& joined) {
   execution::write_atomically(joined, importing::joined_table(options.answers));
   options.answers.files = {joined};
   options.answers.delimiter = options.answers.decimal = options.answers.skip_lines = "";
   if (options.answers.test.empty()) options.answers.test = "biaxial";
-  return joined;
 }
 
 int import(const GlobalOptions& global, ImportOptions options) {
@@ -222,8 +213,10 @@ int import(const GlobalOptions& global, ImportOptions options) {
   answers.units = pairs(options.units, "--unit");
   answers.where = pairs(options.where, "--where");
   const std::filesystem::path file = output_of(options);
-  const std::filesystem::path joined = join_files(options, file);
-  const TakenBack table_of_both{joined};
+  const std::filesystem::path joined = joined_of(options, file);
+  supervised::unfinished({file, joined});
+  UnfinishedResults written({file, joined}, "interrupted; nothing is left behind\n");
+  if (!joined.empty()) join_files(options, joined);
   std::vector<Question> unanswered;
   const bool terminal = isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
   const importing::Ask ask = [&](const Question& question) {
@@ -236,7 +229,8 @@ int import(const GlobalOptions& global, ImportOptions options) {
   if (!unanswered.empty()) refuse_unanswered(unanswered);
   execution::write_atomically(file, proposal.experiment.dump(2) + '\n');
   const bool in_order = checked(file, session);
-  table_of_both.keep = true;
+  written.keep();
+  supervised::unfinished({});
   for (const std::string& note : proposal.notes) answer("{}\n", text::hanging("", note));
   const auto& first = proposal.experiment["tests"].front();
   answer("\n\"data\": {}\n\n{}: {}\nNext: tunica check {}\n", first["data"].dump(2), file.string(),

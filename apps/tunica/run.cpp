@@ -13,6 +13,7 @@
 
 #include "answer.hpp"
 #include "calibration/calibrate.hpp"
+#include "calibration/examination.hpp"
 #include "calibration/overrides.hpp"
 #include "comparison/ranking_table.hpp"
 #include "data/nearest.hpp"
@@ -97,12 +98,12 @@ calibration::Certified certify(const GlobalOptions& global, unsigned threads, co
   return {std::move(answer.out), ""};
 }
 
-std::string next_step(const comparison::Summary& summary, const std::string& file,
-                      const std::filesystem::path& result) {
+std::string next_step(const comparison::Summary& summary, const experiment::Experiment& experiment,
+                      const std::string& file, const std::filesystem::path& result) {
   const auto first = std::find_if(summary.ranking.begin(), summary.ranking.end(),
                                   [](const auto& entry) { return entry.rank.has_value(); });
   if (first == summary.ranking.end())
-    return fmt::format("tunica check {}\n(evaluates the initial point and shows what fails)", file);
+    return calibration::check_command(experiment, file) + "\n(evaluates the initial point and shows what fails)";
   return fmt::format(
       "tunica simulate {} --model {} --parameters {} -o FOLDER\n(the best fit as curves, in the form of the data)",
       file, summary.runs[first->run].model, result.string());
@@ -144,7 +145,7 @@ void print(const calibration::Outcome& outcome, const experiment::Experiment& ex
   if (std::none_of(runs.begin(), runs.end(), [](const auto& entry) { return entry.has_result; }))
     say_error(fmt::format("no evaluation succeeded; the first reason: {}", runs.front().status.reason()));
   answer("\nReport:  {}\nResults: {}\n{}\n", outcome.report.string(), outcome.result.string(),
-         text::hanging("Next:    ", next_step(outcome.summary, file, outcome.result)));
+         text::hanging("Next:    ", next_step(outcome.summary, experiment, file, outcome.result)));
 }
 
 /// What a process before this one has begun is resumed. A shard takes up its own folder by itself.

@@ -11,11 +11,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -28,6 +27,7 @@
 
 #include "exit_codes.hpp"
 #include "messages.hpp"
+#include "orphans.hpp"
 #include "plugins/casualties.hpp"
 
 namespace tunica::app {
@@ -48,6 +48,21 @@ struct Shared {
 };
 constexpr std::uint64_t the_end = 0x746865'20656e64;  // what junk hardly is
 Shared* common = nullptr;
+/// A worker holds the shared memory closed but where it writes there itself. A plugin that writes anywhere is so found
+/// in its call, and cannot lead its successor to other folders.
+void set_shared(int protection) {
+  if (common != nullptr) ::mprotect(common, sizeof(Shared), protection);
+}
+void open_shared() { set_shared(PROT_READ | PROT_WRITE); }
+
+class SharedOpen {
+ public:
+  SharedOpen() { open_shared(); }
+  ~SharedOpen() { set_shared(PROT_READ); }
+  SharedOpen(const SharedOpen&) = delete;
+  SharedOpen& operator=(const SharedOpen&) = delete;
+};
+
 /// A descriptor that was sent and not received stays open: that is where one is parked.
 std::array<int, 2> parking{-1, -1};
 
@@ -111,10 +126,15 @@ void copy(Path& to, const std::filesystem::path& from) {
 [[noreturn]] void be_child(const std::function<int()>& work, pid_t parent) {
   for (const int number : passed_on) ::signal(number, SIG_DFL);
   ::signal(SIGALRM, SIG_DFL);
+  ::signal(SIGXFSZ, SIG_IGN);          // a write beyond the limit then fails with words
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would take up the work, or be told of its end
   if (::getppid() != parent) ::_exit(internal_error);
   plugins::casualties = &common->casualties;
-  common->code = work();
+  plugins::open_to_write = open_shared;
+  set_shared(PROT_READ);
+  const int code = work();
+  open_shared();
+  common->code = code;
   common->finished = the_end;
   leave(common->code);
 }
@@ -159,7 +179,8 @@ void remove_unfinished() {
     for (const auto& entry : std::filesystem::directory_iterator(common->disposable.data(), left))
       std::filesystem::remove_all(entry.path(), left);
   for (Path& folder : common->unfinished) {
-    if (folder.front() != 0) ::rmdir(folder.data());  // fails, as it should, where something is inside
+    if (folder.front() != 0 && ::unlink(folder.data()) != 0)
+      ::rmdir(folder.data());  // fails, as it should, where something is inside
     folder.front() = 0;
   }
   common->disposable.front() = 0;
@@ -168,12 +189,18 @@ void remove_unfinished() {
 /// A successor would print again what was printed.
 bool has_answered() { return common->answered && !common->serves; }
 
+/// A plugin that was evaluated no more, and whose thread ended the process again: it is made where the plugin is
+/// loaded.
+bool has_fallen_for_good(const plugins::Casualty& last) {
+  return common->casualties.weight(last.plugin.data()) >= plugins::CasualtyList::most_of_one_plugin + last.weight;
+}
+
 /// The first few are told as they are; a plugin that goes on like that is told of once more.
 void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
   using plugins::CasualtyList;
   constexpr unsigned told = 3;
   const std::string plugin = casualty.plugin.data();
-  const std::string what = fmt::format("plugin '{}' {} in {}().", plugin, casualty.end.data(), casualty.what.data());
+  const std::string what = fmt::format("plugin '{}' {} in {}.", plugin, casualty.end.data(), place_of(casualty));
   if (!goes_on)
     return say_error(what +
                      " The work cannot be taken up from here; take the plugin out, or report this to its author");
@@ -185,7 +212,10 @@ void say_what_fell(const plugins::Casualty& casualty, bool goes_on) {
         what + fmt::format(" It was time number {}: the plugin is not evaluated again, and the work goes "
                            "on without it.",
                            times));
-  if (times <= told) say_wrapped_warning(what + " This call counts as failed, and the work goes on.");
+  const bool of_call = casualty.what.data() != std::string_view(plugins::own_thread);
+  if (times <= told)
+    say_wrapped_warning(what + (of_call ? " This call counts as failed, and the work goes on."
+                                        : " The work goes on from what was saved."));
 }
 
 /// Memory that no single call took.
@@ -208,38 +238,6 @@ void say_unexplained(int status) {
                   "it, memory ran out, or it is a fault of tunica. What was saved is kept; go on with --resume "
                   "where the verb has it",
                   end));
-}
-
-std::string command_of(const std::string& process) {
-  std::ifstream line("/proc/" + process + "/cmdline", std::ios::binary);
-  return {std::istreambuf_iterator<char>(line), {}};
-}
-
-/// Children of this process, which has one thread, that are copies of it: forked, and no program of their own since. A
-/// program that was started on purpose, by a queue for instance, is left alone.
-std::vector<pid_t> copies() {
-  std::ifstream list(fmt::format("/proc/self/task/{}/children", ::getpid()));
-  const std::string own = command_of("self");
-  std::vector<pid_t> found;
-  for (pid_t child = 0; list >> child;)
-    if (command_of(fmt::format("{}", child)) == own) found.push_back(child);
-  return found;
-}
-
-/// Ends what plugins have forked and left behind: a subreaper becomes the parent of all of it. What tidies up after its
-/// work, as the keepers of solvers do, has a moment for it.
-void end_orphans() {
-  constexpr int moments = 100;
-  constexpr timespec moment{0, 10'000'000};
-  for (int k = 0;; ++k) {
-    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
-    }
-    const auto left = copies();
-    if (left.empty() || k > moments + 20) return;  // beyond: one that cannot be ended, for it waits for a device
-    if (k >= moments)
-      for (const pid_t copy : left) ::kill(copy, SIGKILL);
-    ::nanosleep(&moment, nullptr);
-  }
 }
 
 int wait_for(pid_t process) {
@@ -290,8 +288,10 @@ int supervise(const std::function<int()>& work) {
       say_unexplained(status);
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : internal_error;
     }
-    const bool goes_on = !has_answered() && common->casualties.size() < common->casualties.entries.size();
-    say_what_fell(common->casualties.entries[before], goes_on);
+    const auto& entry = common->casualties.entries[before];
+    const bool again = entry.what.data() == std::string_view(plugins::own_thread) && has_fallen_for_good(entry);
+    const bool goes_on = !has_answered() && !again && common->casualties.size() < common->casualties.entries.size();
+    say_what_fell(entry, goes_on);
     if (!goes_on) return internal_error;
   }
 }
@@ -301,26 +301,34 @@ namespace supervised {
 bool successor() { return common != nullptr && common->generation > 0; }
 
 void resumable_in(const std::filesystem::path& folder) {
-  if (common != nullptr) copy(common->resumable, folder);
+  if (common == nullptr) return;
+  const SharedOpen open;
+  copy(common->resumable, folder);
 }
 
 std::filesystem::path resumable_folder() { return common == nullptr ? "" : common->resumable.data(); }
 
-void unfinished(const std::filesystem::path& results, const std::vector<std::filesystem::path>& folders) {
+void unfinished(const std::vector<std::filesystem::path>& made, const std::filesystem::path& results) {
   if (common == nullptr) return;
-  copy(common->disposable, results);
+  const SharedOpen open;
+  common->disposable.front() = 0;
+  if (!results.empty()) copy(common->disposable, results);
   for (std::size_t i = 0; i < common->unfinished.size(); ++i) {
     common->unfinished[i].front() = 0;
-    if (i < folders.size()) copy(common->unfinished[i], folders[i]);
+    if (i < made.size() && !made[i].empty()) copy(common->unfinished[i], made[i]);
   }
 }
 
 void answered() {
-  if (common != nullptr) common->answered = true;
+  if (common == nullptr) return;
+  const SharedOpen open;
+  common->answered = true;
 }
 
 void serves() {
-  if (common != nullptr) common->serves = true;
+  if (common == nullptr) return;
+  const SharedOpen open;
+  common->serves = true;
 }
 
 namespace {

@@ -23,9 +23,9 @@ bool successor();
 void resumable_in(const std::filesystem::path& folder);
 /// The folder of the predecessor, or empty.
 std::filesystem::path resumable_folder();
-/// The folder `results` was empty when the work began, and `made` were created for it, the innermost first. A successor
-/// finds it as it was.
-void unfinished(const std::filesystem::path& results, const std::vector<std::filesystem::path>& made);
+/// Files and folders that were not there when the work began, the innermost first, and a folder `results` that was
+/// empty. Where the work ends in the middle they are removed, and a successor finds all as it was.
+void unfinished(const std::vector<std::filesystem::path>& made, const std::filesystem::path& results = {});
 /// Something was printed that a successor would print again: there must be none.
 void answered();
 /// What was printed is where the process can be asked: a successor goes on without printing it.

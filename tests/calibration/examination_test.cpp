@@ -141,31 +141,15 @@ TEST(Examination, DoesNotAnalyseWhatCannotBeLinearised) {
   EXPECT_TRUE(point.good()) << "it could be evaluated";
 }
 
-TEST(Examination, TellsTheMedianTimeOfAnEvaluation) {
-  Examining trial;
-  trial.add_run("compass");
-  constexpr Microseconds slow{50};
-  // Of 1001 evaluations after the first 581 take long, so that the median does, though the middle one does not.
-  fakes::set_behaviour([&](double, std::span<double>, Status&) {
-    const int call = trial.calls++;
-    if (call == 0) return busy(400 * slow);
-    if (call < 290 || (call > 710 && call < 1002)) busy(slow);
-  });
-  const double seconds = trial.examine().problems.at(0).initial.seconds;
-  EXPECT_GE(seconds, 50e-6);
-  EXPECT_LT(seconds, 10e-3) << "the first one, which makes things warm, does not count";
-  EXPECT_LT(trial.calls, 3000) << "a thousand are enough";
-  EXPECT_GT(trial.calls, 100);
-}
-
-TEST(Examination, TakesAFifthOfASecondForTheTimeAtMost) {
+TEST(Examination, TellsTheTimeOfAnEvaluation) {
   Examining trial;
   trial.add_run("compass");
   fakes::set_behaviour([&](double, std::span<double>, Status&) {
-    if (++trial.calls < 80) busy(Microseconds(10000));
+    ++trial.calls;
+    busy(Microseconds(50));
   });
-  EXPECT_GE(trial.examine().problems.at(0).initial.seconds, 10e-3);
-  EXPECT_LT(trial.calls, 60) << "some twenty, and the linearisation";
+  EXPECT_GE(trial.examine().problems.at(0).initial.seconds, 50e-6);
+  EXPECT_LT(trial.calls, 3000) << "a thousand are enough, however fast the machine";
 }
 
 TEST(Examination, EvaluatesACostlyTestOnceForItsTime) {

@@ -256,14 +256,28 @@ TEST(External, CheckShowsTheCommandAndStartsItOnDemand) {
   EXPECT_TRUE(std::filesystem::exists(mark));
 }
 
-TEST(External, MaxTimeEndsAProgramThatHangs) {
-  trial::SolverBench bench(310, 12, "sleep 60");
-  bench.experiment["stop"]["max_time"] = "1 s";
-  const auto begun = std::chrono::steady_clock::now();
-  const auto ended = bench.run();
-  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(40));
-  EXPECT_EQ(ended.code, 1) << ended.err;
-  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(), HasSubstr("its max_time was over"));
+// It writes all the while, to its output and to its results: what counts is the whole time.
+constexpr const char* drips = "while :; do echo .; echo . >> curve.csv; sleep 0.05; done";
+
+TEST(External, MaxTimeEndsAProgramThatHangsOrDrips) {
+  for (const char* how : {"sleep 60", drips}) {
+    trial::SolverBench bench(310, 12, how);
+    bench.experiment["stop"]["max_time"] = "1 s";
+    const auto begun = std::chrono::steady_clock::now();
+    const auto ended = bench.run();
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(40));
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_THAT(bench.result()["first_failure"].get<std::string>(), HasSubstr("its max_time was over")) << how;
+    EXPECT_THAT(ended.out, HasSubstr("tunica check experiment.json --run-external")) << "what to do next";
+  }
+}
+
+TEST(External, AProgramThatDripsIsEndedAtItsLimit) {
+  trial::SolverBench bench(310, 12, drips);
+  bench.test["time_limit"] = "0.5 s";
+  bench.experiment["stop"]["max_evaluations"] = 1;
+  EXPECT_NE(bench.run().code, 0);
+  EXPECT_THAT(bench.result()["first_failure"].get<std::string>(), HasSubstr("was ended at its time limit of 0.5 s"));
 }
 
 TEST(External, AFileWithoutEndIsEndedAtItsLimit) {

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import urllib.error
 import urllib.request
 
@@ -276,6 +277,39 @@ def hostile(answer, words, **more):
         found = run("run", "hostile.json", "-o", "hostile")
         assert found.returncode == 2 and words in " ".join(found.stderr.split()), (words, found.returncode, found.stderr)
         listening.close()
+
+
+class Dripping(Strip):
+    """It says what it has, and its predictions come a blank at a time."""
+
+    def do_POST(self):
+        if self.path != "/Evaluate":
+            return super().do_POST()
+        self.rfile.read(int(self.headers["Content-Length"]))
+        self.send_response(200)
+        self.send_header("Content-Length", "1000000")
+        self.end_headers()
+        try:
+            while True:
+                self.wfile.write(b" ")
+                threading.Event().wait(0.05)
+        except OSError:
+            pass  # given up
+
+
+dripping = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Dripping)
+dripping.daemon_threads = True
+threading.Thread(target=dripping.serve_forever, daemon=True).start()
+write("dripping", {"type": "um_bridge", "url": f"http://127.0.0.1:{dripping.server_port}", "inputs": [["mu MPa"]],
+                   "outputs": {"stress": {"output": 1, "first": 2, "unit": "MPa"}}, "data": data})
+experiment = json.loads((folder / "dripping.json").read_text())
+experiment["stop"]["max_time"] = "1 s"
+(folder / "dripping.json").write_text(json.dumps(experiment))
+begun = time.monotonic()
+found = run("run", "dripping.json", "-o", "dripping")
+assert found.returncode == 1 and "max_time was over" in " ".join(found.stderr.split()), (found.returncode, found.stderr)
+assert time.monotonic() - begun < 40, "a server that drips holds the run beyond its max_time"
+dripping.shutdown()
 
 
 def endless(head, piece):

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -68,6 +69,8 @@ void hang() {
   for (;;) ::pause();
 }
 void fall() { ::raise(SIGSEGV); }
+int* volatile no_place = nullptr;
+void write_nowhere() { *no_place = 1; }
 
 /// Every file of the program but the standard ones: closed, or made another one.
 void spoil_files(bool redirect) {
@@ -88,6 +91,25 @@ void limit_files() {
   ::setrlimit(RLIMIT_FSIZE, &none);
 }
 
+/// A thread of its own ends the process. The call waits, so that it is under way meanwhile.
+template <class End>
+void end_in_a_thread(const End& end) {
+  std::thread(end).detach();
+  std::this_thread::sleep_for(std::chrono::seconds(20));
+}
+
+/// Junk in memory that this process shares with another one, found as anybody can find it.
+void spoil_shared_memory() {
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    unsigned long begin = 0, end = 0;
+    char access[5] = {};
+    if (std::sscanf(line.c_str(), "%lx-%lx %4s", &begin, &end, access) != 3 || access[3] != 's') continue;
+    if (line.find("/dev/zero") == std::string::npos) continue;
+    std::memset(reinterpret_cast<void*>(begin), 0x2f, end - begin);  // NOLINT: "////"
+  }
+}
+
 /// Once in every process.
 void leave_behind(const std::string& how) {
   static std::once_flag left;
@@ -98,6 +120,11 @@ void leave_behind(const std::string& how) {
     if (how == "redirects_files") spoil_files(true);
     if (how == "sets_timers") set_timers();
     if (how == "limits_files") limit_files();
+    if (how == "thread_falls") end_in_a_thread(write_nowhere);
+    if (how == "thread_throws") end_in_a_thread([] { throw std::runtime_error("a bad day"); });
+    if (how == "thread_exits") end_in_a_thread([] { std::exit(0); });
+    if (how == "thread_exits_at_once") end_in_a_thread([] { ::_exit(0); });
+    if (how == "spoils_shared_memory") spoil_shared_memory();
     if (how == "hangs_at_exit") static_cast<void>(std::atexit(hang));
     if (how == "falls_at_exit") static_cast<void>(std::atexit(fall));
   });
@@ -184,6 +211,12 @@ class HostileModel final : public Model {
 class HostileSearch final : public Optimizer {
  public:
   explicit HostileSearch(const Options& options) : how_(options.text("how")) {}
+  HostileSearch(const HostileSearch&) = delete;
+  HostileSearch& operator=(const HostileSearch&) = delete;
+  ~HostileSearch() override {
+    if (how_ == "destructor_falls") fall();
+    if (how_ == "destructor_hangs") hang();
+  }
   [[nodiscard]] const Needs& needs() const override {
     if (how_ == "needs_throw") throw 42;
     return needs_;

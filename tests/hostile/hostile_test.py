@@ -4,79 +4,17 @@
 result of another run, the end of the program without a word, or a wrong number."""
 import json
 import pathlib
+import re
 import shutil
 import signal
 import sys
-import tempfile
 import time
 import urllib.error
 import urllib.request
 
 sys.dont_write_bytecode = True
 from laboratory import Program, expect, run_cases
-
-root = pathlib.Path(tempfile.mkdtemp(prefix="hostile"))
-plugin = sys.argv[2]
-
-
-def strip():
-    """A neo-Hookean strip of 12 kPa, with errors of a per cent."""
-    lines = ["stretch,stress [kPa]"]
-    for k in range(25):
-        stretch = 1.02 + 0.02 * k
-        lines.append(f"{stretch},{12 * (stretch**2 - 1 / stretch) * (1 + 0.01 * (k * 7 % 5 - 2)):.8g}")
-    return "\n".join(lines) + "\n"
-
-
-def laboratory(name, how="honest", since=0, search="lm", search_does="honest", test_does=None, **stop):
-    """A hostile material, and an honest one beside it; the program in their folder. A hostile test is for the first."""
-    folder = root / name
-    folder.mkdir()
-    (folder / "strip.csv").write_text(strip(), encoding="utf-8")
-    experiment = {
-        "format": 1, "name": "hostile",
-        "models": {"bad": {"type": "hostile", "how": how, "from": since}, "good": {"type": "neo_hooke"}},
-        "tests": {"t": {"type": "uniaxial", "direction": "axial",
-                        "data": {"file": "strip.csv", "columns": {"stretch": "stretch", "stress": "stress"}}}},
-        "optimizers": {"lm": {"type": "ceres_lm"}, "es": {"type": "es"},
-                       "bad": {"type": "hostile_search", "how": search_does}},
-        "runs": [{"model": "bad", "optimizer": search, "stop": stop}, {"model": "good", "optimizer": "lm"}]}
-    if test_does:
-        hostile = {"h": {"type": "hostile_strip", "how": test_does, "data": experiment["tests"]["t"]["data"]}}
-        experiment["runs"][0]["tests"] = hostile
-    (folder / "experiment.json").write_text(json.dumps(experiment), encoding="utf-8")
-    program = Program(sys.argv[1], folder)
-    program.words += ["--plugin-path", plugin, "--call-limit", "1"]
-    return folder, program
-
-
-def outcome(folder, name="results"):
-    """The entries of the hostile and of the honest run."""
-    found = json.loads((folder / name / "result.json").read_text(encoding="utf-8"))
-    runs = {run["run"]: run for run in found["runs"]}
-    honest = runs.pop("good/lm")
-    (bad,) = runs.values()
-    return bad, honest
-
-
-def timeless(value):
-    if isinstance(value, dict):
-        return {key: timeless(one) for key, one in value.items() if not any(w in key for w in ("time", "second", "date"))}
-    return [timeless(one) for one in value] if isinstance(value, list) else value
-
-
-def undisturbed():
-    """The honest run where nothing misbehaves."""
-    folder, tunica = laboratory("undisturbed")
-    tunica("run", "experiment.json", "-o", "results", "--quiet")
-    return timeless(outcome(folder)[1])
-
-
-honest_run = undisturbed()
-
-
-def expect_others_as_ever(folder, case):
-    expect(timeless(outcome(folder)[1]) == honest_run, f"{case}: the honest run is not what it is without the culprit")
+from hostile_laboratory import expect_others_as_ever, honest_run, laboratory, outcome, root, timeless
 
 
 def a_model_that_always_fails_costs_its_own_run():
@@ -100,6 +38,44 @@ def a_model_that_always_fails_is_not_assessed():
         _, tunica = laboratory(f"stability_{how}", how)
         said = tunica("stability", "experiment.json", "--model", "bad", code=1)
         expect(said.count("NOT ASSESSED") >= 3, f"{how}: something was assessed:\n{said}")
+
+
+def a_thread_of_a_plugin_that_ends_the_program_is_told():
+    """No call leads to it. The plugin is evaluated no more after a few times; where it does so when it is loaded, the
+    work ends."""
+    for how, reason in {"thread_falls": "segmentation fault (SIGSEGV)", "thread_throws": "aborted the program (SIGABRT)",
+                        "thread_exits": "called exit()", "thread_exits_at_once": "called _exit()"}.items():
+        folder, tunica = laboratory(how, how)
+        tunica.words[-1] = "30"  # the limit of a call: the thread ends before
+        said = " ".join(tunica("run", "experiment.json", "-o", "results", code=1).split())
+        expect("plugin 'hostile 1.0.0' " in said and f"{reason} in a thread of its own." in said, f"{how}: {said}")
+        expect("It was time number 4: the plugin is not evaluated again" in said, f"{how}: {said}")
+        expect_others_as_ever(folder, how)
+    shell = Program("/bin/sh", folder)
+    shell.words = ["/bin/sh", "-c"]
+    said = shell(f"HOSTILE_AT_LOAD=thread_falls {' '.join(tunica.words)} list 2>&1", code=4)
+    expect("hostile" in said and "in a thread of its own" in " ".join(said.split()), said)
+
+
+def junk_in_shared_memory_is_found_in_its_call():
+    folder, tunica = laboratory("junk", "spoils_shared_memory", since=13, search="es", max_evaluations=200)
+    said = " ".join(tunica("run", "experiment.json", "-o", "results", code=None).split())
+    expect("plugin 'hostile 1.0.0' ended the program with a segmentation fault (SIGSEGV) in evaluate" in said, said)
+    expect(outcome(folder)[0]["failures"] > 0, "no point was bad")
+    expect_others_as_ever(folder, "junk")
+
+
+def a_model_that_takes_memory_is_given_up_soon():
+    """Of all the memory of the machine a call of a model may take a GiB, and five such calls are enough."""
+    folder, tunica = laboratory("greedy", "allocates_without_end")
+    tunica.words[-1] = "60"  # the limit of a call
+    begin = time.monotonic()
+    said = " ".join(tunica("run", "experiment.json", "-o", "results", code=1).split())
+    expect("in a call of a model, which may take" in said and "the plugin is not evaluated again" in said, said)
+    most = max(float(taken) for taken in re.findall(r"memory of the program to ([\d.]+) GiB", said))
+    expect(most < 4, f"a model came to {most} GiB")
+    expect(time.monotonic() - begin < 60, "the plugin was asked for minutes")
+    expect_others_as_ever(folder, "greedy")
 
 
 def a_crash_costs_one_evaluation():
@@ -273,10 +249,13 @@ def objects_have_a_limit_of_time_too():
 
 
 def a_destructor_that_crashes_costs_nothing():
-    folder, tunica = laboratory("destructor", "destructor_falls")
-    said = tunica("run", "experiment.json", "-o", "results")
-    expect("destroy()" in said, said)
-    expect_others_as_ever(folder, "destructor")
+    for name, wishes in {"model": {"how": "destructor_falls"}, "search": {"search": "bad", "search_does": "destructor_falls"},
+                         "late_search": {"search": "bad", "search_does": "destructor_hangs"}}.items():
+        folder, tunica = laboratory(f"destructor_{name}", **wishes)
+        tunica.words[-1] = "0.1"  # ten times as long for a destructor
+        said = tunica("run", "experiment.json", "-o", "results", code=None)
+        expect("destroy()" in said, f"{name}: {said}")
+        expect_others_as_ever(folder, f"destructor_{name}")
 
 
 def ask(url, parameter):
@@ -372,7 +351,8 @@ def a_full_disk_at_the_other_end_is_told_and_harms_nothing():
 
 chosen = sys.argv[3:]
 cases = [a_model_that_always_fails_costs_its_own_run, a_model_that_always_fails_is_not_assessed,
-           a_crash_costs_one_evaluation,
+           a_thread_of_a_plugin_that_ends_the_program_is_told, junk_in_shared_memory_is_found_in_its_call,
+           a_model_that_takes_memory_is_given_up_soon, a_crash_costs_one_evaluation,
            a_call_that_takes_all_memory_costs_one_evaluation, a_leak_costs_nothing_but_time,
            a_test_that_writes_nothing_fails, a_plugin_that_crashes_when_it_is_loaded_is_refused,
            a_plugin_that_changes_the_arithmetic_changes_no_number,

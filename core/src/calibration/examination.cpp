@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "calibration/timing.hpp"
 #include "comparison/ranking.hpp"
 #include "comparison/uncertainty.hpp"
 #include "execution/memory_need.hpp"
 #include "plugins/guarded.hpp"
 #include "text/escaped.hpp"
+#include "text/shell.hpp"
 #include "uncertainty/identifiability.hpp"
 
 namespace tunica::calibration {
@@ -21,28 +23,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Median time of one evaluation, over a fifth of a second at most, s.
+/// Median time of one evaluation, s.
 double time_evaluation(const assembly::Assembly& assembly, const std::vector<double>& free, std::size_t tests) {
   auto workspace = assembly.evaluator().make_workspace();
-  std::vector<double> per_test(tests), times;
+  std::vector<double> per_test(tests);
   double objective = 0;
-  const auto end = Clock::now() + std::chrono::milliseconds(200);
-  for (auto now = Clock::now(); now < end && times.size() < 1001;) {
-    static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace));
-    const auto after = Clock::now();
-    times.push_back(std::chrono::duration<double>(after - now).count());
-    now = after;
-  }
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  return times[times.size() / 2];
+  return median_time(
+      [&] { static_cast<void>(assembly.evaluator().evaluate(free, objective, per_test, {}, {}, *workspace)); },
+      [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); });
 }
+
+/// Whether a test starts a program that the file names.
+bool starts_program(const experiment::TestEntry& test) { return test.options.has("command"); }
 
 /// The programs that the tests of a run start, in words; empty = none.
 std::string programs_of(const experiment::Experiment& experiment, const execution::PlannedRun& run) {
   std::string words;
   for (const std::string& name : run.entry->tests) {
     const experiment::TestEntry& test = experiment.test(name);
-    if (!test.options.has("command")) continue;
+    if (!starts_program(test)) continue;
     const auto command = nlohmann::json::parse(test.options.text("command"), nullptr, false);
     std::string line;
     if (command.is_array())
@@ -159,6 +158,13 @@ Examination examine(const experiment::Experiment& experiment, const plugins::Cat
     found.problems.back().initial.not_run = programs;
   }
   return found;
+}
+
+std::string check_command(const experiment::Experiment& experiment, const std::string& file) {
+  const bool starts = std::any_of(experiment.tests.begin(), experiment.tests.end(), starts_program);
+  std::vector<std::string> words{"tunica", "check", file};
+  if (starts) words.emplace_back("--run-external");
+  return text::quoted(words);
 }
 
 }  // namespace tunica::calibration

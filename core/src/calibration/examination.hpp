@@ -52,13 +52,13 @@ struct PosedProblem {
   InitialPoint initial;
 };
 
-/// Refers to the experiment and the catalogue, which must outlive it.
 /// What was made of the file of a testing machine, a line a column.
 struct UnderstoodData {
   std::string test;
   std::vector<std::string> lines;
 };
 
+/// Refers to the experiment and the catalogue, which must outlive it.
 struct Examination {
   const experiment::Experiment& experiment;
   execution::Plan plan;
@@ -77,5 +77,8 @@ struct Examination {
 /// analysis do not fit.
 Examination examine(const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
                     bool run_programs = false, const std::function<void(const std::string&)>& told = {});
+
+/// "tunica check FILE", and the option that it needs to evaluate a test that starts a program.
+std::string check_command(const experiment::Experiment& experiment, const std::string& file);
 
 }  // namespace tunica::calibration

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "data/sha256.hpp"
 #include "execution/evaluation_table.hpp"
 #include "execution/files.hpp"
 #include "text/csv.hpp"
@@ -42,10 +43,14 @@ std::string cells(const assembly::Assembly& assembly, const std::vector<double>&
   return text;
 }
 
+/// A file system allows 255 bytes, and names of layers, mechanisms and parameters are joined: longer ones end with the
+/// beginning of their hash.
 std::string file_name(const std::string& parameter) {
+  constexpr std::size_t longest = 150;
   std::string name;
-  for (const char c : parameter)
+  for (const char c : parameter.substr(0, longest))
     name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.' ? c : '-';
+  if (parameter.size() > longest) name += "-" + data::sha256(parameter).substr(0, 8);
   return "profile_" + name + ".csv";
 }
 
