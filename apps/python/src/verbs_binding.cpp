@@ -23,6 +23,7 @@
 #include "library.hpp"
 #include "module.hpp"
 #include "report/report.hpp"
+#include "tunica/detail/bounded_json.hpp"
 #include "tunica/error.hpp"
 #include "watching.hpp"
 
@@ -275,6 +276,10 @@ void add_verbs(py::module_& module) {
   module.def("discover", &discover);
   module.def("certify", &certify);
   module.def("export_card", &export_card);
+  module.def("check_levels", [](const std::string& text) {
+    if (detail::excess_of_levels(text) != std::string::npos)
+      throw InputError(fmt::format("more than {} levels of nesting", detail::deepest_json));
+  });
   module.def("write_report", [](const std::string& folder) { return report::write_report(folder).string(); });
 }
 

@@ -351,8 +351,10 @@ class Check(dict):
 def _saved(file):
     """JSON of a folder that somebody else may have made."""
     try:
-        return json.loads(file.read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as problem:
+        saved = file.read_text(encoding="utf-8")
+        _core.check_levels(saved)  # as deep as the command line reads, whatever the interpreter allows
+        return json.loads(saved)
+    except (ValueError, RecursionError, InputError) as problem:
         raise InputError(f"{file}: is not JSON that tunica has written ({problem}); run it again") from None
 
 

@@ -181,7 +181,7 @@ double parse_quantity(std::string_view text, std::string_view base_unit) {
   if (rest.empty()) return value;
   if (rest.front() == ',') return refuse("a decimal comma is not read here, write a point");
   // "0.01/s": the number belongs to the unit 1/s.
-  const std::string unit = rest.front() == '/' ? "1" + std::string(rest) : std::string(rest);
+  const std::string unit = fmt::format("{}{}", rest.front() == '/' ? "1" : "", rest);
   if (std::string_view("0123456789.+*").find(unit.front()) != std::string_view::npos && rest.front() != '/')
     return refuse(fmt::format("'{}' follows the number", excerpt(rest)));
   const double converted = convert(value, unit, base_unit);

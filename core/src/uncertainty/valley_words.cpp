@@ -76,7 +76,7 @@ std::string in_words(const Valley& valley, const std::vector<ParameterInterval>&
   }
   std::vector<std::string> directions;
   for (const auto& direction : valley.directions)
-    directions.push_back("(" + direction_text(direction, parameters) + ")");
+    directions.push_back(fmt::format("({})", direction_text(direction, parameters)));
   const bool single = directions.size() == 1;
   text += fmt::format(" {} direction{} {} ", number_word(directions.size()), single ? "" : "s", enumerate(directions));
   if (valley.exact) {
