@@ -66,7 +66,7 @@ def junk_in_shared_memory_is_found_in_its_call():
 
 
 def a_model_that_takes_memory_is_given_up_soon():
-    """Of all the memory of the machine a call of a model may take a GiB, and five such calls are enough."""
+    """Of all the memory of the machine a call of a model may take a GiB, and seven such calls are enough."""
     folder, tunica = laboratory("greedy", "allocates_without_end")
     tunica.words[-1] = "60"  # the limit of a call
     begin = time.monotonic()

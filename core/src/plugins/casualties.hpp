@@ -53,7 +53,7 @@ std::string place_of(const Casualty& casualty);
 struct CasualtyList {
   /// A plugin that ended this many processes is not evaluated again; calls that hang or take the memory cost time, and
   /// count more. So do threads of its own, for no call can be left out.
-  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 4, weight_of_thread = 5;
+  static constexpr unsigned most_of_one_plugin = 20, weight_of_hang = 2, weight_of_memory = 3, weight_of_thread = 5;
 
   /// Processes that ended for want of memory where no call was to blame alone; more than this are no accident.
   static constexpr unsigned most_leaks = 20;

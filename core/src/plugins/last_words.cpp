@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -243,8 +244,9 @@ class Inspection {
   }
 
   [[noreturn]] static void end_with(const std::vector<Sight>& culprits, const std::string& end) {
+    unsigned weight = CasualtyList::weight_of_memory;  // of all together
     for (const Sight& one : culprits)
-      casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0, CasualtyList::weight_of_memory);
+      casualties->add(one.key, one.plugin.data(), one.what, end.c_str(), 0, std::exchange(weight, 0U));
     ::_exit(fell);
   }
 
