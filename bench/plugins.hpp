@@ -45,7 +45,7 @@ inline std::unique_ptr<Model> make_model(const std::string& type) {
   return plugins::create(entry, options_of(entry.factory.options));
 }
 
-inline std::unique_ptr<Optimizer> make_optimizer(const std::string& type, const OptionValues& given) {
+inline auto make_optimizer(const std::string& type, const OptionValues& given) {
   const auto& entry = catalogue().optimizers().at(type);
   return plugins::create(entry, options_of(entry.factory.options, given));
 }
