@@ -3,8 +3,11 @@
 """space_test.py TUNICA: results that are written at once, where files may not grow any more. One message says so, exit code
 2 or 130, nothing is left that the same command would refuse, and later it gives what it would have given."""
 import json
+import os
 import pathlib
+import pty
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -95,6 +98,23 @@ def what_import_writes():
     expect_nothing_left(folder, *sheet, limit=joined)
 
 
+def ctrl_c_while_import_asks():
+    """The table of both files is written before the questions."""
+    folder = root / "rig"
+    before = contents(folder)
+    ours, terminal = pty.openpty()
+    process = subprocess.Popen([*program, "import", "axis_1.csv", "axis_2.csv", "--join", "--direction", "axis_1=axial",
+                                "--direction", "axis_2=circumferential", "-o", "asked.json"], cwd=folder, stdin=terminal,
+                               stdout=subprocess.DEVNULL, stderr=terminal)
+    said = b""
+    while b"nominal" not in said and process.poll() is None:
+        said += os.read(ours, 1000)
+    expect((folder / "asked.csv").exists(), f"nothing was asked: {said.decode()}")
+    process.send_signal(signal.SIGINT)
+    expect(process.wait(30) == 130, f"ended with {process.returncode}")
+    expect(contents(folder) == before, f"left: {sorted(set(contents(folder)) - set(before))}")
+
+
 def cohorts_go_on():
     folder = root / "cohort"
     folder.mkdir()
@@ -104,4 +124,4 @@ def cohorts_go_on():
                             codes=(2, 130))
 
 
-run_cases([cards_and_pages, folders_of_results, what_import_writes, cohorts_go_on])
+run_cases([cards_and_pages, folders_of_results, what_import_writes, ctrl_c_while_import_asks, cohorts_go_on])
