@@ -114,8 +114,8 @@ FreeParameter merge(const std::vector<const Slot*>& slots) {
       started = slot;
       free.initial = *initial;
     }
+    free.own_initial = free.own_initial || slot->setting->own_initial;
   }
-  free.own_initial = started != nullptr;
   check_bounds(free, place(*slots.front()));
   if (started) check_initial(free.initial, free, place(*started));
   free.initial = std::clamp(free.initial, free.min, free.max);

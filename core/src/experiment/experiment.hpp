@@ -31,7 +31,8 @@ struct ParameterSetting {
   std::optional<Scale> scale;
   std::optional<std::string> share;
   std::optional<Prior> prior;
-  std::string pointer;  ///< JSON pointer, for messages
+  std::string pointer;       ///< JSON pointer, for messages
+  bool own_initial = false;  ///< the file gives `initial`; else it is the declared one
 };
 using ParameterSettings = std::map<std::string, ParameterSetting, std::less<>>;
 

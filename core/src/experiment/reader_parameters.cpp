@@ -86,6 +86,7 @@ void check_setting(const Node& node, const ParameterSetting& setting, const Para
 /// narrowed moves to the nearest bound.
 ParameterSetting completed(ParameterSetting setting, const Parameter& declared) {
   if (setting.fixed) return setting;
+  setting.own_initial = setting.initial.has_value();
   setting.min = setting.min.value_or(declared.min);
   setting.max = setting.max.value_or(declared.max);
   setting.scale = setting.scale.value_or(declared.scale);
