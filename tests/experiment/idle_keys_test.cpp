@@ -40,6 +40,31 @@ TEST_F(IdleKeys, AMeasureOrAnOrderThatChangesNothingIsRefused) {
                 "\"max_rate\" changes nothing");
 }
 
+TEST_F(IdleKeys, ANoiseOfNothingMeasuredIsRefused) {
+  expect_within(strip(R"({"stretch": "stretch"})", R"("rows": "0:240:6")"), "no measured quantity is mapped");
+}
+
+TEST_F(IdleKeys, LimitsThatAnotherOneForestallsAreRefused) {
+  const auto stop = [&](std::string_view keys) {
+    return refusal(R"("max_evaluations": 60000, "max_time": "10 min", "target": 1e-6, "stall": 500)", keys);
+  };
+  expect_within(stop(R"("max_evaluations": 100, "stall": 200)"), "\"stall\" is 200 and changes nothing");
+  expect_within(stop(R"("stall": 70000)"), "the search ends after 60000 evaluations");
+  EXPECT_EQ(stop(R"("max_evaluations": 100, "stall": 100)"), "");
+}
+
+TEST_F(IdleKeys, PointsOfNoMapAndWeightsOfWhatIsHeldOutAreRefused) {
+  expect_within(
+      refusal(R"("on_failure": "penalise")", R"("on_failure": "penalise", "analysis": {"stability": {"points": 21}})"),
+      "\"points\" changes nothing without \"map\"");
+  const auto held_out = [&](std::string_view weight) {
+    return refusal(with(R"("weight": 1)", weight, with(R"("hold_out": false)", R"("hold_out": true)")));
+  };
+  expect_within(held_out(R"("weight": 2)"),
+                "\"weight\" changes nothing in test 'circumferential_strip', which is held");
+  EXPECT_EQ(held_out(R"("weight": 1)"), "");
+}
+
 TEST_F(IdleKeys, AnAngleThatLooksLikeRadiansIsAskedAbout) {
   const auto findings = [&](std::string_view setting) {
     return read(with(R"("kappa": {"min": 0, "max": 0.3333})", setting)).models[0].findings;
@@ -50,6 +75,20 @@ TEST_F(IdleKeys, AnAngleThatLooksLikeRadiansIsAskedAbout) {
   expect_within(bare[0].text, "'theta' of model 'gho' is 0.8 without a unit");
   EXPECT_TRUE(findings(R"("theta": {"fixed": "0.8 rad"})").empty());
   EXPECT_TRUE(findings(R"("theta": {"min": 0, "max": 90})").empty());
+}
+
+TEST_F(IdleKeys, AnAngleOfATestThatLooksLikeRadiansIsAskedAbout) {
+  const auto findings = [&](std::string_view value) {
+    return read(with(R"("weight": 1,)", std::string(R"("parameters": {"misalignment": {"fixed": )") +
+                                            std::string(value) + R"(}}, "weight": 1,)"))
+        .tests[0]
+        .findings;
+  };
+  const auto bare = findings("0.8");
+  ASSERT_EQ(bare.size(), 1u);
+  expect_within(bare[0].text, "'misalignment' of test 'circumferential_strip' is 0.8 without a unit");
+  EXPECT_TRUE(findings("\"0.8 deg\"").empty());
+  EXPECT_TRUE(findings("8").empty());
 }
 
 TEST_F(IdleKeys, RunsAreNotNeededForAPrediction) {

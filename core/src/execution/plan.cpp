@@ -128,6 +128,19 @@ void check_needs(const PlannedRun& run, std::vector<Warning>& warnings) {
                         run.label});
 }
 
+/// Keys that suit another experiment, and do nothing in this one.
+void warn_of_idle_keys(const experiment::Experiment& experiment, const Plan& plan, std::vector<Warning>& warnings) {
+  for (const PlannedRun& run : plan.runs)
+    if (run.entry->fewer_simulations.guide && !run.assembly->layout().has_costly_tests)
+      warnings.push_back(
+          {WarningKind::set_up, "\"guide\" changes nothing, as no test of the run is costly: leave it out", run.label});
+  if (!experiment.analysis.optimizer.empty() && !experiment.analysis.wanted())
+    warnings.push_back(
+        {WarningKind::set_up, fmt::format("the optimizer '{}' of \"analysis\" changes nothing without refits: ask for "
+                                          "\"profiles\" or \"bootstrap\", or leave it out",
+                                          experiment.analysis.optimizer)});
+}
+
 /// Whatever has memory takes rows for the whole loading path, whether or not somebody said that they are.
 void warn_of_assumed_orders(const experiment::Experiment& experiment, const PlannedRun& run,
                             const plugins::Catalogue& catalogue, std::vector<Warning>& warnings) {
@@ -196,6 +209,7 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
     for (std::uint64_t realisation = 1; realisation <= entry.realisations; ++realisation)
       plan.tasks.push_back({plan.runs.size() - 1, realisation});
   }
+  warn_of_idle_keys(experiment, plan, plan.warnings);
   return plan;
 }
 

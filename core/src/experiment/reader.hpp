@@ -62,7 +62,8 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
 /// Test mechanisms; `test_type` decides which apply.
 std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
                                                  std::string_view owner, const plugins::Catalogue& catalogue,
-                                                 std::vector<SharedParameter>& shared);
+                                                 std::vector<SharedParameter>& shared,
+                                                 std::vector<data::Finding>& findings);
 
 // reader_tests.cpp
 /// `models`: the names that layers may have.

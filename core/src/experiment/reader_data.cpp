@@ -113,6 +113,9 @@ void read_noise(const Node& node, const std::vector<Observable>& observables, da
   for (const auto& [name, column] : data.columns)
     if (const Observable& channel = observable_of(observables, name); channel.role == Role::channel)
       mapped.push_back(channel.name);
+  if (mapped.empty())
+    node.fail("\"noise\" changes nothing: no measured quantity is mapped",
+              "Map one in \"columns\", or leave the noise out.");
   const auto members =
       node.members("a noise, {\"absolute\": …, \"relative\": …, \"correlation\": …}, or one per channel,");
   const bool per_channel = !members.empty() && std::all_of(members.begin(), members.end(), [](const auto& member) {

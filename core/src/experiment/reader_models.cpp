@@ -31,7 +31,7 @@ std::vector<Parameter> parameters_of(const Node& node, const MechanismFactory& f
 template <class Suits>
 std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string& owner,
                                             const plugins::Catalogue& catalogue, std::vector<SharedParameter>& shared,
-                                            Suits suits) {
+                                            std::vector<data::Finding>& findings, Suits suits) {
   std::vector<MechanismEntry> mechanisms;
   const auto list = entry.find("mechanisms");
   if (!list) return mechanisms;
@@ -54,7 +54,10 @@ std::vector<MechanismEntry> read_mechanisms(const Node& entry, const std::string
                 "Its parameters would share their names; remove one, or name one of them with \"as\".");
     const std::string name = fmt::format("mechanism '{}'", mechanism.name());
     mechanism.options = read_options(node, factory.options, {"type", "as", "parameters"}, name);
-    mechanism.parameters = read_parameters(node, parameters_of(node, factory, mechanism.options), name, shared);
+    const std::vector<Parameter> parameters = parameters_of(node, factory, mechanism.options);
+    mechanism.parameters = read_parameters(node, parameters, name, shared);
+    for (data::Finding& finding : bare_angles(node, factory.options, parameters, name))
+      findings.push_back(std::move(finding));
     mechanisms.push_back(std::move(mechanism));
   }
   return mechanisms;
@@ -101,8 +104,8 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
   }
   model.findings = bare_angles(entry, available.factory.options, instance->describe().parameters, owner);
   model.parameters = read_parameters(entry, instance->describe().parameters, owner, shared);
-  model.mechanisms =
-      read_mechanisms(entry, owner, catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {
+  model.mechanisms = read_mechanisms(
+      entry, owner, catalogue, shared, model.findings, [&](const Node& node, const MechanismFactory& mechanism) {
         if (!acts_on_model(mechanism))
           node.fail(
               fmt::format("the mechanism '{}' acts on {}, not on models", mechanism.id, stage_word(mechanism.stage)),
@@ -114,9 +117,10 @@ ModelEntry read_model(const std::string& name, const Node& entry, const plugins:
 
 std::vector<MechanismEntry> read_test_mechanisms(const Node& entry, const std::string& test_type,
                                                  std::string_view owner, const plugins::Catalogue& catalogue,
-                                                 std::vector<SharedParameter>& shared) {
+                                                 std::vector<SharedParameter>& shared,
+                                                 std::vector<data::Finding>& findings) {
   return read_mechanisms(
-      entry, std::string(owner), catalogue, shared, [&](const Node& node, const MechanismFactory& mechanism) {
+      entry, std::string(owner), catalogue, shared, findings, [&](const Node& node, const MechanismFactory& mechanism) {
         if (acts_on_model(mechanism))
           node.fail(fmt::format("the mechanism '{}' acts on models, not on tests", mechanism.id),
                     "Write it in the \"mechanisms\" of a model.");

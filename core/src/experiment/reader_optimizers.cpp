@@ -52,8 +52,13 @@ Stop read_stop(const Node& node, std::uint64_t default_evaluations) {
   }
   if (const auto child = node.find("target"))
     stop.target = child->number("the objective that is good enough, a number,");
-  if (const auto child = node.find("stall"))
+  if (const auto child = node.find("stall")) {
     stop.stall = child->count("a whole number of evaluations", 1, limits::evaluations);
+    if (*stop.stall > stop.max_evaluations)
+      child->fail(fmt::format("\"stall\" is {} and changes nothing: the search ends after {} evaluations", *stop.stall,
+                              stop.max_evaluations),
+                  "Give \"max_evaluations\" above it, or leave \"stall\" out.");
+  }
   return stop;
 }
 
@@ -143,8 +148,12 @@ void read_analysis(const Node& node, Experiment& experiment) {
       }
       if (analysis.stability_map.size() != 2) map->fail_expected("two names of parameters, as in results,");
     }
-    if (const auto points = stability->find("points"))
+    if (const auto points = stability->find("points")) {
       analysis.map_points = points->count("a whole number of points along each parameter", 2, limits::map_points);
+      if (analysis.stability_map.empty())
+        points->fail("\"points\" changes nothing without \"map\"",
+                     "Name two parameters in \"map\", or leave \"points\" out.");
+    }
   }
 }
 

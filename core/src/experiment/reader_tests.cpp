@@ -93,9 +93,9 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
     test.folder = (test.folder / test.options.text("folder")).lexically_normal();
     test.options.set("folder", test.folder.string());
   }
-  test.findings = bare_angles(entry, factory.options, {}, owner);  // an imperfection may be a small angle
+  test.findings = bare_angles(entry, factory.options, factory.parameters, owner);
   test.parameters = read_mentioned_parameters(entry, factory.parameters, owner, shared);
-  test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared);
+  test.mechanisms = read_test_mechanisms(entry, type, owner, catalogue, shared, test.findings);
   test.data = read_data(entry.require("data", owner), factory.observables, owner, folder);
   const auto channels = std::count_if(test.data.columns.begin(), test.data.columns.end(), [&](const auto& column) {
     return data::quantity_named(column.first, factory.observables)->observable->role == Role::channel;
@@ -103,6 +103,11 @@ TestEntry read_test(const std::string& name, const Node& entry, const std::files
   test.measured = channels > 0;
   test.weights = read_weights(entry, static_cast<std::size_t>(channels), owner);
   if (const auto node = entry.find("hold_out")) test.hold_out = read_hold_out(*node);
+  // Weights of 1 stand in every saved input, and say nothing.
+  if (test.hold_out.all && std::any_of(test.weights.begin(), test.weights.end(), [](double one) { return one != 1; }))
+    entry.require("weight", owner)
+        .fail(fmt::format("\"weight\" changes nothing in {}, which is held out", owner),
+              "Leave one of \"weight\" and \"hold_out\" out.");
   return test;
 }
 
