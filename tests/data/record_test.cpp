@@ -48,6 +48,32 @@ TEST(Record, AfterABreakIsAskedAbout) {
   EXPECT_THAT(found(text, {}, cut), IsEmpty());
 }
 
+/// A strip whose stiffness rises, and from the row `yields` on falls to `left` of what it was.
+std::string yielding(int yields, double left) {
+  std::string text = "stretch,stress [kPa]\n";
+  double stress = 0, tangent = 0;
+  for (int k = 0; k <= 80; ++k) {
+    tangent = k < yields ? 1 + 0.1 * k : tangent;
+    stress += (k < yields ? 1 : left) * tangent;
+    text += fmt::format("{:.4f},{:.5f}\n", 1 + 0.005 * k, stress + 0.02 * std::sin(7.0 * k));
+  }
+  return text;
+}
+
+TEST(Record, WhoseStiffnessFallsIsAskedAbout) {
+  EXPECT_THAT(found(yielding(60, 0.1)), ElementsAre(::testing::AllOf(HasSubstr("record_softening: "),
+                                                                     HasSubstr("slip, yield or begin to tear"))));
+  EXPECT_THAT(found(yielding(60, 0.8)), IsEmpty());
+  EXPECT_THAT(found(yielding(100, 1)), IsEmpty());
+  // Rubber softens first, and then stiffens; a spike of noise is no stiffness.
+  std::string rubber = "stretch,stress [kPa]\n";
+  for (int k = 0; k <= 80; ++k) {
+    const double stretch = 1 + 0.05 * k;
+    rubber += fmt::format("{:.4f},{:.5f}\n", stretch, 400 * (stretch - std::pow(stretch, -2)) + 3 * std::sin(7.0 * k));
+  }
+  EXPECT_THAT(found(rubber), IsEmpty());
+}
+
 TEST(Record, OfUnloadingAndOfRelaxationIsNoBreak) {
   std::string loop = "stretch,stress [kPa]\n", hold = loop;
   for (int k = 0; k <= 40; ++k) {
@@ -111,6 +137,16 @@ TEST(Record, OfAStrainThatLooksLikePercentIsAskedAbout) {
   EXPECT_THAT(found(text + rows, columns),
               ElementsAre(::testing::AllOf(HasSubstr("record_percent: "), HasSubstr("{\"Strain\": \"%\"}"))));
   EXPECT_THAT(found(with_unit + rows, columns), IsEmpty());
+  // Percent that stays low: 1.6 % is read as a stretch of 2.6, and 0.8 as one of 1.8, which many specimens have.
+  const auto to = [&](double largest) {
+    std::string low = text;
+    for (int k = 0; k <= 20; ++k) low += fmt::format("{:.4f},{:.4f}\n", largest * k / 20, 14 * std::expm1(0.1 * k));
+    return low;
+  };
+  EXPECT_THAT(found(to(1.6), columns), ElementsAre(HasSubstr("the stretch goes to 2.6. Is it percent?")));
+  EXPECT_THAT(found(to(0.8), columns), IsEmpty());
+  EXPECT_THAT(found(to(1.6), {{"green_strain", "Strain"}, {"stress", "Stress"}}),
+              ElementsAre(HasSubstr("Is it percent?")));
 }
 
 TEST(Record, ThatTakesNoTimeOrHardlyDeformsIsAskedAbout) {

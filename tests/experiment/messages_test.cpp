@@ -164,7 +164,9 @@ TEST_F(Messages, CheckTheMappingOfColumns) {
                 "(/tests/circumferential_strip/data/columns/strech, line 20, column 21). Did you mean 'stretch'?");
   expect_within(refusal(columns, R"({"stress": "stress"})"),
                 "no column is mapped to 'stretch', which test 'circumferential_strip' needs");
-  EXPECT_FALSE(read(with(columns, R"({"stretch": "stretch"})")).test("circumferential_strip").measured);
+  const std::string quiet =
+      with(R"("rows": "0:240:6",)", "", with(R"("noise": {"relative": 0.02})", R"("rows": "0:6")"));
+  EXPECT_FALSE(read(with(columns, R"({"stretch": "stretch"})", quiet)).test("circumferential_strip").measured);
   expect_within(refusal(columns, R"({"stretch": true, "stress": "stress"})"),
                 "found true where the name of a column, or its number is expected");
 }

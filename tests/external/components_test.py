@@ -43,6 +43,29 @@ def main():
         assert abs(best["parameters"]["mu"]["value"] - 40) < 0.01, best["parameters"]
         channels = {channel["channel"]: channel["unit"] for channel in best["channel_noise"]}
         assert channels == {"displacement_x": "mm", "displacement_y": "mm", "strain_xx": "1"}, channels
+        numbers_without_a_unit(folder)
+
+
+def numbers_without_a_unit(folder):
+    """A number that has no name of its own has the unit of its column, which somebody has to state."""
+    experiment = json.loads((folder / "experiment.json").read_text())
+    test = experiment["tests"]["points"]
+    test["results"] = {"value": {"file": "out.csv", "column": "ux"}}
+    test["data"] = {"file": "points.csv", "columns": {"load": "F", "value": "ux"}}
+
+    def check(header, units, code):
+        (folder / "points.csv").write_text(f"F [mN],{header}\n1,25\n2,50\n4,100\n7,175\n")
+        test["data"]["units"] = units
+        (folder / "experiment.json").write_text(json.dumps(experiment))
+        done = subprocess.run([sys.argv[1], "check", "experiment.json"], cwd=folder, capture_output=True, text=True,
+                              check=False)
+        assert done.returncode == code, done.stdout + done.stderr
+        return " ".join((done.stdout + done.stderr).split())
+
+    assert "'value' is a plain number, and the column has no unit" in check("ux", {}, 0)
+    assert "is a plain number" not in check("ux", {"ux": "1"}, 0)
+    assert "is a plain number" not in check("ux [um]", {"ux": "1"}, 0)
+    assert "let the prediction be in um" in check("ux [um]", {}, 2)
 
 
 if __name__ == "__main__":

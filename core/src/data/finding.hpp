@@ -9,19 +9,21 @@ namespace tunica::data {
 
 /// What about a record does not go together with itself or with physics.
 enum class FindingKind {
-  record_broken,    ///< rows after the specimen broke
-  record_jump,      ///< a load at rest
-  record_repeated,  ///< a block of rows that stands in the file twice
-  record_coarse,    ///< few different values
-  record_sign,      ///< tension and compression may be exchanged
-  record_time,      ///< a duration or a rate that no such test has
-  record_short,     ///< hardly any deformation
-  record_percent,   ///< percent where a fraction is read
-  record_size,      ///< the unloaded tube is not the one of the file
-  record_angle,     ///< radians where degrees are read
-  record_noise      ///< a noise as large as what is measured
+  record_broken,     ///< rows after the specimen broke
+  record_softening,  ///< a stiffness that rises and then falls
+  record_jump,       ///< a load at rest
+  record_repeated,   ///< a block of rows that stands in the file twice
+  record_coarse,     ///< few different values
+  record_sign,       ///< tension and compression may be exchanged
+  record_time,       ///< a duration or a rate that no such test has
+  record_short,      ///< hardly any deformation
+  record_percent,    ///< percent where a fraction is read
+  record_size,       ///< the unloaded tube is not the one of the file
+  record_angle,      ///< radians where degrees are read
+  record_noise       ///< a noise as large as what is measured
 };
-inline constexpr text::Codes<FindingKind, 11> finding_codes{{{FindingKind::record_broken, "record_broken"},
+inline constexpr text::Codes<FindingKind, 12> finding_codes{{{FindingKind::record_broken, "record_broken"},
+                                                             {FindingKind::record_softening, "record_softening"},
                                                              {FindingKind::record_jump, "record_jump"},
                                                              {FindingKind::record_repeated, "record_repeated"},
                                                              {FindingKind::record_coarse, "record_coarse"},

@@ -301,7 +301,7 @@ void look_at_time(const Series& series, std::vector<Finding>& findings) {
 }
 
 void look_at_reach(const Series& series, std::vector<Finding>& findings) {
-  constexpr double hardly = 0.05, large = 2, coarse = 0.1;
+  constexpr double hardly = 0.05, large = 1;
   const auto abscissae = columns_of(series, Role::abscissa);
   double reach = 0;
   bool stretches = !abscissae.empty();
@@ -322,20 +322,17 @@ void look_at_reach(const Series& series, std::vector<Finding>& findings) {
                                                : "strain")});
   }
   for (const Series::Column* const column : abscissae) {
-    if (!column->derived || !column->elongation || column->gauge_length > 0 || !column->unit.empty()) continue;
+    const bool strain = column->derived && column->observable->kind == Kind::stretch && column->gauge_length == 0;
+    if (!strain || !column->unit.empty()) continue;
     const auto [low, high] = std::minmax_element(column->values.begin(), column->values.end());
-    double last = 0, step = 0;  // the first one from rest
-    for (std::size_t row = 0; row < column->values.size() && step == 0; ++row) {
-      step = std::abs(column->values[row] - 1 - last);
-      last = column->values[row] - 1;
-    }
     const double farthest = std::max(*high - 1, 1 - *low);
-    if (farthest <= large || step <= coarse) continue;
+    if (farthest <= large) continue;
     findings.push_back(
         {FindingKind::record_percent,
-         fmt::format("{}: the strain has no unit and goes to {:.4g}, a stretch of {:.4g}, in steps of {:.2g} at the "
-                     "beginning. Is it percent? Say with \"units\": {{\"{}\": \"%\"}}, or \"1\" where it is none",
-                     series.header_place(*column), farthest, 1 + farthest, step, column->name)});
+         fmt::format(
+             "{}: the strain has no unit, and as it is read the stretch goes to {:.4g}. Is it percent? Say with "
+             "\"units\": {{\"{}\": \"%\"}}, or \"1\" where it is none",
+             series.header_place(*column), farthest == *high - 1 ? *high : *low, column->name)});
   }
 }
 
@@ -344,6 +341,9 @@ void look_at_record(const Series& series, const DataRequest& request, std::vecto
   look_at_sign(series, request, findings);
   look_at_start(series, request, findings);
   look_for_break(series, request, findings);
+  const bool broken = std::any_of(findings.begin(), findings.end(),
+                                  [](const Finding& finding) { return finding.kind == FindingKind::record_broken; });
+  if (!broken) look_for_softening(series, findings);
   look_for_blocks(series, findings);
   look_at_resolution(series, findings);
   look_at_time(series, findings);

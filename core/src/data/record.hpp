@@ -16,6 +16,9 @@ void look_at_record(const Series& series, const DataRequest& request, std::vecto
 /// Rows after a sudden fall of the load that does not come back while the path goes on.
 void look_for_break(const Series& series, const DataRequest& request, std::vector<Finding>& findings);
 
+/// A stiffness that rises and then falls by far more than it scatters, as where a specimen slips, yields or tears.
+void look_for_softening(const Series& series, std::vector<Finding>& findings);
+
 /// A load in the first row although nothing is deformed there: a spike, or a load that was not tared.
 void look_at_start(const Series& series, const DataRequest& request, std::vector<Finding>& findings);
 

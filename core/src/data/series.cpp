@@ -114,9 +114,20 @@ class Reader {
         warnings_.push_back(fmt::format("{}: the header gives no unit; {} is assumed. Write '{} [{}]'.",
                                         series_.header_place(series_.columns.back()), quantity.unit, header.name,
                                         quantity.unit));
+      if (series_.columns.back().unit.empty() && is_plain_number(quantity))
+        warnings_.push_back(fmt::format(
+            "{}: '{}' is a plain number, and the column has no unit. Are data and prediction in the same one? "
+            "Say with \"units\": {{\"{}\": \"1\"}} that they are",
+            series_.header_place(series_.columns.back()), name, header.name));
     }
     decimal_ = csv_.decimal_mark(indices);
     turn_signs();
+  }
+
+  /// A measured number of which only the file knows what it is.
+  static bool is_plain_number(const Quantity& quantity) {
+    return quantity.kind == From::own && quantity.observable->role == Role::channel &&
+           quantity.observable->kind == Observable::Kind::plain && quantity.unit == "1";
   }
 
   /// Tension is positive here, whatever the file says.
@@ -146,6 +157,11 @@ class Reader {
     } catch (const InputError& error) {
       std::string reason = error.what();
       while (!reason.empty() && reason.back() == '.') reason.pop_back();
+      if (is_plain_number(quantity))
+        throw InputError(
+            fmt::format("{}: {}. '{}' is compared as it is: write \"units\": {{\"{}\": \"1\"}}, and let "
+                        "the prediction be in {}.",
+                        series_.header_place(column), reason, request_.columns[k].first, column.name, column.unit));
       throw InputError(fmt::format(
           "{}: {}. The {} '{}' is in {}: correct the unit in the header.", series_.header_place(column), reason,
           quantity.kind == From::own ? "observable" : "quantity", request_.columns[k].first, quantity.unit));

@@ -49,6 +49,7 @@ enum class WarningKind {
   plugin_refused,
   order_assumed,
   record_broken,
+  record_softening,
   record_jump,
   record_repeated,
   record_coarse,
@@ -62,7 +63,7 @@ enum class WarningKind {
   set_up,
 };
 
-inline constexpr text::Codes<WarningKind, 48> warning_codes{
+inline constexpr text::Codes<WarningKind, 49> warning_codes{
     {{WarningKind::misfit_out_of_scale, "misfit_out_of_scale"},
      {WarningKind::no_misfit, "no_misfit"},
      {WarningKind::noise_contradicted, "noise_contradicted"},
@@ -100,6 +101,7 @@ inline constexpr text::Codes<WarningKind, 48> warning_codes{
      {WarningKind::plugin_refused, "plugin_refused"},
      {WarningKind::order_assumed, "order_assumed"},
      {WarningKind::record_broken, "record_broken"},
+     {WarningKind::record_softening, "record_softening"},
      {WarningKind::record_jump, "record_jump"},
      {WarningKind::record_repeated, "record_repeated"},
      {WarningKind::record_coarse, "record_coarse"},
