@@ -67,6 +67,34 @@ ACCEPTED = [
      {"time": "time/s", "displacement": "Z/m", "force": "force/N"}, {"force/N": "N", "time/s": "s"}, ""),
     ("percent.csv", ("--stress-measure", "cauchy", "--unit", "Strain=%"), {"strain": "Strain", "stress": "Stress"},
      {"Strain": "%"}, ""),
+    ("dmt_labchart.txt", ("--thickness", "20um", "--set", "outer_radius=150um", "--set", "axial_stretch=1"),
+     {"time": "Time", "pressure": "Pressure", "outer_diameter": "Outer Diameter", "inner_diameter": "Inner Diameter"}, {}, ""),
+    ("labchart_pressure.txt", GAUGED, {"time": "Time", "force": "Force", "displacement": "Displacement"}, {}, "12 rows"),
+    ("zwick_french.TRA", GAUGED, {"time": "Temps", "force": "Force standard", "displacement": "Course standard"}, {},
+     "'Traverse absolue' (displacement)"),
+    ("zwick_english.txt", GAUGED, {"time": "Time", "displacement": "Standard travel", "force": "Standard force"}, {},
+     "'Crosshead absolute' (displacement), 'Capteur de course' (displacement)"),
+    ("wavematrix.csv", GAUGED, {"time": "Total Time", "displacement": "Position", "force": "Force"}, {}, "'Stress' (stress)"),
+    ("bluehill_universal.csv", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Force"}, {}, "'AVE2'"),
+    ("films_curve.csv", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Load"}, {},
+     "'Stress' (stress), 'Strain' (strain)"),
+    ("instron_cyclic.csv", GAUGED, {"time": "Time", "displacement": "Displacement", "force": "Force"}, {},
+     "the last loading is taken"),
+    ("muscle_load_position.csv", ("--diameter", "14mm", "--height", "21mm", "--compression", "positive"),
+     {"time": "Time", "force": "Load", "displacement": "Position"}, {}, "displacement / 21 mm"),
+    ("rheos_names.csv", (*GAUGED, "--column", "displacement=d", "--column", "force=f", "--unit", "d=mm", "--unit", "f=N", "--unit",
+                         "t=s"), {"displacement": "d", "force": "f", "time": "t"}, {}, ""),
+    ("shimadzu_specimens.csv", (*GAUGED, "--column", "displacement=#6", "--column", "force=#5", "--column", "time=#4"),
+     {"displacement": 6, "force": 5, "time": 4}, {}, ""),
+    ("testresources_mtl32.csv", (*GAUGED, "--column", "displacement=X1Disp mm", "--column", "force=X1L N", "--unit",
+                                 "X1Disp mm=mm", "--unit", "X1L N=N"),
+     {"displacement": "X1Disp mm", "force": "X1L N", "time": "Time sec"}, {}, "'X2Disp mm' (displacement)"),
+    ("walter_bai_400.csv", GAUGED, {"time": "Temps", "displacement": 2, "force": "Force"}, {}, ""),
+    ("walter_bai_100.csv", GAUGED, {"time": "C_1_Temps", "displacement": 2, "force": "C_1_Force"}, {}, ""),
+    ("effort_position.csv", GAUGED, {"time": "t", "displacement": "pos", "force": "F"}, {}, ""),
+    ("biotester_marks.csv", ("--thickness", "0.8 mm", "--width", "5 mm"),
+     {"time": "Time_S", "force_circumferential": "XForce_mN", "force_axial": "YForce_mN", "displacement_circumferential":
+      "XDisplacement_um", "displacement_axial": "YDisplacement_um"}, {}, "gauge length 5000 um"),
 ]
 for name, options, columns, units, words in ACCEPTED:
     shutil.copy(layouts / name, folder / name)
@@ -85,7 +113,17 @@ REFUSED = [
     ("living_systems.csv", ("--thickness", "30um", "--set", "outer_radius=80um", "--set", "axial_stretch=1"),
      "Is 'Diameter' the outer_diameter or the inner_diameter"),
     ("vasotracker.csv", ("--thickness", "20um", "--set", "outer_radius=55um"), "Axial stretch that is held"),
-    ("dmt_labchart.txt", (), "no column is known to give"),
+    ("labchart_blocks.txt", GAUGED, "a second block of the recording begins here"),
+    ("wavematrix_torsion.csv", GAUGED, "no column is known to give 'stretch'"),
+    ("films_summary.csv", GAUGED, "no column is known to give 'stretch'"),
+    ("instron_thousands.csv", GAUGED, "'Load' (text such as '3,740.00')"),
+    ("muscle_load_position.csv", ("--diameter", "14mm", "--height", "21mm"), "--compression positive or --compression negative"),
+    ("rheos_names.csv", GAUGED, "no column is known to give 'stretch'"),
+    ("shimadzu_specimens.csv", GAUGED, "Column of the displacement: '#3' or '#6'"),
+    ("testresources_mtl32.csv", GAUGED, "no column is known to be measured"),
+    ("testresources_mtl32.csv", (*GAUGED, "--column", "force=X1L N", "--unit", "X1L N=N"), "Column of the displacement: 'X1Disp mm' or 'X2Disp mm'"),
+    ("dma_frequency.csv", GAUGED, "no column is known to give 'stretch'"),
+    ("microtester.csv", STRIP, "Unit of the column 'Size' (length)"),
     ("aurora.txt", GAUGED, "no column is known to give 'stretch'"),
     ("vic_strain.csv", STRIP, "Column along the force: 'exx' or 'eyy'"),
     ("aramis.csv", ("--stress-measure", "first_piola_kirchhoff"), "the column 'True stress' says cauchy"),
@@ -127,6 +165,15 @@ printed, _ = rig.tunica(program, "import", *(folder / f"{stem}.csv" for stem in 
 assert "'oblique'" in printed and "and is not used" in " ".join(printed.split()), printed
 tests = json.loads((folder / "directions.json").read_text())["tests"]
 assert all(test["direction"] == "axial" for test in tests.values()), tests
+
+# Areas and lengths of a table of sizes.
+for name in ("bluehill_universal.csv", "properties.csv"):
+    shutil.copy(layouts / name, folder / name)
+printed, _ = rig.tunica(program, "import", folder / "bluehill_universal.csv", "--specimens", folder / "properties.csv", "-o",
+                        folder / "areas.json")
+sizes = next(iter(json.loads((folder / "areas.json").read_text())["tests"].values()))["data"]["specimen"]
+assert sizes == {"area": "7.5 mm2", "gauge_length": "20 mm"}, sizes
+assert "mm2 is assumed" in " ".join(printed.split()), printed
 
 # A sheet in two files; rows that do not go together are refused, and no table is left.
 for axis, scale in (("axial", 1.0), ("circ", 0.8)):

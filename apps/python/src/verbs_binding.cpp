@@ -20,6 +20,7 @@
 #include "execution/interrupt.hpp"
 #include "execution/run_directory.hpp"
 #include "exporting/fitted_material.hpp"
+#include "imported.hpp"
 #include "library.hpp"
 #include "module.hpp"
 #include "report/report.hpp"
@@ -258,6 +259,53 @@ std::string export_card(const std::string& result, const std::string& target, co
   return card;
 }
 
+/// Texts of the command line: single ones under the names of options, and lists.
+py::dict import_files(const Library& library, const std::map<std::string, std::string>& texts,
+                      const std::map<std::string, std::vector<std::string>>& lists, bool join) {
+  app::ImportRequest request;
+  auto& answers = request.answers;
+  const std::map<std::string, std::string*> places = {{"test", &answers.test},
+                                                      {"model", &answers.model},
+                                                      {"width", &answers.width},
+                                                      {"thickness", &answers.thickness},
+                                                      {"height", &answers.height},
+                                                      {"gauge_length", &answers.gauge_length},
+                                                      {"area", &answers.area},
+                                                      {"diameter", &answers.diameter},
+                                                      {"strain_measure", &answers.strain_measure},
+                                                      {"stress_measure", &answers.stress_measure},
+                                                      {"cycle", &answers.cycle},
+                                                      {"branch", &answers.branch},
+                                                      {"preload", &answers.preload},
+                                                      {"each", &answers.each},
+                                                      {"delimiter", &answers.delimiter},
+                                                      {"decimal", &answers.decimal},
+                                                      {"skip_lines", &answers.skip_lines},
+                                                      {"rows", &answers.rows},
+                                                      {"specimens", &request.table},
+                                                      {"output", &request.output}};
+  for (const auto& [name, text] : texts) *places.at(name) = text;
+  const std::map<std::string, std::vector<std::string>*> several = {
+      {"files", &request.files},    {"columns", &request.columns},      {"units", &request.units},
+      {"where", &request.where},    {"direction", &request.directions}, {"compression", &request.compressions},
+      {"options", &request.options}};
+  for (const auto& [name, list] : lists) *several.at(name) = list;
+  request.join = join;
+  const auto catalogue = library.catalogue();
+  app::Imported imported;
+  {
+    const py::gil_scoped_release free;
+    imported = app::import_files(std::move(request), *catalogue, {});
+  }
+  py::dict found;
+  found["file"] = imported.file.string();
+  found["notes"] = imported.notes;
+  found["understood"] = imported.understood;
+  found["warnings"] = imported.warnings;
+  found["in_order"] = imported.in_order;
+  return found;
+}
+
 /// What `tunica certify FOLDER --best-points POINTS` prints.
 std::string certify(const Library& library, const std::string& folder, const std::string& points) {
   const auto loaded = library.read((std::filesystem::path(folder) / "input.json").string());
@@ -275,6 +323,7 @@ void add_verbs(py::module_& module) {
   module.def("diagnose", &diagnose);
   module.def("discover", &discover);
   module.def("certify", &certify);
+  module.def("import_files", &import_files);
   module.def("export_card", &export_card);
   module.def("check_levels", [](const std::string& text) {
     if (detail::excess_of_levels(text) != std::string::npos)

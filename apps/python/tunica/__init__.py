@@ -15,13 +15,14 @@ from .mechanisms import mechanism
 from .problem import Evaluation, Problem
 from .results import Check, Diagnosis, Discovery, Estimate, Result, Run, Simulation
 from .results import open_results as open
+from .rigs import Imported, import_rig
 from .rows import Rows, test
 from .searches import Search, optimizer
 from .table import Table
 from .verbs import check, diagnose, discover, run, simulate
 
-__all__ = ["Check", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "InputError",
-           "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
+__all__ = ["Check", "Diagnosis", "Discovery", "Energy", "Estimate", "Evaluation", "EvaluationError", "Experiment", "Imported",
+           "InputError", "Interrupted", "Material", "Observable", "Parameter", "PluginFailure", "Problem", "Result", "Rows", "Run",
            "Search", "Simulation", "StopSearch", "Strain", "Table", "TunicaError", "WriteFailure", "check", "describe",
-           "diagnose", "discover", "forget", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
+           "diagnose", "discover", "forget", "import_rig", "mechanism", "model", "names", "open", "optimizer", "read", "run", "schema",
            "simulate", "test", "use_plugins", "__version__"]

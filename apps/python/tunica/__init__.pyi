@@ -161,6 +161,25 @@ class Check(dict[str, Any]):
     @property
     def warnings(self) -> list[str]: ...
 
+class Imported(Experiment):
+    file: Path
+    notes: list[str]
+    understood: list[str]
+    warnings: list[str]
+    in_order: bool
+    def __init__(self, loaded: Any, found: dict[str, Any]) -> None: ...
+
+def import_rig(files: _File | Sequence[_File], output: _File | None = ..., *, test: str | None = ...,
+               model: str | None = ..., width: str | None = ..., thickness: str | None = ..., height: str | None = ...,
+               gauge_length: str | None = ..., area: str | None = ..., diameter: str | None = ...,
+               specimens: _File | None = ..., strain_measure: Literal["engineering", "true", "green"] | None = ...,
+               stress_measure: str | None = ..., cycle: str | int | None = ..., branch: str | None = ...,
+               preload: str | None = ..., each: str | None = ..., delimiter: Literal[",", ";", "tab", "space"] | None = ...,
+               decimal: Literal[".", ","] | None = ..., skip_lines: int | None = ..., rows: str | None = ...,
+               columns: Mapping[str, str] | None = ..., units: Mapping[str, str] | None = ...,
+               where: Mapping[str, str] | None = ..., direction: str | Mapping[str, str] | None = ...,
+               compression: str | Mapping[str, str] | None = ..., options: Mapping[str, object] | None = ...,
+               join: bool = ...) -> Imported: ...
 def run(experiment: _Experiment, directory: _File | None = ..., *, base: _File | None = ..., threads: int | None = ...,
         seed: int | None = ..., profiles: Sequence[str] | Literal["all"] = ..., bootstrap: int | None = ...,
         resume: bool = ..., certificate: bool = ..., progress: _Progress = ...) -> Result: ...

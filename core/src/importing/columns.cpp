@@ -143,7 +143,8 @@ void guess_quantity(ColumnGuess& guess, const Words& words) {
   guess.compression = has_any(words, {"compres", "stauchung", "druckkraft", "druckspannung"});
   guess.rank = (guess.set_point ? 10 : 0) +
                (has_any(words, {"=min", "=max", "minimum", "maximum", "peak", "preload", "offset"}) ? 4 : 0) +
-               (has_any(words, {"extensometer", "=stage"}) ? 1 : 0) -
+               (has_any(words, {"=abs", "absolute", "absolue", "absolut"}) ? 2 : 0) +
+               (has_any(words, {"extensometer", "=stage", "capteur", "aufnehmer"}) ? 1 : 0) -
                (has_any(words, {"=avg", "average", "=mean"}) ? 1 : 0);
   for (const auto& [word, kind] : other_words)
     if (has_word(words, word)) {

@@ -24,6 +24,11 @@ bool has_axis(std::string_view name) {
   return name.find("circumferential") != std::string_view::npos || name.ends_with("_axial");
 }
 
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](char letter) { return letter >= '0' && letter <= '9'; });
+  return text;
+}
+
 class Mapper {
  public:
   Mapper(const data::Csv& csv, const std::vector<ColumnGuess>& columns, const std::string& type,
@@ -136,6 +141,7 @@ class Mapper {
         chosen.emplace_back(name, k);
       }
     along_the_force(chosen);
+    among_several(chosen);
     std::stable_sort(chosen.begin(), chosen.end(), [&](const auto& a, const auto& b) {
       const auto key = [&](const auto& one) {
         return std::pair(columns_[one.second].quantity == "length" ? 1 : 0, one.second);
@@ -194,6 +200,28 @@ class Mapper {
     }
   }
 
+  /// Two actuators, or several specimens side by side: columns of one name, or of names that differ in a number. Which
+  /// of them it is, or whether they have to be added, no file says.
+  void among_several(std::vector<std::pair<std::string, std::size_t>>& chosen) {
+    if (type_ == "biaxial") return;
+    for (auto& [name, k] : chosen) {
+      if (quantity(name)->observable->role == Role::time) continue;
+      std::vector<std::string> names;
+      for (std::size_t other = 0; other < columns_.size(); ++other) {
+        const ColumnGuess &one = columns_[other], &taken = columns_[k];
+        if (one.numeric && one.quantity == taken.quantity && one.rank == taken.rank && one.unit == taken.unit &&
+            without_digits(one.title) == without_digits(taken.title))
+          names.push_back("'" + (one.name.starts_with('#') ? one.name : one.title) + "'");
+      }
+      if (names.size() < 2) continue;
+      k = csv_.column(
+          ask_({fmt::format("Column of the {}: {}; where two actuators move or bear together, make a column "
+                            "of what both do",
+                            name, fmt::join(names, " or ")),
+                fmt::format("--column '{}=COLUMN'", name), columns_[k].name}));
+    }
+  }
+
   /// "E11" is the strain of Green in some files, and in others it is not.
   void ask_strain(std::string& name, const ColumnGuess& column) {
     if (column.quantity != "strain" || !column.measure.empty() || !answers_.strain_measure.empty()) return;
@@ -222,7 +250,11 @@ class Mapper {
   void refuse_gaps() const {
     std::vector<std::string> names;
     for (const ColumnGuess& column : columns_)
-      names.push_back(fmt::format("'{}'{}", column.title, column.kind.empty() ? "" : " (" + column.kind + ")"));
+      names.push_back(fmt::format("'{}'{}", column.title,
+                                  !column.kind.empty() ? " (" + column.kind + ")"
+                                  : column.values.empty()
+                                      ? std::string()
+                                      : fmt::format(" (text such as '{}')", data::excerpt(column.values.back()))));
     bool channel = false;
     for (const Observable& observable : factory_.observables) {
       channel = channel || (observable.role == Role::channel && given_.contains(observable.name));

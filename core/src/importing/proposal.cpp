@@ -15,6 +15,7 @@
 #include "importing/columns.hpp"
 #include "importing/mapping.hpp"
 #include "importing/options.hpp"
+#include "importing/sign.hpp"
 #include "importing/sizes.hpp"
 #include "importing/words.hpp"
 #include "tunica/error.hpp"
@@ -22,20 +23,6 @@
 namespace tunica::importing {
 namespace {
 using From = data::Quantity::Kind;
-
-/// "PA Belly.1" → "PA_Belly_1": names in an experiment file have no dots, slashes or blanks.
-std::string as_name(std::string text) {
-  for (char& letter : text)
-    if (letter == '.' || letter == '/' || letter == '\\' || letter == ' ') letter = '_';
-  if (text.empty() || text.front() == '-') text = "test" + text;
-  return text;
-}
-
-std::string listed(const std::vector<std::string>& values) {
-  std::vector<std::string> shown(values.begin(),
-                                 values.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(values.size(), 8)));
-  return fmt::format("{}{}", fmt::join(shown, ", "), values.size() > shown.size() ? ", …" : "");
-}
 
 template <class Known>
 const auto& registered(const Known& known, const char* kind, const std::string& name) {
@@ -54,7 +41,8 @@ class File {
         answers_(answers),
         ask_(ask),
         notes_(notes),
-        csv_(data::parse_csv(file, data::read_bytes(file), layout_of(answers))),
+        bytes_(data::read_bytes(file)),
+        csv_(data::parse_csv(file, bytes_, layout_of(answers))),
         columns_(guess_columns(csv_)),
         type_(answers.test.empty() ? likely_test(columns_) : answers.test) {
     factory_ = &registered(catalogue.tests(), "test", type_).factory;
@@ -77,6 +65,7 @@ class File {
     if (!units_.empty()) common["units"] = units_;
     add_layout(common, answers_);
     add_compression(common);
+    const bool sign_known = type_ != "uniaxial" || common.contains("compression") || said_.tension;
     const Json where = conditions();
     std::vector<std::pair<std::string, Json>> found;
     for (const std::string& value : values_of_each()) {
@@ -86,6 +75,9 @@ class File {
       add_sizes(data, own);
       add_cycles(data, own);
       add_measure(data);
+      if (const auto question =
+              sign_known ? std::nullopt : question_of_sign(data, csv_, rows(own), factory_->observables))
+        data["compression"] = ask_(*question);
       Json entry = {{"type", type_}};
       const std::string name = as_name(answers_.each.empty() ? file_.stem().string() : value);
       add_options(entry, name);
@@ -101,9 +93,9 @@ class File {
     for (const auto& [column, sign] : answers_.compressions) data["compression"][column] = sign;
     if (!answers_.compressions.empty()) return;
     std::string sign = answers_.compression;
-    if (sign.empty() && compression_)
+    if (sign.empty() && said_.compression)
       sign = ask_({"Sign of the values in compression: positive or negative", "--compression SIGN", "positive"});
-    if (sign == "positive") data["compression"] = sign;
+    if (!sign.empty()) data["compression"] = sign;
     if (sign.empty() && type_ == "uniaxial")
       note(
           "tension counts as positive; of a specimen that is pressed, with positive values, say --compression "
@@ -122,7 +114,8 @@ class File {
     mapped_ = std::move(mapping.columns);
     units_ = std::move(mapping.units);
     measure_ = std::move(mapping.stress_measure);
-    compression_ = mapping.compression || has_any(words_of(file_.stem().string()), {"compres", "stauch"});
+    said_ = words_of_sign(file_, bytes_, csv_, columns_);
+    said_.compression = said_.compression || mapping.compression;
     Json columns = Json::object();
     for (const auto& [name, column] : mapped_)
       if (const auto position = data::column_position(column))
@@ -150,8 +143,7 @@ class File {
       const auto first = std::find_if_not(column.values.begin(), column.values.end(), preconditions);
       where[column.name] = first == column.values.end() ? column.values.front() : *first;
       note(
-          "'{}' has several values ({}); '{}' is taken. Choose with --where '{}=VALUE', or make a test of each "
-          "with "
+          "'{}' has several values ({}); '{}' is taken. Choose with --where '{}=VALUE', or make a test of each with "
           "--each '{}'",
           column.name, listed(column.values), where[column.name].get<std::string>(), column.name, column.name);
     }
@@ -206,6 +198,8 @@ class File {
       specimen["area"] = answers_.area;
     } else if (needs({From::force, From::plate_force}) && !answers_.diameter.empty()) {
       specimen["area"] = circle(answers_.diameter);
+    } else if (needs({From::force, From::plate_force}) && answers_.width.empty() && !table.area.empty()) {
+      specimen["area"] = table.area;
     } else if (needs({From::force, From::plate_force})) {
       size("width", answers_.width, table.width,
            {fmt::format(
@@ -216,18 +210,24 @@ class File {
       size("thickness", answers_.thickness, table.thickness,
            {"Its thickness, with its unit", "--thickness", "1.5 mm", true});
     }
+    if (needs({From::shear_displacement}))
+      size("height", answers_.height, "",
+           {"Height of the block, that is the distance of the plates, with its unit", "--height", "4 mm", true});
     if (needs({From::displacement, From::length})) {
-      const bool known = !answers_.gauge_length.empty() || !table.gauge_length.empty();
+      const std::string& given = answers_.height.empty() ? answers_.gauge_length : answers_.height;
+      const bool known = !given.empty() || !table.gauge_length.empty();
       const auto at_rest = known ? Pairs() : gauges_from_lengths(where);
       if (type_ == "biaxial" && !at_rest.empty() && !at_rest.front().first.empty())
         for (const auto& [direction, gauge] : at_rest) specimen[direction]["gauge_length"] = gauge;
       else
-        size("gauge_length", answers_.gauge_length,
+        size("gauge_length", given,
              !table.gauge_length.empty() ? table.gauge_length
              : at_rest.empty()           ? ""
                                          : at_rest.front().second,
-             {"Gauge length, that is the length at stretch 1, with its unit; or \"preload\"", "--gauge-length", "20 mm",
-              true});
+             {"Gauge length, that is the length at stretch 1, with its unit, or \"preload\"; of a specimen that is "
+              "pressed, "
+              "--height",
+              "--gauge-length", "20 mm", true});
     }
     if (!specimen.empty()) data["specimen"] = specimen;
   }
@@ -354,6 +354,7 @@ class File {
   const Answers& answers_;
   const Ask& ask_;
   std::vector<std::string>& notes_;
+  std::string bytes_;
   data::Csv csv_;
   std::vector<ColumnGuess> columns_;
   std::string type_;
@@ -361,8 +362,8 @@ class File {
   Pairs mapped_;
   Json units_ = Json::object();
   std::string cycle_column_, measure_;
-  std::string direction_;     ///< from the table of specimens
-  bool compression_ = false;  ///< names speak of it
+  std::string direction_;  ///< from the table of specimens
+  SignWords said_;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Answers {
   Pairs columns, units, where;         ///< as in "data"
   std::string each;                    ///< a column: one test for each of its values
   std::string cycle, branch, preload;  ///< as in "data"; "none" = leave out
-  std::string width, thickness, gauge_length, area, diameter, stress_measure;
+  std::string width, thickness, height, gauge_length, area, diameter, stress_measure;
   std::string strain_measure;                        ///< "engineering", "true" or "green"
   std::string compression;                           ///< "positive" or "negative", of all columns
   Pairs compressions;                                ///< column → "positive" or "negative"

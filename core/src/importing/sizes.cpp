@@ -59,15 +59,22 @@ KnownSizes sizes_in_table(const std::filesystem::path& table, const std::string&
                             data::excerpt(row->cells[k]), table.filename().string(), row->line)
               : fmt::format("direction {} from {}, line {}", sizes.direction, table.filename().string(), row->line));
     }
-    std::string* const size = begins_like(column.name, "width")          ? &sizes.width
+    const bool area = begins_like(column.name, "area"), diameter = begins_like(column.name, "diameter");
+    std::string* const size = area || diameter                           ? &sizes.area
+                              : begins_like(column.name, "width")        ? &sizes.width
                               : begins_like(column.name, "thickness")    ? &sizes.thickness
                               : begins_like(column.name, "gauge length") ? &sizes.gauge_length
-                                                                         : nullptr;
+                              : begins_like(column.name, "initial length") || begins_like(column.name, "height")
+                                  ? &sizes.gauge_length
+                                  : nullptr;
     if (size == nullptr || row->cells[k].empty()) continue;
-    const std::string unit = column.unit && measures(*column.unit, "mm") ? *column.unit : "mm";
+    const char* const base = area ? "mm2" : "mm";
+    const std::string unit = column.unit && measures(*column.unit, base) ? *column.unit : base;
     *size = fmt::format("{} {}", csv.number(*row, k, csv.decimal_mark({k})), unit);
-    sizes.sources.push_back(fmt::format("{} {} from {}, line {}{}", column.name, *size, table.filename().string(),
-                                        row->line, column.unit ? "" : "; the table gives no unit, mm is assumed"));
+    if (diameter) *size = circle(*size);
+    sizes.sources.push_back(
+        fmt::format("{} {} from {}, line {}{}", column.name, *size, table.filename().string(), row->line,
+                    column.unit ? "" : fmt::format("; the table gives no unit, {} is assumed", base)));
   }
   return sizes;
 }
@@ -93,8 +100,6 @@ std::optional<double> length_at_rest(const data::Csv& csv, const std::string& le
   return rounded;
 }
 
-namespace {
-
 std::vector<double> numbers_of(const data::Csv& csv, const std::string& column,
                                const std::vector<const data::Csv::Row*>& rows) {
   const std::size_t index = csv.column(column);
@@ -104,8 +109,6 @@ std::vector<double> numbers_of(const data::Csv& csv, const std::string& column,
     if (data::looks_like_number(row->cells[index], decimal == ',')) path.push_back(csv.number(*row, index, decimal));
   return path;
 }
-
-}  // namespace
 
 std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& column,
                                     const std::vector<const data::Csv::Row*>& rows, double rest) {

@@ -5,16 +5,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "data/csv.hpp"
+#include "experiment/json_document.hpp"
 
 /// Sizes of specimens: from a table with one row a specimen, and from the lengths in the file itself; its path.
 namespace tunica::importing {
 
 /// Sizes as quantities with a unit, "26.902 mm"; empty = not known.
 struct KnownSizes {
-  std::string width, thickness, gauge_length;
+  std::string width, thickness, gauge_length, area;
   std::string direction;             ///< "circumferential", "axial" or empty
   std::vector<std::string> sources;  ///< sentences: where each was found
 };
@@ -38,6 +40,10 @@ std::optional<bool> goes_to_and_fro(const data::Csv& csv, const std::string& col
 /// The cycles of a column, whole or begun, from its turning points.
 std::size_t cycles(const data::Csv& csv, const std::string& column, const std::vector<const data::Csv::Row*>& rows,
                    double rest);
+
+/// The numbers of a column, without cells that hold none.
+std::vector<double> numbers_of(const data::Csv& csv, const std::string& column,
+                               const std::vector<const data::Csv::Row*>& rows);
 
 /// The area of a circle as a quantity: "153.938 mm2" of "14 mm".
 std::string circle(const std::string& diameter);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "text/escaped.hpp"
 
 namespace tunica::importing {
@@ -70,6 +73,19 @@ std::vector<std::string> words_of(std::string_view title) {
   }
   if (words.back().empty()) words.pop_back();
   return words;
+}
+
+std::string as_name(std::string text) {
+  for (char& letter : text)
+    if (letter == '.' || letter == '/' || letter == '\\' || letter == ' ') letter = '_';
+  if (text.empty() || text.front() == '-') text = "test" + text;
+  return text;
+}
+
+std::string listed(const std::vector<std::string>& values) {
+  std::vector<std::string> shown(values.begin(),
+                                 values.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(values.size(), 8)));
+  return fmt::format("{}{}", fmt::join(shown, ", "), values.size() > shown.size() ? ", …" : "");
 }
 
 bool has_word(const std::vector<std::string>& words, std::string_view word) {

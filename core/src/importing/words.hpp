@@ -18,6 +18,12 @@ std::string as_utf8(std::string_view text);
 /// "XForce_mN" → x, force, m, n; "E11" → e, 11.
 std::vector<std::string> words_of(std::string_view title);
 
+/// "PA Belly.1" → "PA_Belly_1": names in an experiment file have no dots, slashes or blanks.
+std::string as_name(std::string text);
+
+/// "a, b, c, …": at most eight.
+std::string listed(const std::vector<std::string>& values);
+
 /// Whether a word is there. One of three letters or more may also end another one ("Standardkraft"), one of four may
 /// begin it; after "=" it must stand alone.
 bool has_word(const std::vector<std::string>& words, std::string_view word);
