@@ -59,7 +59,7 @@ assert found({**TUBE, "outer_radius": "0.36 mm"}) == [], "3 % off is how well a 
 only("record_noise", "is 2, which is 200 % of each value. For 2 % write 0.02",
      with_data(noise={"relative": 2, "absolute": "0.1 kPa"}))
 only("record_noise", "Is its unit right?", with_data(noise={"absolute": "1 MPa"}))
-for noise, words in ((2, "for 2 % give 0.02"), (0.02, "")):
+for noise, words in ((2, "Give 0.02 for 2 %"), (0.02, "")):
     _, said = rig.tunica(program, "simulate", write(STRIP), "--model", "m", "--noise", noise, "-o", folder / f"sim{noise}")
     said = " ".join(said.split())
     assert ("% of each value" in said) == bool(words) and words in said, said

@@ -86,7 +86,7 @@ Subject subject_of(const experiment::Experiment& experiment, const plugins::Cata
     throw InputError("--run names a run of a result.json: name that with --parameters FILE");
   constexpr double too_much = 0.5;
   if (request.noise >= too_much)
-    subject.warnings.push_back(fmt::format("a noise of {0:g} is {1:g} % of each value; for {0:g} % give {2:g}",
+    subject.warnings.push_back(fmt::format("a noise of {0:g} is {1:g} % of each value. Give {2:g} for {0:g} %",
                                            request.noise, 100 * request.noise, request.noise / 100));
   const auto& parameters = subject.assembly->layout().parameters;
   if (request.parameters)

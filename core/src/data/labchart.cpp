@@ -58,7 +58,7 @@ bool labchart_as_table(const std::filesystem::path& file, std::string_view text,
     if (lines[line].starts_with(interval_key))
       throw InputError(fmt::format(
           "{}, line {}: a second block of the recording begins here, and each block counts its time from its "
-          "own start. Export one block, or cut the file before this line.",
+          "own start. Take the lines from here on out, or export one block.",
           file.string(), line + 1));
   table.clear();
   for (std::size_t line = 0; line + 1 < first; ++line) table += '\n';

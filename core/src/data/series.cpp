@@ -158,10 +158,10 @@ class Reader {
       std::string reason = error.what();
       while (!reason.empty() && reason.back() == '.') reason.pop_back();
       if (is_plain_number(quantity))
-        throw InputError(
-            fmt::format("{}: {}. '{}' is compared as it is: write \"units\": {{\"{}\": \"1\"}}, and let "
-                        "the prediction be in {}.",
-                        series_.header_place(column), reason, request_.columns[k].first, column.name, column.unit));
+        throw InputError(fmt::format(
+            "{}: {}, and '{}' is compared as it is. Write \"units\": {{\"{}\": \"1\"}}, and let the prediction "
+            "be in {}.",
+            series_.header_place(column), reason, request_.columns[k].first, column.name, column.unit));
       throw InputError(fmt::format(
           "{}: {}. The {} '{}' is in {}: correct the unit in the header.", series_.header_place(column), reason,
           quantity.kind == From::own ? "observable" : "quantity", request_.columns[k].first, quantity.unit));

@@ -135,10 +135,10 @@ void warn_of_idle_keys(const experiment::Experiment& experiment, const Plan& pla
       warnings.push_back(
           {WarningKind::set_up, "\"guide\" changes nothing, as no test of the run is costly: leave it out", run.label});
   if (!experiment.analysis.optimizer.empty() && !experiment.analysis.wanted())
-    warnings.push_back(
-        {WarningKind::set_up, fmt::format("the optimizer '{}' of \"analysis\" changes nothing without refits: ask for "
-                                          "\"profiles\" or \"bootstrap\", or leave it out",
-                                          experiment.analysis.optimizer)});
+    warnings.push_back({WarningKind::set_up,
+                        fmt::format("the optimizer '{}' of \"analysis\" changes nothing without refits: leave it out, "
+                                    "or ask for \"profiles\" or \"bootstrap\"",
+                                    experiment.analysis.optimizer)});
 }
 
 /// Whatever has memory takes rows for the whole loading path, whether or not somebody said that they are.
