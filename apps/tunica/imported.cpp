@@ -211,7 +211,9 @@ Imported import_files(ImportRequest request, const plugins::Catalogue& catalogue
   if (!unanswered.empty()) refuse_unanswered(unanswered);
   execution::write_atomically(imported.file, proposal.experiment.dump(2) + '\n');
   imported.experiment = std::move(proposal.experiment);
-  imported.notes = std::move(proposal.notes);
+  for (std::string& note : proposal.notes)  // several tests of one file say the same
+    if (std::find(imported.notes.begin(), imported.notes.end(), note) == imported.notes.end())
+      imported.notes.push_back(std::move(note));
   check_written(catalogue, imported);
   experiment_file.keep = table_of_both.keep = true;
   return imported;
