@@ -244,8 +244,10 @@ void add_summary(Page& page, const Folder& folder, const Order& order) {
                                : fmt::format("{}", fmt::join(doubts.next, " "))}}});
   }
   if (std::none_of(order.runs().begin(), order.runs().end(), [](const auto& run) { return run.rank > 0; }))
-    page.box("bad", "No run has a result.",
-             {"tunica check EXPERIMENT evaluates the initial point and shows what fails."});
+    page.box(
+        "bad", "No run has a result.",
+        {"tunica check EXPERIMENT evaluates the initial point and shows what fails; where a test starts a program, add "
+         "--run-external."});
 }
 
 }  // namespace tunica::report

@@ -110,7 +110,7 @@ std::vector<Searching> analysed(const std::vector<Member>& members, const Reques
   if (specimens.empty())
     throw InputError(fmt::format(
         "discovery: none of {} specimens can be fitted; the first, '{}': {}. Run `tunica check` on the experiment, "
-        "which shows what fails",
+        "which shows what fails; where a test starts a program, add --run-external",
         found.left_out.size(), found.left_out.front().id, found.left_out.front().reason));
   return specimens;
 }
