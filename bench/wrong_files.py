@@ -28,8 +28,10 @@ from hidden_terms.bases import curves, draw  # noqa: E402
 from hidden_terms.case_files import columns, model_entry, test_entry  # noqa: E402
 from hidden_terms.generate import Spec, make  # noqa: E402
 from hidden_terms.protocol import Curve, channel_slices, observe  # noqa: E402
+from hidden_terms.tubes import inflation  # noqa: E402
 
 DEVELOPMENT_SEED = 301
+UNITS = {"pressure": "kPa", "outer_diameter": "mm", "axial_force": "mN"}
 NOISE = 0.01  # of the range of every channel
 PROGRAM = os.environ.get("TUNICA", "tunica")
 
@@ -39,6 +41,7 @@ class Case:
 
     def __init__(self, base: str, protocol: typing.Sequence[Curve], readings: np.ndarray, random: np.random.Generator):
         self.random = random
+        self.inner: typing.Dict[str, np.ndarray] = {}
         self.base, self.model = base, model_entry(base)
         self.tests: typing.Dict[str, typing.Dict[str, typing.Any]] = {}
         self.tables: typing.Dict[str, typing.Dict[str, np.ndarray]] = {}
@@ -50,6 +53,18 @@ class Case:
             names = [name for name, _ in columns(curve)]
             self.tables[curve.name] = dict(zip(names, [*prescribed, *(readings[slices[k]] for k in own)]))
             self.tests[curve.name] = test_entry(curve, [(1.0, 0.0) for _ in own])
+
+    def add_tubes(self, material: typing.Any) -> None:
+        """Three inflations of one tube, outer diameter and reduced force."""
+        for axial in (1.1, 1.25, 1.4):
+            name, radii = f"tube_{round(100 * axial)}", (3.5, 4.6)
+            rows = inflation(material, radii, axial, np.linspace(1, 16, 12))
+            self.tables[name] = {key: rows[key] for key in ("pressure", "outer_diameter", "axial_force")}
+            self.inner[name] = rows["inner_diameter"]
+            self.tests[name] = {"type": "thick_wall_pressurisation", "inner_radius": radii[0], "outer_radius": radii[1],
+                                "axial_stretch": axial, "data": {
+                                    "file": f"{name}.csv", "order": "loading", "columns": {key: key for key in self.tables[name]},
+                                    "noise": {key: {"absolute": 1.0} for key in ("outer_diameter", "axial_force")}}}
 
     def stretches(self, test: str) -> typing.List[str]:
         return [name for name in self.tables[test] if name.startswith("stretch")]
@@ -63,7 +78,7 @@ class Case:
             for channel, noise in self.tests[name]["data"]["noise"].items():
                 noise["absolute"] = NOISE * float(np.ptp(table[channel]))
                 table[channel] = table[channel] + noise["absolute"] * self.random.standard_normal(len(table[channel]))
-            units = {column: "kPa" if "stress" in column else "-" for column in table}
+            units = {column: UNITS.get(column, "kPa" if "stress" in column else "-") for column in table}
             lines = [",".join(f"{column} [{units[column]}]" for column in table)]
             lines += [",".join(f"{value:.7g}" for value in row) for row in np.column_stack(list(table.values()))]
             (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
@@ -143,6 +158,32 @@ def held_angle(shown: typing.Callable[[float], float]) -> Spoil:
     return spoil
 
 
+def in_tubes(change: typing.Callable[[Case, str], None]) -> Spoil:
+    def spoil(case: Case, tests: typing.List[str]) -> None:
+        for test in tests:
+            change(case, test)
+    return spoil
+
+
+def column_times(name: str, factor: float) -> Spoil:
+    def change(case: Case, test: str) -> None:
+        case.tables[test][name] = case.tables[test][name] * factor
+    return in_tubes(change)
+
+
+def inside(case: Case, test: str) -> None:
+    case.tables[test]["outer_diameter"] = case.inner[test]
+
+
+def as_change(case: Case, test: str) -> None:
+    case.tables[test]["outer_diameter"] = case.tables[test]["outer_diameter"] - 2 * case.tests[test]["outer_radius"]
+
+
+def total_force(case: Case, test: str) -> None:
+    table = case.tables[test]
+    table["axial_force"] = table["axial_force"] + table["pressure"] * np.pi / 4 * case.inner[test]**2
+
+
 class Mistake(typing.NamedTuple):
     name: str
     base: str
@@ -188,10 +229,17 @@ def mistakes() -> typing.List[Mistake]:
         add("angle-other", "angle", held_angle(lambda a: 90 - a), base, [])
         add("angle-radians", "angle", held_angle(np.radians), base, [])
         add("sign-stress", "sign", opposite(False, True), base, strip)
+    tubes = ["tube_110", "tube_125", "tube_140"]
+    for scope in (tubes, tubes[:1]):
+        for name, kind, spoil in (
+                ("tube-inside", "geometry", in_tubes(inside)), ("tube-radius", "geometry", column_times("outer_diameter", 0.5)),
+                ("tube-change", "geometry", in_tubes(as_change)), ("tube-total-force", "geometry", in_tubes(total_force)),
+                ("tube-mmHg", "unit", column_times("pressure", 7.500617)), ("tube-gf", "unit", column_times("axial_force", 1 / 9.80665))):
+            add(name, kind, spoil, "hgo", scope)
     return found
 
 
-def honest(base: str, seed: int, held: bool) -> Case:
+def honest(base: str, seed: int, held: bool, tubes: bool = False) -> Case:
     random = np.random.default_rng([seed, zlib.crc32(base.encode())])
     while True:
         form = draw(base, random)
@@ -202,6 +250,10 @@ def honest(base: str, seed: int, held: bool) -> Case:
         except ArithmeticError:
             continue
     case = Case(base, protocol, clean, random)
+    if tubes:
+        for name in [name for name in case.tests if name.startswith("sheet")]:
+            del case.tests[name], case.tables[name]
+        case.add_tubes(form.material)
     if held:
         case.model["parameters"]["theta"] = {"true": next(p.values["theta"] for p in form.material if "theta" in p.values)}
     return case
@@ -252,7 +304,7 @@ def main() -> int:
     jobs: typing.List[typing.Tuple[pathlib.Path, typing.Optional[Mistake], typing.List[str]]] = []
     for mistake in chosen:
         for k in range(told.draws):
-            case = honest(mistake.base, told.seed + k, mistake.kind == "angle")
+            case = honest(mistake.base, told.seed + k, mistake.kind == "angle", mistake.name.startswith("tube"))
             everything = list(case.tests)
             mistake.spoil(case, mistake.tests or everything)
             folder = told.out / "mistakes" / f"{mistake.name}-{k}"
