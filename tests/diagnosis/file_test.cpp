@@ -97,7 +97,11 @@ class Wall {
 
   [[nodiscard]] Diagnosis diagnose() const {
     folder.write("experiment.json", experiment.dump(2));
-    const auto own = experiment::read_experiment(folder.path() / "experiment.json", testing::catalogue());
+    return diagnose("experiment.json");
+  }
+  /// Another experiment file of the folder.
+  [[nodiscard]] Diagnosis diagnose(const std::string& file) const {
+    const auto own = experiment::read_experiment(folder.path() / file, testing::catalogue());
     diagnosis::Request request = diagnosis::request_of(own);
     request.quick = true;
     return diagnosis::diagnose(own, request, testing::catalogue());
@@ -120,6 +124,7 @@ class Wall {
 
   json experiment;
   std::map<std::string, Table> tables;
+  Folder folder;
 
  private:
   static constexpr std::size_t rows = 14;
@@ -143,8 +148,6 @@ class Wall {
     tables[name] = std::move(table);
     write();
   }
-
-  Folder folder;
 };
 
 /// The mistake is the verdict, or a question beside it.
@@ -174,6 +177,19 @@ TEST(File, NominalStressesReadAsCauchyStressesAreSaidWithWhatMendsIt) {
                               "'sheet_3' are first Piola–Kirchhoff stresses, not Cauchy ones"));
   EXPECT_THAT(said, HasSubstr("\"stress_measure\": \"first_piola_kirchhoff\""));
   EXPECT_THAT(said, Not(HasSubstr("Cause:")));
+}
+
+TEST(File, TheMendedExperimentStandsAsItIsWritten) {
+  Wall wall;
+  wall.measure(2, [](json& truth) { truth["tests"]["sheet_1"]["data"]["stress_measure"] = "second_piola_kirchhoff"; });
+  const Diagnosis found = wall.diagnose();
+  std::vector<std::string> names;
+  for (const auto& [name, text] : diagnosis::mended_files(found, wall.folder.path(), testing::catalogue())) {
+    names.push_back(name);
+    wall.folder.write(name, text);
+  }
+  EXPECT_THAT(names, ::testing::ElementsAre("mended_sheet_1.csv", "mended.json"));
+  EXPECT_EQ(wall.diagnose("mended.json").explanation.verdict, Verdict::nothing_detected);
 }
 
 TEST(File, WithoutTheGroupNothingOfItIsSaid) {

@@ -91,6 +91,8 @@ std::string misfit_line(const std::vector<Misfit>& misfits) {
 std::string standing_words(const Cause& cause, const Explanation& explanation) {
   switch (standing_of(cause, explanation)) {
     case Standing::probable:
+      // A probability compares mechanisms, and says nothing where the file may be the cause.
+      if (explanation.file.standing == FileStanding::near) return "likeliest of the catalogue, if the file is right";
       return fmt::format("probability {:.2f}", cause.probability);
     case Standing::at_bound:
       return "likeliest of the catalogue, but at its bound";
