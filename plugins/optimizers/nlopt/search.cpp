@@ -163,19 +163,75 @@ Search search_by_levels(Problem& problem, std::span<const double> start, const S
   }
 }
 
-/// MLSL on a quadratic penalty until it stalls, then its local algorithm from the best point.
-Search search_in_two_steps(Problem& problem, std::span<const double> start, std::uint64_t seed,
-                           const Settings& settings) {
-  AugmentedLagrangian penalised(problem);
-  Search first = search_globally(penalised, start, seed, settings);
-  const auto from = penalised.best().x.empty() ? std::vector<double>(start.begin(), start.end()) : penalised.best().x;
-  take(penalised.best(), first);
-  if (problem.should_stop() || first.end == Search::End::nothing) return first;
-  Search second = search_locally(problem, from, settings.local, settings);
-  second.evaluated += first.evaluated;
-  if (second.failure.empty()) second.failure = first.failure;
-  if (first.best.better_than(second.best)) second.best = first.best;
-  return second;
+/// A quadratic penalty that remembers where it is low: the lowest evaluated points that lie apart from each other. It
+/// leaves half of the evaluations to who goes on from there: a search may creep along the edge of a penalty for ever.
+class LowPlaces : public AugmentedLagrangian {
+ public:
+  explicit LowPlaces(Problem& problem) : AugmentedLagrangian(problem), last_(problem.budget() / 2) {}
+  struct Place {
+    std::vector<double> x;
+    double value;
+  };
+
+  Status evaluate(std::span<const double> x, double& objective) override {
+    Status status = AugmentedLagrangian::evaluate(x, objective);
+    if (status.ok()) note(x, objective);
+    return status;
+  }
+  Status linearise(std::span<const double> x, double& objective, std::span<double> residuals,
+                   std::span<double> jacobian) override {
+    Status status = AugmentedLagrangian::linearise(x, objective, residuals, jacobian);
+    if (status.ok()) note(x, objective);
+    return status;
+  }
+  [[nodiscard]] bool should_stop() const override { return AugmentedLagrangian::should_stop() || budget() <= last_; }
+  /// From the lowest.
+  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
+
+ private:
+  static constexpr std::size_t most = 20;
+  static constexpr double apart = 0.05;  ///< of the box, in some parameter
+
+  static bool near(std::span<const double> a, std::span<const double> b) {
+    for (std::size_t j = 0; j < a.size(); ++j)
+      if (std::abs(a[j] - b[j]) > apart) return false;
+    return true;
+  }
+  void note(std::span<const double> x, double value) {
+    if (!(places_.size() < most || value < places_.back().value)) return;
+    if (std::ranges::any_of(places_, [&](const Place& one) { return one.value <= value && near(one.x, x); })) return;
+    std::erase_if(places_, [&](const Place& one) { return near(one.x, x); });
+    const auto after = std::ranges::find_if(places_, [value](const Place& one) { return one.value > value; });
+    places_.insert(after, {std::vector<double>(x.begin(), x.end()), value});
+    if (places_.size() > most) places_.pop_back();
+  }
+
+  std::uint64_t last_;  ///< of the budget, which stays
+  std::vector<Place> places_;
+};
+
+/// MLSL on a quadratic penalty until it stalls, then its local algorithm, which meets the constraints, from the best
+/// point and from each place where the penalty is low: the lowest of them need not lead to the constrained optimum.
+Search search_in_two_steps(Problem& problem, std::span<const double> start, const Settings& settings) {
+  LowPlaces penalised(problem);
+  Search search = search_by_levels(penalised, start, settings);
+  take(penalised.best(), search);
+  if (problem.should_stop() || search.end == Search::End::nothing) return search;
+  std::vector<std::vector<double>> starts{search.best.x.empty() ? std::vector<double>(start.begin(), start.end())
+                                                                : search.best.x};
+  for (const LowPlaces::Place& place : penalised.places()) starts.push_back(place.x);
+  for (const auto& from : starts) {
+    if (problem.should_stop()) break;
+    Search local = search_locally(problem, from, settings.local, settings);
+    search.evaluated += local.evaluated;
+    if (search.failure.empty()) search.failure = local.failure;
+    if (search.best.x.empty() || !search.best.better_than(local.best)) {
+      search.best = std::move(local.best);
+      search.end = local.end;
+      search.message = std::move(local.message);
+    }
+  }
+  return search;
 }
 
 }  // namespace
@@ -212,7 +268,7 @@ Search search_globally(Problem& problem, std::span<const double> start, std::uin
   if (algorithm == Algorithm::mlsl && problem.constraint_count() == 0)
     return search_by_levels(problem, start, settings);
   const bool constrained = problem.constraint_count() > 0;
-  if (algorithm == Algorithm::mlsl && constrained) return search_in_two_steps(problem, start, seed, settings);
+  if (algorithm == Algorithm::mlsl && constrained) return search_in_two_steps(problem, start, settings);
   if (algorithm == Algorithm::direct_l && constrained) {
     return follow_multipliers(problem, start, [&](Problem& lagrangian, std::span<const double> from, int /*round*/) {
       return search_globally(lagrangian, from, seed, settings);
