@@ -186,7 +186,10 @@ TEST(Identifiability, LeavesParametersAtBoundsOutAndSaysSo) {
   EXPECT_TRUE(found.parameters[1].identified) << "with p at its bound, q is fixed";
   EXPECT_TRUE(found.valleys.empty());
   ASSERT_EQ(found.sentences().size(), 1u);
-  EXPECT_THAT(found.sentences()[0], testing::StartsWith("p = 0 kPa lies at a bound: widen it"));
+  EXPECT_THAT(found.sentences()[0],
+              testing::StartsWith("p = 0 kPa lies at the natural end of its range: there is nothing to widen"));
+  EXPECT_THAT(identify(bench, {10, 1, 2}).sentences(),
+              testing::Contains(testing::StartsWith("p = 10 kPa lies at a bound: widen it")));
   EXPECT_TRUE(identify(bench, {0, 0, 10}).singular_values.empty()) << "nothing is left inside";
 }
 

@@ -180,6 +180,9 @@ Status identify(const assembly::Assembly& assembly, std::span<const double> free
     at_bound[j] = unit[j] <= on_bound || unit[j] >= 1 - on_bound;
     found.parameters.push_back({parameters[j].name, parameters[j].unit, free[j]});
     found.parameters.back().at_bound = at_bound[j];
+    const auto kind = parameters[j].kind_of(unit[j] > 0.5);
+    found.parameters.back().natural = at_bound[j] && (kind == assembly::FreeParameter::Bound::symmetry ||
+                                                      kind == assembly::FreeParameter::Bound::physical);
   }
   Matrix rows, curves;
   assembly::Whitening noise;

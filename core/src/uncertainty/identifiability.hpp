@@ -21,6 +21,7 @@ struct ParameterInterval {
   double lower = std::numeric_limits<double>::quiet_NaN(), upper = std::numeric_limits<double>::quiet_NaN();
   bool straight = true;   ///< the linearised interval can be believed, see straightness.hpp; else a profile is better
   bool at_bound = false;  ///< within 1e-6 of the range
+  bool natural = false;   ///< of a bound beyond which there is nothing: a symmetry, or a physical end
   bool held = false;      ///< active constraints leave it no room: what its value is worth is not for the data to say
   bool identified = false;
 };

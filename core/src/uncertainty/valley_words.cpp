@@ -94,16 +94,25 @@ std::string in_words(const Valley& valley, const std::vector<ParameterInterval>&
 }
 
 std::string bounds_in_words(const std::vector<ParameterInterval>& parameters) {
-  std::vector<std::string> names;
-  for (const ParameterInterval& parameter : parameters) {
-    if (!parameter.at_bound) continue;
-    names.push_back(fmt::format("{} = {:.6g}{}", parameter.name, parameter.value, text::unit_suffix(parameter.unit)));
+  std::string text;
+  for (const bool natural : {false, true}) {
+    std::vector<std::string> names;
+    for (const ParameterInterval& parameter : parameters)
+      if (parameter.at_bound && parameter.natural == natural)
+        names.push_back(
+            fmt::format("{} = {:.6g}{}", parameter.name, parameter.value, text::unit_suffix(parameter.unit)));
+    if (names.empty()) continue;
+    if (!text.empty()) text += ' ';
+    const bool single = names.size() == 1;
+    if (natural)
+      text += fmt::format("{} {} at the natural end of {} range: there is nothing to widen, and no interval.",
+                          enumerate(names), single ? "lies" : "lie", single ? "its" : "their");
+    else
+      text += fmt::format("{} {} at {}: widen {} where that is physical, or read the value{} as imposed, not found.",
+                          enumerate(names), single ? "lies" : "lie", single ? "a bound" : "bounds",
+                          single ? "it" : "them", single ? "" : "s");
   }
-  if (names.empty()) return "";
-  const bool single = names.size() == 1;
-  return fmt::format("{} {} at {}: widen {} where that is physical, or read the value{} as imposed, not found.",
-                     enumerate(names), single ? "lies" : "lie", single ? "a bound" : "bounds", single ? "it" : "them",
-                     single ? "" : "s");
+  return text;
 }
 
 }  // namespace tunica::uncertainty
