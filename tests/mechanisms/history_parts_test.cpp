@@ -46,7 +46,7 @@ TEST(MechanismsOfParts, RefuseAModelWithMemoryAndSayWhatToDo) {
 
 TEST(MechanismsOfParts, AddToAModelWithMemoryInsteadOfRebuildingIt) {
   const auto soft = wrapped("viscoelasticity", model("neo_hooke"));
-  const auto added = wrapped("third_fibre_family", wrapped("viscoelasticity", model("neo_hooke")));
+  const auto added = wrapped("circumferential_fibres", wrapped("viscoelasticity", model("neo_hooke")));
   EXPECT_EQ(added->describe().history_size, soft->describe().history_size) << "the memory is still there";
 }
 
