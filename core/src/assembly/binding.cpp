@@ -34,8 +34,9 @@ FreeParameter effective(const Slot& slot) {
   if (const ParameterSetting* setting = slot.setting) {
     free.min = setting->min.value_or(own.min);
     free.max = setting->max.value_or(own.max);
-    free.own_min = setting->min.has_value();
-    free.own_max = setting->max.has_value();
+    // The reader fills defaults in, and so does input.json: what differs from them is somebody's choice.
+    free.own_min = setting->min && *setting->min != slot.declaration.min;
+    free.own_max = setting->max && *setting->max != slot.declaration.max;
     free.scale = setting->scale.value_or(own.scale);
     free.prior = setting->prior;
     if (setting->share) free.name = *setting->share;
