@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tunica diagnose` leaves behind, and what it does not.
 #include <chrono>
+#include <cmath>
+#include <random>
+#include <regex>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -71,4 +75,70 @@ TEST(Diagnose, LeavesNoFolderAfterCtrlC) {
               AllOf(HasSubstr("interrupted; an unfinished diagnosis leaves nothing behind"), Not(HasSubstr("\033"))));
   EXPECT_EQ(ended.out, "");
   EXPECT_FALSE(std::filesystem::exists(bench.path("results")));
+}
+
+/// White noise of 1.09 times the stated size, 1000 rows (seed 11): χ² contradicts the statement, and no shape does.
+TEST(Diagnose, JudgesAMisfitInTheWordsOfARun) {
+  trial::Bench bench;
+  std::mt19937_64 random(11);
+  const auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  std::vector<double> noise(1000);
+  double squares = 0;
+  for (double& one : noise) {
+    one = std::sqrt(-2 * std::log(uniform())) * std::cos(2 * M_PI * uniform());
+    squares += one * one / 1000;
+  }
+  std::string rows = "stretch [1],stress [kPa]\n";
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    const double l = 1.01 + 0.0004 * static_cast<double>(k);
+    rows += fmt::format("{},{}\n", l, 30 * (l * l - 1 / l) + 0.3 * noise[k] * std::sqrt(1.18 / squares));
+  }
+  bench.folder.write("circ.csv", rows);
+  bench.experiment["tests"].erase("axial");
+  bench.experiment["tests"]["circ"]["data"]["noise"] = {{"absolute", 0.3}};
+  bench.experiment["objective"] = "standardised_quadratic";
+  bench.experiment["runs"] = {{{"model", "neo"}, {"optimizer", "lm"}}};
+  const std::string words = "times the stated noise: a small misfit, and a real one (chance ";
+  const auto plain = [](std::string text) { return std::regex_replace(text, std::regex("\\s+"), " "); };
+
+  ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "run"}).code, 0);
+  const auto judged = bench.result("run")["runs"][0]["best"]["misfit"];
+  EXPECT_TRUE(judged["small_but_real"].get<bool>());
+  const auto ended = bench.tunica({"diagnose", "experiment.json", "--quick", "-o", "diagnosis"});
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_THAT(plain(ended.out),
+              HasSubstr("NOTHING DETECTED: no mechanism and no smooth shape stands out, and yet χ²/ν"));
+  EXPECT_THAT(plain(ended.out), HasSubstr(words));
+  const auto diagnosis = bench.result("diagnosis")["diagnosis"];
+  EXPECT_EQ(diagnosis["reason_codes"], nlohmann::json({"residuals_like_noise", "rows_miss_the_model"}));
+  for (const char* key : {"chi_square", "degrees_of_freedom", "chance"})
+    EXPECT_NEAR(diagnosis["base"]["misfit"][key].get<double>(), judged[key].get<double>(),
+                1e-3 * judged[key].get<double>())
+        << key;
+  EXPECT_THAT(bench.text("diagnosis/report.html"), HasSubstr("Nothing detected: no mechanism and no smooth shape"));
+}
+
+TEST(Run, SendsNoConstrainedFitToADiagnosisThatDropsTheConstraint) {
+  trial::Bench bench;
+  bench.experiment["runs"] = {{{"model", "gho"}, {"optimizer", "lm"}},
+                              {{"model", "gho"}, {"optimizer", "lm"}, {"constraints", nlohmann::json::array()}}};
+  bench.experiment["constraints"] = {{{"type", "transverse_stability"}, {"h", 0.7}}};
+  for (auto& test : bench.experiment["tests"]) test["data"]["noise"] = {{"absolute", 0.05}};
+  bench.tunica({"run", "experiment.json", "-o", "out"});
+  std::size_t constrained = 0, free = 0;
+  for (const auto& warning : bench.result("out")["warning_details"]) {
+    if (warning["kind"] != "noise_contradicted") continue;
+    const std::string said = warning["sentence"];
+    if (warning["run"] == "gho/lm") {
+      ++constrained;
+      EXPECT_THAT(said,
+                  HasSubstr("Fit once without the constraints (h = 0.7), \"constraints\": []. What misfit is left "
+                            "then is for tunica diagnose experiment.json to explain, which drops them"));
+    } else {
+      ++free;
+      EXPECT_THAT(said, HasSubstr(". Run tunica diagnose experiment.json"));
+    }
+  }
+  EXPECT_EQ(constrained, 1u);
+  EXPECT_EQ(free, 1u);
 }

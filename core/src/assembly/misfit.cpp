@@ -4,20 +4,45 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "numerics/distributions.hpp"
 
 namespace tunica::assembly {
 
 double Misfit::times() const { return judged() ? std::sqrt(per_freedom()) : 0; }
 
+std::string in_words(const Misfit& misfit, const char* noise) {
+  std::string judgement;
+  if (misfit.contradicts())
+    judgement = ": the model misses the data";
+  else if (misfit.small_but_real())
+    judgement = fmt::format(": a small misfit, and a real one (chance {:.1g})", misfit.chance);
+  else if (misfit.falls_short())
+    judgement = ": the noise or a unit is wrong";
+  return fmt::format("χ²/ν {:.3g} (χ² {:.4g}, ν {:.4g}), {:.2g} times the {} noise{}", misfit.per_freedom(),
+                     misfit.chi_square, misfit.freedom, misfit.times(), noise, judgement);
+}
+
+Misfit misfit_of(double chi_square, std::size_t rows, std::size_t fitted, std::size_t parameters,
+                 double noise_freedom) {
+  Misfit found{chi_square, rows, 0, 1, noise_freedom};
+  if (rows == 0) return found;
+  found.freedom = static_cast<double>(rows) * (1 - static_cast<double>(parameters) / static_cast<double>(fitted));
+  if (!found.judged() || !std::isfinite(chi_square)) return found;
+  found.chance = noise_freedom > 0 ? numerics::f_above(found.per_freedom(), found.freedom, noise_freedom)
+                                   : numerics::chi_squared_above(chi_square, found.freedom);
+  return found;
+}
+
 Misfit misfit(const Assembly& assembly, NoiseKind kind, std::span<const double> predictions,
               std::span<const double> measured) {
   Misfit found;
-  double fitted = 0;
+  std::size_t fitted = 0;
   for (const MeasuredChannel& view : assembly.layout().channels) {
     if (!(view.weight > 0)) continue;
     const auto count = static_cast<std::size_t>(std::count(view.fitted.begin(), view.fitted.end(), true));
-    fitted += static_cast<double>(count);
+    fitted += count;
     const ChannelNoise& noise = view.sigma;
     if (count == 0 || !noise.known() || noise.stated() != (kind == NoiseKind::stated)) continue;
     found.rows += count;
@@ -33,13 +58,7 @@ Misfit misfit(const Assembly& assembly, NoiseKind kind, std::span<const double> 
       ++k;
     }
   }
-  if (found.rows == 0) return found;
-  const double parameters = static_cast<double>(assembly.layout().parameters.size());
-  found.freedom = static_cast<double>(found.rows) * (1 - parameters / fitted);
-  if (!found.judged() || !std::isfinite(found.chi_square)) return found;
-  found.chance = found.noise_freedom > 0 ? numerics::f_above(found.per_freedom(), found.freedom, found.noise_freedom)
-                                         : numerics::chi_squared_above(found.chi_square, found.freedom);
-  return found;
+  return misfit_of(found.chi_square, found.rows, fitted, assembly.layout().parameters.size(), found.noise_freedom);
 }
 
 }  // namespace tunica::assembly

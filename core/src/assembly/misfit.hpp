@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "assembly/assembly.hpp"
 
@@ -50,6 +51,14 @@ struct Misfit {
     return judged() && noise_freedom == 0 && 1 - chance < misfit_false_alarm && per_freedom() < little_misfit;
   }
 };
+
+/// "χ²/ν 8.97 (χ² 4538, ν 506), 3 times the stated noise: the model misses the data". `noise`: "stated", "estimated".
+/// Runs, diagnoses and their tables judge a misfit in these words.
+std::string in_words(const Misfit& misfit, const char* noise);
+
+/// The misfit of rows whose χ² is known: `fitted` rows carry all `parameters`.
+Misfit misfit_of(double chi_square, std::size_t rows, std::size_t fitted, std::size_t parameters,
+                 double noise_freedom = 0);
 
 /// Whose rows: channels with stated noise, or those where it is estimated from the data. Neither: assumed σ.
 enum class NoiseKind { stated, estimated };

@@ -105,13 +105,7 @@ const char* word(Information::Noise noise) {
   return "";
 }
 
-json misfit(const std::optional<assembly::Misfit>& found) {
-  if (!found) return nullptr;
-  return {{"chi_square", found->chi_square},           {"rows", found->rows},
-          {"degrees_of_freedom", found->freedom},      {"reduced_chi_square", found->per_freedom()},
-          {"times_the_noise", found->times()},         {"chance", found->chance},
-          {"contradicts_noise", found->contradicts()}, {"small_but_real", found->small_but_real()}};
-}
+json misfit(const std::optional<assembly::Misfit>& found) { return found ? misfit_json(*found) : json(nullptr); }
 
 json noise(const std::vector<NoiseOf>& channels) {
   json all = json::array();
@@ -239,6 +233,8 @@ json run_json(const RunSummary& run) {
       {"optimizer", run.optimizer},
       {"tests", run.tests},
       {"objective_type", run.objective_type},
+      {"differs_by", run.differs},
+      {"paired_with", run.paired_starts ? json(run.paired_with) : json(nullptr)},
       {"realisations", run.realisations},
       {"best", run.has_result ? best(run) : json(nullptr)},
       {"fixed", std::move(fixed)},
@@ -264,6 +260,13 @@ json run_json(const RunSummary& run) {
 }
 
 }  // namespace
+
+json misfit_json(const assembly::Misfit& misfit) {
+  return {{"chi_square", misfit.chi_square},           {"rows", misfit.rows},
+          {"degrees_of_freedom", misfit.freedom},      {"reduced_chi_square", misfit.per_freedom()},
+          {"times_the_noise", misfit.times()},         {"chance", misfit.chance},
+          {"contradicts_noise", misfit.contradicts()}, {"small_but_real", misfit.small_but_real()}};
+}
 
 json warning_json(const execution::Warning& warning) {
   return {{"kind", execution::code(warning.kind)},
@@ -298,6 +301,7 @@ std::string result_json(const Summary& summary, const Provenance& provenance) {
                        {"delta_aicc", or_null(entry.delta_aicc)},
                        {"successes", run.successes},
                        {"expected_running_time", or_null(run.expected_running_time)},
+                       {"cost", or_null(run.cost())},
                        {"failures", run.failures},
                        {"reason", reason_of_rank(run)}});
   }

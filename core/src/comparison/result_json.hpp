@@ -17,6 +17,9 @@ std::string result_json(const Summary& summary, const Provenance& provenance);
 /// One entry of `warning_details`.
 nlohmann::ordered_json warning_json(const execution::Warning& warning);
 
+/// `misfit` of a run's best point, and of the base of a diagnosis.
+nlohmann::ordered_json misfit_json(const assembly::Misfit& misfit);
+
 /// `provenance` of result.json.
 nlohmann::ordered_json provenance_json(const Provenance& provenance);
 

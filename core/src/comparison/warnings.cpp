@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "comparison/ranking.hpp"
+#include "comparison/run_differences.hpp"
 #include "text/lists.hpp"
 #include "text/units.hpp"
 
@@ -37,6 +38,17 @@ const RunSummary* lower_run(const execution::Plan& plan, const std::vector<RunSu
   return lowest;
 }
 
+/// A diagnosis fits without constraints: what they alone do to a fit is not for it to explain.
+std::string diagnosis_advised(const execution::Plan& plan, std::size_t own) {
+  const std::string command = fmt::format("tunica diagnose {}", plan.experiment->file.filename().string());
+  const auto& entry = *plan.runs[own].entry;
+  if (entry.constraints.empty()) return "Run " + command;
+  return fmt::format(
+      "Fit once without the constraints ({}), \"constraints\": []. What misfit is left then is for {} "
+      "to explain, which drops them",
+      constraints_in_words(entry), command);
+}
+
 void warn_of_contradicted_noise(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own,
                                 Warnings& warnings) {
   const RunSummary& run = runs[own];
@@ -52,10 +64,8 @@ void warn_of_contradicted_noise(const execution::Plan& plan, const std::vector<R
   }
   warnings.push_back(
       {WarningKind::noise_contradicted,
-       fmt::format(
-           "the model misses the data by {:.2g} times the noise: χ² is {:.4g} on {:.4g} degrees of freedom. Run "
-           "tunica diagnose {}",
-           run.misfit->times(), run.misfit->chi_square, run.misfit->freedom, plan.experiment->file.filename().string()),
+       fmt::format("the model misses the data by {:.2g} times the noise: χ² is {:.4g} on {:.4g} degrees of freedom. {}",
+                   run.misfit->times(), run.misfit->chi_square, run.misfit->freedom, diagnosis_advised(plan, own)),
        run.label});
 }
 
@@ -73,7 +83,9 @@ void warn_of_large_noise(const RunSummary& run, Warnings& warnings) {
 }
 
 /// Many rows find a misfit that no eye sees; it says how small it is, and what it may do to parameters all the same.
-void warn_of_small_misfit(const RunSummary& run, Warnings& warnings) {
+void warn_of_small_misfit(const execution::Plan& plan, const std::vector<RunSummary>& runs, std::size_t own,
+                          Warnings& warnings) {
+  const RunSummary& run = runs[own];
   for (const auto* misfit :
        {run.misfit ? &*run.misfit : nullptr, run.misfit_estimated ? &*run.misfit_estimated : nullptr}) {
     if (!misfit || !misfit->small_but_real() || !run.deviation) continue;
@@ -86,11 +98,10 @@ void warn_of_small_misfit(const RunSummary& run, Warnings& warnings) {
          fmt::format(
              "the model misses the data by a little, and really: χ²/ν is {:.3g}, which noise alone reaches with "
              "a chance of {:.1g}. The misfit is about {:.2g}{}{} in '{}' of test '{}'. Intervals count noise "
-             "alone: if all of the misfit looks like one parameter, that one is off by {:.2g} half-widths. Run "
-             "tunica diagnose",
+             "alone: if all of the misfit looks like one parameter, that one is off by {:.2g} half-widths. {}",
              misfit->per_freedom(), misfit->chance, size, text::unit_suffix(worst.unit),
              range > 0 ? fmt::format(", {:.2g} % of the range,", 100 * size / range) : std::string(), worst.channel,
-             worst.test, misfit->half_widths()),
+             worst.test, misfit->half_widths(), diagnosis_advised(plan, own)),
          run.label,
          {worst.test, worst.channel}});
     return;
@@ -331,8 +342,8 @@ std::vector<execution::Warning> warnings_of(const execution::Plan& plan, const s
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_scale(run, warnings);
   for (std::size_t run = 0; run < runs.size(); ++run) warn_of_contradicted_noise(plan, runs, run, warnings);
-  for (const auto& run : runs)
-    if (run.status.ok()) warn_of_small_misfit(run, warnings);
+  for (std::size_t run = 0; run < runs.size(); ++run)
+    if (runs[run].status.ok()) warn_of_small_misfit(plan, runs, run, warnings);
   for (auto& warning : preferences(runs, ranking)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     if (run.status.ok()) warn_of_instability(run, warnings);  // of the others the constraint says it

@@ -28,6 +28,8 @@ const char* code_of(ReasonKind kind) {
   switch (kind) {
     case ReasonKind::residuals_like_noise:
       return "residuals_like_noise";
+    case ReasonKind::rows_miss_the_model:
+      return "rows_miss_the_model";
     case ReasonKind::terms_discovered:
       return "terms_discovered";
     case ReasonKind::no_trace:

@@ -24,6 +24,7 @@ const char* code_of(Verdict verdict);
 /// Why the verdict is what it is.
 enum class ReasonKind {
   residuals_like_noise,
+  rows_miss_the_model,
   no_trace,
   no_trace_of_requested,
   no_fit,

@@ -30,6 +30,8 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
 std::string verdict_words(const Json& diagnosis) {
   std::string verdict = word(diagnosis, "verdict");
   const std::string reasons = text::joined(words(list(diagnosis, "reasons")));
+  if (verdict == "nothing_detected" && list(diagnosis, "reasons").size() > 1)
+    return fmt::format("Nothing detected: {}.", words(list(diagnosis, "reasons")).back());
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));

@@ -82,8 +82,19 @@ struct Doubts {
   }
 };
 
+/// A diagnosis fits without constraints: what they alone do to a fit is not for it to explain.
+std::string diagnosis_advised(const Json& best) {
+  const std::string imposed = word(member(best, "stability"), "imposed");
+  if (imposed.empty()) return "Run tunica diagnose EXPERIMENT.";
+  return fmt::format(
+      "Fit once without the constraints ({}). What misfit is left then is for tunica diagnose EXPERIMENT "
+      "to explain, which drops them.",
+      imposed);
+}
+
 /// χ² against stated noise or, without, against what smooth shapes leave of the data; without either R².
 void fit_in_doubt(const Json& best, Doubts& doubts) {
+  const std::string diagnose = diagnosis_advised(best);
   constexpr double poor = 0.95;
   const Json &stated = member(best, "misfit"), &estimated = member(best, "misfit_estimated");
   const bool known = stated.is_object();
@@ -94,14 +105,13 @@ void fit_in_doubt(const Json& best, Doubts& doubts) {
                              figure(number(misfit, "times_the_noise")),
                              known ? "noise" : "noise that is estimated from the rows",
                              figure(number(misfit, "reduced_chi_square"))),
-                 known ? "Run tunica diagnose EXPERIMENT."
-                       : "Run tunica diagnose EXPERIMENT, and state the noise where it is known.");
+                 known ? diagnose : diagnose + " State the noise where it is known.");
     else if (member(misfit, "small_but_real") == true)
       doubts.add(
           fmt::format("the model misses the data by a little, and really (χ²/ν {}, chance {}): parameters may be "
                       "off by more than their intervals",
                       figure(number(misfit, "reduced_chi_square")), figure(number(misfit, "chance"))),
-          "Run tunica diagnose EXPERIMENT.");
+          diagnose);
     return;
   }
   double worst = 1;
@@ -110,8 +120,7 @@ void fit_in_doubt(const Json& best, Doubts& doubts) {
     for (const Json& channel : list(fit, "channels"))
       if (const double r2 = number(channel, "r2"); member(channel, "held_out") != true && r2 < worst) worst = r2;
   if (worst < poor)
-    doubts.add(fmt::format("R² is only {} in the worst curve", figure(worst)),
-               "Run tunica diagnose EXPERIMENT, or take another model.");
+    doubts.add(fmt::format("R² is only {} in the worst curve", figure(worst)), diagnose + " Or take another model.");
 }
 
 void parameters_in_doubt(const Json& best, Doubts& doubts) {

@@ -27,4 +27,16 @@ Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross)
   return restated(inquiry, evidence, encompassing_noise(evidence, evidence.fit, {}));
 }
 
+assembly::Misfit stated_misfit(const Evidence& evidence) {
+  double chi_square = 0;
+  std::size_t rows = 0;
+  for (const Curve& curve : evidence.curves) {
+    if (curve.noise.kind != NoiseSource::Kind::stated) continue;
+    chi_square += evidence.fit.residuals.segment(curve.first, curve.count).squaredNorm();
+    rows += static_cast<std::size_t>(curve.count);
+  }
+  return assembly::misfit_of(chi_square, rows, static_cast<std::size_t>(evidence.fit.residuals.size()),
+                             evidence.base->layout().parameters.size());
+}
+
 }  // namespace tunica::diagnosis

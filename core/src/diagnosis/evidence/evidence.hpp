@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "assembly/misfit.hpp"
 #include "diagnosis/evidence/curves.hpp"
 #include "diagnosis/evidence/least_squares.hpp"
 #include "diagnosis/evidence/noise_statement.hpp"
@@ -39,5 +40,8 @@ struct Evidence {
 /// `gross`: rows to leave out. Throws InputError where data or names do not fit, BaseFitFailure where the base model
 /// cannot be evaluated.
 Evidence evidence_of(const Inquiry& inquiry, const std::vector<GrossRow>& gross);
+
+/// How far the base fit misses the rows whose noise is stated, judged as a run judges it; of no rows where none is.
+assembly::Misfit stated_misfit(const Evidence& evidence);
 
 }  // namespace tunica::diagnosis

@@ -18,6 +18,12 @@ Explanation noise_alone(const Analysis& analysis) {
   Explanation found;
   found.reasons.push_back(
       {ReasonKind::residuals_like_noise, fmt::format("the residuals could be noise (p = {:.2g})", analysis.alarm.p())});
+  // The alarm looks for causes and smooth shapes; rows can scatter too much without either.
+  const assembly::Misfit misfit = stated_misfit(analysis.evidence);
+  if (misfit.contradicts() || misfit.small_but_real())
+    found.reasons.push_back(
+        {ReasonKind::rows_miss_the_model,
+         fmt::format("no mechanism and no smooth shape stands out, and yet {}", assembly::in_words(misfit, "stated"))});
   return found;
 }
 

@@ -189,7 +189,9 @@ json base_json(const Evidence& evidence) {
     const auto& parameter = evidence.base->layout().parameters[j];
     parameters[parameter.name] = {{"value", evidence.fit.free[j]}, {"unit", parameter.unit}};
   }
+  const assembly::Misfit misfit = stated_misfit(evidence);
   return {{"model", evidence.base->models().name(0)},
+          {"misfit", misfit.judged() ? comparison::misfit_json(misfit) : json(nullptr)},
           {"parameters", std::move(parameters)},
           {"squares", evidence.fit.chi2},
           {"rows", evidence.fit.residuals.size()}};

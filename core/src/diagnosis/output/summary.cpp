@@ -38,6 +38,7 @@ std::string verdict_line(const Diagnosis& d) {
   const Claim& claim = explanation.claim;
   switch (explanation.verdict) {
     case Verdict::nothing_detected:
+      if (explanation.reasons.size() > 1) return "NOTHING DETECTED: " + explanation.reasons.back().text;
       return "NOTHING DETECTED: the model describes these data to within their noise";
     case Verdict::named: {
       std::vector<std::string> ids;
@@ -303,6 +304,8 @@ text::StyledText summary(const Diagnosis& d) {
   };
   line("Alarm:    ", alarm_line(d.analysis));
   line("File:     ", file_line(explanation.file));
+  if (const assembly::Misfit misfit = stated_misfit(d.analysis.evidence); wrong && misfit.judged())
+    line("Misfit:   ", assembly::in_words(misfit, "stated"));
   if (wrong) line("Wrong:    ", misfit_line(explanation.misfit));
   for (std::size_t k = 0; k < std::min(claim.named, claim.causes.size()); ++k)
     line("Cause:    ", cause_line(claim.causes[k], explanation));
