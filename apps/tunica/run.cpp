@@ -62,11 +62,12 @@ std::string command(const GlobalOptions& global, const RunOptions& options, cons
                     const std::vector<std::string>& how) {
   std::vector<std::string> words{"tunica", "run", options.file, "-o", directory.string()};
   words.insert(words.end(), how.begin(), how.end());
-  const auto& [seed, profiles, draws, kept] = options.overrides;
+  const auto& [seed, profiles, draws, kept, paired] = options.overrides;
   if (seed) words.insert(words.end(), {"--seed", fmt::format("{}", *seed)});
   if (!profiles.empty()) words.insert(words.end(), {"--profiles", fmt::format("{}", fmt::join(profiles, ","))});
   if (draws) words.insert(words.end(), {"--bootstrap", fmt::format("{}", *draws)});
   if (!kept.empty()) words.insert(words.end(), {"--keep-evaluations", kept});
+  if (paired) words.emplace_back("--paired-starts");
   if (!options.certificate) words.emplace_back("--no-certificate");
   if (options.threads != RunOptions().threads) words.insert(words.end(), {"-j", std::to_string(options.threads)});
   const auto plugins = plugin_words(global);
@@ -219,6 +220,8 @@ void add_run(CLI::App& app, GlobalOptions& global, Action& action) {
   verb->add_option("--seed", options->overrides.seed, "Root seed in place of the one in the file")
       ->check(seed_number())
       ->type_name("S");
+  verb->add_flag("--paired-starts", options->overrides.paired_starts,
+                 "Begin runs of the same parameters and bounds at the same points, to compare optimizers");
   auto* resume = verb->add_flag("--resume", options->resume, "Resume an interrupted run; the result is identical");
   auto* shard = verb->add_option("--shard", options->share,
                                  "Only part k of N of the realisations, as 2/7; killed and repeated at will")

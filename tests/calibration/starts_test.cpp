@@ -277,5 +277,32 @@ TEST_F(StartsOnALine, NestOneAfterTheOther) {
   EXPECT_EQ(seeds.size(), 6u);
 }
 
+TEST_F(StartsOnALine, PairedSearchesBeginAtPointsThatTheSeedOfAnOptimiserDoesNotChange) {
+  const assembly::Assembly assembly = bench_.assemble();
+  const auto begun = [&](std::uint64_t seed, std::optional<std::uint64_t> paired, std::size_t count) {
+    CalibrationProblem::Settings settings;
+    settings.seed = seed;
+    settings.paired_starts = paired;
+    CalibrationProblem problem(assembly, settings);
+    std::vector<std::vector<double>> starts(count), later(count);
+    const auto note = [](auto& into) {
+      return [&into](std::size_t k, Problem& child) { into[k].assign(child.start().begin(), child.start().end()); };
+    };
+    problem.for_each_start(count, note(starts));
+    problem.for_each_start(count, note(later));
+    for (const auto& start : later)
+      EXPECT_TRUE(std::ranges::equal(start, problem.start())) << "only the first searches begin anew";
+    return starts;
+  };
+  const auto one = begun(11, 5, 4), other = begun(12, 5, 7), elsewhere = begun(11, 6, 4), free = begun(11, {}, 4);
+  EXPECT_EQ(one[0], free[0]) << "the first begins at the initial values";
+  EXPECT_EQ(free[3], free[0]);
+  for (std::size_t k = 1; k < 4; ++k) {
+    EXPECT_EQ(one[k], other[k]) << k;
+    EXPECT_NE(one[k], elsewhere[k]) << k;
+    EXPECT_NE(one[k], one[k - 1]) << k;
+  }
+}
+
 }  // namespace
 }  // namespace tunica

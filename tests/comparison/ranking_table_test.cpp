@@ -66,6 +66,7 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   good.expected_running_time = 123456789;
   good.seconds = 123456;
   good.evaluations = 34567;
+  good.jacobians = 20000;
   good.certificate.sentence = "no better neighbour";
   RunSummary broken = good;
   broken.label = "b/es";
@@ -73,8 +74,9 @@ TEST(RankingTable, KeepsLongLabelsAndTheReasonsOfRunsThatDoNotCount) {
   summary.runs = {good, broken};
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
   const auto text = ranking_table(summary).plain();
-  EXPECT_THAT(text, HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                 1.2346e-21   19/20 "
-                              "1234567 1.23e+08   34567      0 123456      0\n"));
+  EXPECT_THAT(text,
+              HasSubstr("\n 1 a_model_with_a_long_name/and_its_optimizer\n                        1.2346e-21   19/20 "
+                        "1.2e+08   34567   20000 123456      0\n"));
   EXPECT_THAT(text, HasSubstr("12.3\n     no feasible point; least violation 0.3: unstable at stretch 1.2\n"));
   EXPECT_THAT(text, HasSubstr("ΔAICc"));
   EXPECT_THAT(text, HasSubstr("  optimum: no better neighbour\n"));
@@ -179,7 +181,7 @@ TEST(RankingTable, ShowsTheMisfitOverStatedNoiseAndInWhatItDiffersFromNone) {
   summary.runs = {run};
   summary.ranking = {{0, 1, {}}};
   const auto text = ranking_table(summary).plain();
-  EXPECT_THAT(text, HasSubstr("failed    sec   χ²/ν\n"));
+  EXPECT_THAT(text, HasSubstr("   Jac    sec   χ²/ν\n"));
   EXPECT_THAT(text, HasSubstr("   8.97\n"));
   EXPECT_THAT(text, HasSubstr("\n  misfit: χ²/ν 8.97 (χ² 4538, ν 506), 3 times the stated noise: the model misses"));
   EXPECT_THAT(text, HasSubstr("\n  - a note\n"));
@@ -187,6 +189,43 @@ TEST(RankingTable, ShowsTheMisfitOverStatedNoiseAndInWhatItDiffersFromNone) {
   EXPECT_THAT(ranking_table(summary).plain(), Not(HasSubstr("the model misses")));
   summary.runs[0].misfit.reset();
   EXPECT_THAT(ranking_table(summary).plain(), Not(HasSubstr("χ²")));
+}
+
+TEST(RankingTable, SaysByWhatRunsOfOneLabelDiffer) {
+  Summary summary;
+  RunSummary run;
+  run.label = "gho/es";
+  run.group = "least_squares on circ";
+  run.has_result = true;
+  run.differs = {"h = 0.7", "20 realisations"};
+  summary.runs = {run, run};
+  summary.runs[1].label = "gho/es#2";
+  summary.runs[1].differs = {"free", "1 realisation"};
+  for (RunSummary& one : summary.runs) one.stability.emplace();
+  summary.runs[0].stability->imposed = "h = 0.7";
+  summary.ranking = {{0, 1, {}}, {1, 2, {}}};
+  const auto text = ranking_table(summary).plain();
+  EXPECT_THAT(text, HasSubstr("\n 1 gho/es (h = 0.7, 20 realisations)\n"));
+  EXPECT_THAT(text, HasSubstr("\n 2 gho/es#2 (free, 1 realisation)\n")) << "the constraint stands once";
+}
+
+TEST(RankingTable, ShowsFullSimulationsAndFailuresWhereThereAreSome) {
+  Summary summary;
+  RunSummary run;
+  run.label = "gho/es";
+  run.group = "least_squares on circ";
+  run.has_result = true;
+  run.evaluations = 1200;
+  run.jacobians = 77;
+  summary.runs = {run};
+  summary.ranking = {{0, 1, {}}};
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("ERT   total     Jac    sec\n"));
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("-    1200      77  0.000\n"));
+  summary.runs[0].has_costly_tests = true;
+  summary.runs[0].simulated = 310;
+  summary.runs[0].failures = 4;
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("ERT     sim     Jac    sec failed\n"));
+  EXPECT_THAT(ranking_table(summary).plain(), HasSubstr("-     310      77  0.000      4\n"));
 }
 
 TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
@@ -221,6 +260,11 @@ TEST(RankingTable, FitsInto80ColumnsHoweverLongTheNames) {
     run.stability->models[0].verdict.transverse.push_back(verdict);
   }
   run.stability->models[0].verdict.domain.largest = 1.5;
+  run.has_costly_tests = true;
+  run.failures = 1234567;
+  run.jacobians = run.simulated = 123456789;
+  run.expected_running_time = 1.23456789e12;
+  run.seconds = 123456;
   summary.runs = {run, run};
   summary.ranking = {{0, 1, 0.0}, {1, 2, 12.34567}};
   const auto text = ranking_table(summary).plain();

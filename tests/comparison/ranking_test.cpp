@@ -41,6 +41,26 @@ TEST(Ranking, SharesARankWhereObjectivesDifferByLessThanSearchesResolve) {
   EXPECT_EQ(ranking[3].rank, 4u);
 }
 
+TEST(Ranking, PutsTheCheapestOfEqualsFirst) {
+  std::vector<RunSummary> runs{run("a", 1), run("a", 1 + 4e-15), run("a", 1), run("a", 0.5)};
+  const auto cost = [](RunSummary& one, double expected, std::uint64_t evaluations, std::uint64_t jacobians) {
+    one.expected_running_time = expected;
+    one.evaluations = evaluations;
+    one.jacobians = jacobians;
+  };
+  cost(runs[0], 500, 1000, 0);
+  cost(runs[1], 300, 600, 600);  // fewer evaluations, and as many Jacobians
+  cost(runs[2], 200, 800, 400);
+  cost(runs[3], 90000, 90000, 0);
+  const auto ranking = comparison::rank(runs);
+  EXPECT_THAT(order(ranking), ::testing::ElementsAre(3, 2, 0, 1));
+  EXPECT_EQ(ranking[1].rank, 2u);
+  EXPECT_EQ(ranking[3].rank, 2u);
+  EXPECT_EQ(runs[1].cost(), 600);
+  runs[2].expected_running_time.reset();
+  EXPECT_THAT(order(comparison::rank(runs)), ::testing::ElementsAre(3, 0, 1, 2)) << "one that had no success is last";
+}
+
 TEST(Ranking, WarnsWhereAiccComparesARunThatADefaultBoundHolds) {
   std::vector<RunSummary> runs{run("a", 1), run("a", 2)};
   std::vector<comparison::Ranked> ranking = comparison::rank(runs);

@@ -116,6 +116,17 @@ TEST(Summary, WarnsOfWhatNobodyShouldOverlook) {
   EXPECT_TRUE(named(execution::WarningKind::plugin_refused, "", {}));
 }
 
+TEST(Summary, ReportsSearchesThatADefaultBoundEndedAlthoughAnotherOneWon) {
+  Summarised made;
+  auto& tally = made.results[0].realisations[0].tally;
+  tally.starts = 7;
+  tally.bound_stops = {{0, true, 3, 9.25}};
+  EXPECT_THAT(
+      sentences(made.summarise()),
+      Contains(HasSubstr("m/walk: 3 of 8 searches stopped at the default upper bound of a (10 kPa), the best of "
+                         "them at the objective 9.25; the run ends at")));
+}
+
 TEST(Summary, SaysFirstThatTheModelMissesTheDataByFarMoreThanTheStatedNoise) {
   Summarised made;
   made.laboratory.bench.experiment.tests.front().hold_out.rows.reset();

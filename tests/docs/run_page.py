@@ -32,8 +32,8 @@ def pieces(wanted, printed):
 
 
 def without_seconds(text):
-    """Rows of the ranking end with the seconds of a run, and perhaps a ΔAICc behind them."""
-    return re.sub(r"(?m)^( *\d* +\S.*?) +\d+\.\d{3}((?: +\S+)?)$", r"\1\2", re.sub(r"[ \t]+$", "", text, flags=re.M))
+    """Rows of the ranking have the seconds of a run, and behind them perhaps failures, χ²/ν and ΔAICc."""
+    return re.sub(r"(?m)^( *\d* +\S.*?) +\d+\.\d{3}((?: +\S+){0,3})$", r"\1\2", re.sub(r"[ \t]+$", "", text, flags=re.M))
 
 
 def run(commands, folder, tools):

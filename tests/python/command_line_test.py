@@ -40,6 +40,19 @@ class CommandLine(Case):
         tunica.run(experiment, self.folder / "b", seed=7, profiles=["mu"], bootstrap=40, certificate=False)
         self.assertEqual(result_of(self.folder / "a"), result_of(self.folder / "b"))
 
+    def test_paired_starts_are_those_of_the_program(self):
+        experiment = of_treloar({"type": "yeoh"})
+        experiment["optimizers"]["slsqp"] = {"type": "nlopt", "algorithm": "slsqp", "starts": 5}
+        experiment["runs"].append({"model": "rubber", "optimizer": "slsqp"})
+        (self.folder / "experiment.json").write_text(json.dumps(experiment))
+        for table in TRELOAR.glob("*.csv"):
+            (self.folder / table.name).write_bytes(table.read_bytes())
+        path = self.folder / "experiment.json"
+        program("run", path, "-o", self.folder / "a", "--paired-starts", "--no-certificate", "--quiet")
+        tunica.run(path, self.folder / "b", paired_starts=True, certificate=False)
+        self.assertEqual(result_of(self.folder / "a"), result_of(self.folder / "b"))
+        self.assertEqual(result_of(self.folder / "b")["runs"][0]["paired_with"], ["rubber/slsqp"])
+
     def test_check_says_what_the_program_says(self):
         experiment = EXAMPLES / "lamb_aorta" / "experiment.json"
         def timeless(found):

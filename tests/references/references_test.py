@@ -25,7 +25,7 @@ CASES = json.loads((HERE / "cases.json").read_text(encoding="utf-8"))
 WITHIN = 1e-4
 OF_THE_DAY = re.compile(r"provenance|^date$|seconds|version|\$schema|time_s")
 # How long a search took says nothing of its result, and the last digits of a processor decide it.
-COUNTS = re.compile(r"evaluation|jacobian|failure|convergence|statistics|_profile\.csv|realisations\.csv")
+COUNTS = re.compile(r"evaluation|jacobian|failure|convergence|statistics|_profile\.csv|realisations\.csv|^cost$")
 # So do they decide which of the starts that came to the same place is the best.
 START = re.compile(r"(?<=the best was start )\d+")
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")

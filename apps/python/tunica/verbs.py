@@ -73,13 +73,14 @@ def _certify(folder, points):
     return answer.stdout, ""
 
 
-def run(experiment, directory=None, *, base=None, threads=None, seed=None, profiles=(), bootstrap=None, resume=False,
-        certificate=True, progress=None):
+def run(experiment, directory=None, *, base=None, threads=None, seed=None, profiles=(), bootstrap=None,
+        paired_starts=False, resume=False, certificate=True, progress=None):
     """Calibrates every entry of "runs" and compares them, as `tunica run` does; returns a Result.
 
     experiment: the path of a file, a dictionary, or an Experiment. directory: a new folder for the results; without
     it results/<name>-<n>. threads: all of the machine unless given; results do not depend on it. progress: True for a
     line on stderr, or a function that is called with the share that is done and a line of text.
+    paired_starts: runs of the same parameters and bounds begin at the same points, as the key of that name says.
 
     Ctrl-C raises Interrupted. Everything so far is saved, and the same call with its `directory` and resume=True goes
     on to the identical result. Raises InputError for whatever does not fit, before anything is evaluated, and
@@ -90,7 +91,8 @@ def run(experiment, directory=None, *, base=None, threads=None, seed=None, profi
     names = ["all"] if profiles == "all" else texts(profiles, "profiles")
     try:
         found = _core.run(found_experiment._loaded, path(directory, "directory"), resume,
-                          _threads(threads), seed, names, bootstrap, listener, _certify if certificate else None)
+                          _threads(threads), seed, names, bootstrap, bool(paired_starts), listener,
+                          _certify if certificate else None)
     finally:
         if isinstance(listener, _Line):
             listener.clear()

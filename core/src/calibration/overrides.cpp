@@ -12,7 +12,8 @@
 namespace tunica::calibration {
 
 void apply(const Overrides& overrides, experiment::Experiment& experiment) {
-  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws && overrides.keep_evaluations.empty())
+  if (!overrides.seed && overrides.profiles.empty() && !overrides.bootstrap_draws &&
+      overrides.keep_evaluations.empty() && !overrides.paired_starts)
     return;
   auto input = nlohmann::ordered_json::parse(experiment.input_json);
   auto& analysis = experiment.analysis;
@@ -20,6 +21,7 @@ void apply(const Overrides& overrides, experiment::Experiment& experiment) {
     experiment.seed = *overrides.seed;
     input["seed"] = *overrides.seed;
   }
+  if (overrides.paired_starts) input["paired_starts"] = experiment.paired_starts = true;
   if (!overrides.profiles.empty()) {
     analysis.all_profiles = overrides.profiles == std::vector<std::string>{"all"};
     analysis.profiles = analysis.all_profiles ? std::vector<std::string>{} : overrides.profiles;

@@ -16,6 +16,7 @@ struct Overrides {
   std::vector<std::string> profiles = {};  ///< names of parameters, or "all"; empty = as the file says
   std::optional<std::uint64_t> bootstrap_draws = {};
   std::string keep_evaluations = {};  ///< "all" or "improvements"; empty = as the file says
+  bool paired_starts = false;         ///< as the key of that name; false = as the file says
 };
 
 /// Changes the experiment, and the input.json that documents it.

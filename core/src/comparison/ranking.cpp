@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,8 +27,8 @@ int standing(const RunSummary& run) {
   return run.status.ok() ? 0 : 1;
 }
 
-/// By less than searches resolve, runs of one model or of several are equal: they share a rank, in the order of the
-/// file, and the next rank counts them.
+/// By less than searches resolve, runs of one model or of several are equal: they share a rank, the cheapest first, and
+/// the next rank counts them.
 bool tie(const RunSummary& a, const RunSummary& b) {
   constexpr double resolved = 1e-6;  // of the objective: tolerances of optimisers end a search about there
   return a.group == b.group && standing(a) == 0 && standing(b) == 0 &&
@@ -44,7 +45,10 @@ void share_ranks(const std::vector<RunSummary>& runs, const std::map<std::string
       while (last < order.size() && tie(leader, runs[order[last].run])) ++last;
     const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first),
                end = order.begin() + static_cast<std::ptrdiff_t>(last);
-    std::sort(begin, end, [](const Ranked& a, const Ranked& b) { return a.run < b.run; });
+    const auto cost = [&](const Ranked& entry) {
+      return std::pair(runs[entry.run].cost().value_or(std::numeric_limits<double>::infinity()), entry.run);
+    };
+    std::sort(begin, end, [&](const Ranked& a, const Ranked& b) { return cost(a) < cost(b); });
     if (!leader.has_result) continue;
     const std::size_t rank = next[leader.group] + 1;
     next[leader.group] += last - first;
@@ -76,6 +80,12 @@ const char* name_of(experiment::ObjectiveType type) {
       return "sum_of_norms";
   }
   return "";
+}
+
+std::optional<double> RunSummary::cost() const {
+  if (!expected_running_time || evaluations == 0) return expected_running_time;
+  const auto made = static_cast<double>(evaluations);
+  return *expected_running_time * (made + static_cast<double>(jacobians)) / made;
 }
 
 std::string group_of(const experiment::RunEntry& run) {

@@ -16,9 +16,10 @@ std::string group_of(const experiment::RunEntry& run);
 /// All runs of the group, of which there are several, stop at the same target.
 bool ranked_by_success(const std::vector<RunSummary>& runs, const std::string& group);
 
-/// Within a group by objective; objectives within 1e-6 of each other share a rank, in the order of the file; where all
-/// its runs stop at one target by success rate, then by expected running time. Then the points that break a constraint,
-/// by violation; then those whose objective a fresh process did not find again; then runs without a result.
+/// Within a group by objective; objectives within 1e-6 of each other share a rank, in the order of their
+/// cost, then of the file; where all its runs stop at one target by success rate, then by expected running time. Then
+/// the points that break a constraint, by violation; then those whose objective a fresh process did not find again;
+/// then runs without a result.
 std::vector<Ranked> rank(const std::vector<RunSummary>& runs);
 
 /// Why a run does not count, or comes behind those that do; empty of one that is as it should be.

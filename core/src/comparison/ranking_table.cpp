@@ -27,10 +27,12 @@ text::StyledText warning_lines(const std::vector<execution::Warning>& warnings) 
   return lines += "\n";
 }
 
-/// A count in at most seven columns.
-std::string count_text(std::optional<double> count) {
+/// A count in at most so many columns.
+std::string count_text(std::optional<double> count, std::size_t columns = 7) {
   if (!count) return "-";
-  return *count < 1e7 ? fmt::format("{:.0f}", *count) : fmt::format("{:.3g}", *count);
+  std::string text = fmt::format("{:.0f}", *count);
+  for (int digits = 3; text.size() > columns && digits > 0; --digits) text = fmt::format("{:.{}g}", *count, digits);
+  return text;
 }
 
 /// In at most six columns, up to eleven days.
@@ -55,19 +57,26 @@ std::string flaw(const RunSummary& run) {
   return reason_of_rank(run);
 }
 
-/// Columns that some run has something to say in; both take the place of the seconds.
+/// Columns that some run has something to say in. Full simulations take the place of all evaluations.
 struct Columns {
-  bool delta_aicc = false, chi_square = false;
-  [[nodiscard]] bool seconds() const { return !(delta_aicc && chi_square); }
+  bool simulations = false, failures = false, chi_square = false, delta_aicc = false;
+
+  /// Of the label: a longer one stands on a line of its own, so that all lines fit into 80 columns.
+  [[nodiscard]] std::size_t label_width() const {
+    return std::size_t{27} - (failures ? 7U : 0) - (chi_square ? 7U : 0) - (delta_aicc ? 7U : 0);
+  }
 };
 
-/// Longer ones stand on a line of their own; all lines fit into 80 columns.
-std::size_t label_width(const Columns& columns) { return columns.delta_aicc || columns.chi_square ? 13 : 20; }
-
-/// With the constraint, where runs differ in it: "hgo/lm#2 (h = 0.7)".
-std::string shown_label(const RunSummary& run, bool names_constraints) {
-  if (!names_constraints || !run.stability) return run.label;
-  return fmt::format("{} ({})", run.label, run.stability->imposed.empty() ? "free" : run.stability->imposed);
+Columns columns_of(const Summary& summary) {
+  Columns columns;
+  for (const Ranked& entry : summary.ranking) {
+    const RunSummary& run = summary.runs[entry.run];
+    columns.simulations = columns.simulations || run.has_costly_tests;
+    columns.failures = columns.failures || run.failures > 0;
+    columns.chi_square = columns.chi_square || run.misfit.has_value();
+    columns.delta_aicc = columns.delta_aicc || entry.delta_aicc.has_value();
+  }
+  return columns;
 }
 
 bool differ_in_constraints(const Summary& summary) {
@@ -77,19 +86,28 @@ bool differ_in_constraints(const Summary& summary) {
   return imposed.size() > 1;
 }
 
+/// With what tells it from other runs: "hgo/lm#2 (h = 0.7)".
+std::string shown_label(const RunSummary& run, bool names_constraints) {
+  std::vector<std::string> parts = run.differs;
+  if (names_constraints && run.stability) {
+    const std::string imposed = run.stability->imposed.empty() ? "free" : run.stability->imposed;
+    if (std::find(parts.begin(), parts.end(), imposed) == parts.end()) parts.insert(parts.begin(), imposed);
+  }
+  return parts.empty() ? run.label : fmt::format("{} ({})", run.label, fmt::join(parts, ", "));
+}
+
 std::string row(const Ranked& entry, const RunSummary& run, const Columns& columns, bool names_constraints) {
   const std::string label = shown_label(run, names_constraints);
   const std::string objective = run.has_result ? objective_text(run.objective) : "-";
-  const auto& to_target = run.evaluations_to_target.box;
-  const std::size_t width = label_width(columns);
+  const std::size_t width = columns.label_width();
   std::string text = fmt::format("{:>2} ", entry.rank ? fmt::format("{}", *entry.rank) : "-");
   if (text::columns(label) > width) text += text::shortened(label, 77) + '\n' + std::string(3, ' ');
+  const std::uint64_t made = columns.simulations && run.has_costly_tests ? run.simulated : run.evaluations;
   text += fmt::format(
       "{} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6}", text::pad(text::columns(label) > width ? "" : label, width), objective,
-      fmt::format("{}/{}", run.successes, run.realisations),
-      count_text(to_target ? std::optional(to_target->median) : std::nullopt), count_text(run.expected_running_time),
-      count_text(static_cast<double>(run.evaluations)), count_text(static_cast<double>(run.failures)));
-  if (columns.seconds()) text += fmt::format(" {:>6}", seconds_text(run.seconds));
+      fmt::format("{}/{}", run.successes, run.realisations), count_text(run.expected_running_time),
+      count_text(static_cast<double>(made)), count_text(static_cast<double>(run.jacobians)), seconds_text(run.seconds));
+  if (columns.failures) text += fmt::format(" {:>6}", count_text(static_cast<double>(run.failures), 6));
   if (columns.chi_square)
     text += fmt::format(" {:>6}", run.misfit ? fmt::format("{:.3g}", run.misfit->per_freedom()) : "-");
   if (columns.delta_aicc)
@@ -99,12 +117,19 @@ std::string row(const Ranked& entry, const RunSummary& run, const Columns& colum
   return text;
 }
 
+std::string explanation(const Columns& columns) {
+  std::string text =
+      "success: realisations at or below the target, or within 0.1 % of the best known objective; ERT: evaluations "
+      "spent for one success, failed realisations included; ";
+  text += columns.simulations ? "sim: evaluations that simulated the costly tests; " : "total: all evaluations; ";
+  text += "Jac: Jacobians, counted beside them; sec: seconds of all realisations together";
+  if (columns.failures) text += "; failed: evaluations that failed";
+  if (columns.chi_square) text += "; χ²/ν: misfit over stated noise, by degree of freedom, near 1 where both are right";
+  return text + ". Runs of one rank stand in the order of their cost, evaluations and Jacobians for one success";
+}
+
 std::string ranking_lines(const Summary& summary) {
-  Columns columns;
-  for (const Ranked& entry : summary.ranking) {
-    columns.delta_aicc = columns.delta_aicc || entry.delta_aicc.has_value();
-    columns.chi_square = columns.chi_square || summary.runs[entry.run].misfit.has_value();
-  }
+  const Columns columns = columns_of(summary);
   std::string text, group;
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
@@ -115,24 +140,14 @@ std::string ranking_lines(const Summary& summary) {
                                   fmt::format("success, then ERT, at the target {:g}: {}", *run.target, group))
                   : text::hanging("Ranking by ", group);
       text += '\n';
-      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6}{}{}{}\n", text::pad("run", label_width(columns)),
-                          "objective", "success", "evals", "ERT", "total", "failed", columns.seconds() ? "    sec" : "",
-                          columns.chi_square ? "   χ²/ν" : "", columns.delta_aicc ? "  ΔAICc" : "");
+      text += fmt::format(" # {} {:>10} {:>7} {:>7} {:>7} {:>7} {:>6}{}{}{}\n", text::pad("run", columns.label_width()),
+                          "objective", "success", "ERT", columns.simulations ? "sim" : "total", "Jac", "sec",
+                          columns.failures ? " failed" : "", columns.chi_square ? "   χ²/ν" : "",
+                          columns.delta_aicc ? "  ΔAICc" : "");
     }
     text += row(entry, run, columns, differ_in_constraints(summary));
   }
-  return text +
-         text::hanging(
-             "   ",
-             "success: realisations at or below the target, or within 0.1 % of the best known objective; evals: "
-             "median number of evaluations until success; ERT: evaluations spent for one success, failed "
-             "realisations included; total: all evaluations (their Jacobians are in ranking.csv); failed: "
-             "evaluations that failed" +
-                 std::string(columns.seconds() ? "; sec: seconds of all realisations together" : "") +
-                 std::string(columns.chi_square
-                                 ? "; χ²/ν: misfit over stated noise, by degree of freedom, near 1 where both are right"
-                                 : "")) +
-         '\n';
+  return text + text::hanging("   ", explanation(columns)) + '\n';
 }
 
 /// "profile (21.9 … 23.1), bootstrap (22 … 22.9)"
@@ -153,17 +168,6 @@ std::string quality_text(const Quality& quality) {
   text += measure.r2 ? fmt::format(", R² {:.5f}", *measure.r2) : std::string(", R² undefined (constant data)");
   if (measure.nmad) text += fmt::format(", NMAD {:.3g} %", *measure.nmad);
   return text;
-}
-
-/// "χ²/ν 8.97 (χ² 4538, ν 506): 3 times the stated noise"
-std::string misfit_text(const assembly::Misfit& misfit, const char* noise) {
-  return fmt::format("χ²/ν {:.3g} (χ² {:.4g}, ν {:.4g}), {:.2g} times the {} noise{}", misfit.per_freedom(),
-                     misfit.chi_square, misfit.freedom, misfit.times(), noise,
-                     misfit.contradicts() ? ": the model misses the data"
-                     : misfit.small_but_real()
-                         ? fmt::format(": a small misfit, and a real one (chance {:.1g})", misfit.chance)
-                     : misfit.falls_short() ? ": the noise or a unit is wrong"
-                                            : "");
 }
 
 /// "objective 12.1 ± 0.2, mu 18.6 ± 0.3 kPa": mean and standard deviation.
@@ -213,9 +217,9 @@ text::StyledText run_lines(const RunSummary& run) {
     if (!side_by_side.empty()) break;
     lines += text::hanging(fmt::format("  {}, {}: ", quality.test, quality.channel), quality_text(quality)) + '\n';
   }
-  if (run.misfit) lines += text::hanging("  misfit: ", misfit_text(*run.misfit, "stated")) + '\n';
+  if (run.misfit) lines += text::hanging("  misfit: ", assembly::in_words(*run.misfit, "stated")) + '\n';
   if (run.misfit_estimated)
-    lines += text::hanging("  misfit: ", misfit_text(*run.misfit_estimated, "estimated")) + '\n';
+    lines += text::hanging("  misfit: ", assembly::in_words(*run.misfit_estimated, "estimated")) + '\n';
   for (const auto& sentence : run.notes) lines += text::hanging("  - ", sentence) + '\n';
   for (const auto& sentence : run.uncertainty) lines += text::hanging("  - ", sentence) + '\n';
   return lines;

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "comparison/run_differences.hpp"
 #include "text/terminal.hpp"
 #include "text/wrapping.hpp"
 
@@ -24,19 +25,6 @@ std::vector<double> values_of(const RunSummary& run) {
   std::vector<double> free;
   for (const auto& parameter : run.parameters) free.push_back(parameter.value);
   return free;
-}
-
-std::string imposed(const experiment::RunEntry& run) {
-  std::vector<std::string> words;
-  for (const auto& constraint : run.constraints) {
-    if (constraint.type != "transverse_stability")
-      words.push_back("admissible");
-    else if (constraint.h.size() > 1)
-      words.push_back("h(stretch)");
-    else
-      words.push_back(fmt::format("h = {:g}", constraint.h.front().second));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 /// The best objective without constraints of each model in each group.
@@ -148,7 +136,7 @@ void add_stability(const execution::Plan& plan, Summary& summary) {
     auto& entry = summary.runs[run];
     if (!entry.has_result) continue;
     const auto& assembly = *plan.runs[run].assembly;
-    StabilitySummary found{imposed(*plan.runs[run].entry), {}, {}};
+    StabilitySummary found{constraints_in_words(*plan.runs[run].entry), {}, {}};
     for (std::size_t m = 0; m < assembly.models().count(); ++m) {
       const auto parameters = assembly.models().parameters(m, values_of(entry));
       auto domain = domain_of(assembly, m);

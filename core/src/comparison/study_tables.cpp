@@ -89,7 +89,11 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                            "delta_aicc",
                            "chi_square",
                            "degrees_of_freedom",
-                           "reduced_chi_square"});
+                           "reduced_chi_square",
+                           "full_simulations",
+                           "cost",
+                           "differs_by",
+                           "paired_with"});
   for (const auto& entry : summary.ranking) {
     const auto& run = summary.runs[entry.run];
     const auto& planned = *plan.runs[entry.run].entry;
@@ -129,7 +133,11 @@ std::string ranking_csv(const execution::Plan& plan, const Summary& summary) {
                   cell(entry.delta_aicc),
                   run.misfit ? fmt::format("{}", run.misfit->chi_square) : "",
                   run.misfit ? fmt::format("{}", run.misfit->freedom) : "",
-                  run.misfit ? fmt::format("{}", run.misfit->per_freedom()) : ""});
+                  run.misfit ? fmt::format("{}", run.misfit->per_freedom()) : "",
+                  run.has_costly_tests ? fmt::format("{}", run.simulated) : "",
+                  cell(run.cost()),
+                  csv_cell(fmt::format("{}", fmt::join(run.differs, ", "))),
+                  csv_cell(fmt::format("{}", fmt::join(run.paired_with, " ")))});
   }
   return text;
 }

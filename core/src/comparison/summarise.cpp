@@ -7,10 +7,12 @@
 
 #include "comparison/estimate.hpp"
 #include "comparison/ranking.hpp"
+#include "comparison/run_differences.hpp"
 #include "comparison/stability_report.hpp"
 #include "comparison/success.hpp"
 #include "comparison/summary.hpp"
 #include "comparison/warnings.hpp"
+#include "text/lists.hpp"
 
 namespace tunica::comparison {
 
@@ -183,9 +185,16 @@ Summary summarise(const execution::Plan& plan, const std::vector<execution::RunR
   Summary summary;
   summary.name = plan.experiment->name;
   std::vector<execution::Warning> mismatches;
+  const auto differences = run_differences(plan), paired = paired_runs(plan);
   for (std::size_t run = 0; run < plan.runs.size(); ++run) {
     if (told) told(fmt::format("the best point of {}", plan.runs[run].label));
     summary.runs.push_back(summarise_run(*plan.experiment, plan.runs[run], results[run], mismatches));
+    summary.runs.back().differs = differences[run];
+    summary.runs.back().paired_starts = plan.experiment->paired_starts;
+    summary.runs.back().paired_with = paired[run];
+    if (!paired[run].empty())
+      summary.runs.back().notes.push_back("its searches begin at the same points as those of " +
+                                          text::joined(paired[run]));
   }
   count_successes(plan, results, summary.runs);
   summary.ranking = rank(summary.runs);

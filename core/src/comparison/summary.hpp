@@ -158,8 +158,14 @@ struct RunSummary {
   search::StopReason stopped_by = search::StopReason::none;  ///< what ended the whole
   std::string stop_sentence;                                 ///< the same in words; empty for none
   double seconds = 0;                                        ///< Σ over realisations
-  std::optional<SearchLimit> limit = {};                     ///< what would let the search go on
-  std::string withheld = {};  ///< why there are no intervals, although the data may fix the parameters
+  /// Evaluations and Jacobians spent for one success, each Jacobian counted as an evaluation; none without success.
+  /// Unlike seconds it is the same on every machine.
+  [[nodiscard]] std::optional<double> cost() const;
+  std::optional<SearchLimit> limit = {};      ///< what would let the search go on
+  std::vector<std::string> differs = {};      ///< from other runs of its model and optimizer, see run_differences()
+  bool paired_starts = false;                 ///< was asked for
+  std::vector<std::string> paired_with = {};  ///< labels of runs whose searches begin at the same points
+  std::string withheld = {};                  ///< why there are no intervals, although the data may fix the parameters
 };
 
 struct Ranked {

@@ -174,6 +174,26 @@ std::vector<std::string> used_plugins(const experiment::Experiment& experiment, 
   return {used.begin(), used.end()};
 }
 
+/// What runs have to share for their searches to begin at the same points.
+std::string box_of(const assembly::Layout& layout) {
+  std::string text;
+  for (const auto& parameter : layout.parameters)
+    text += fmt::format("{} {} {} {}\n", parameter.name, parameter.min, parameter.max,
+                        parameter.scale == Scale::log ? "log" : "linear");
+  return text;
+}
+
+/// Where starts are to be paired, and no two runs can share them.
+void warn_of_unpaired_starts(Plan& plan) {
+  std::set<std::uint64_t> seeds;
+  for (const auto& run : plan.runs)
+    if (run.paired_seed && !seeds.insert(*run.paired_seed).second) return;
+  if (!seeds.empty())
+    plan.warnings.push_back({WarningKind::set_up,
+                             "\"paired_starts\" pairs nothing: no two runs have the same free parameters with the "
+                             "same bounds and scales"});
+}
+
 }  // namespace
 
 EvaluationTable Plan::table() const {
@@ -202,6 +222,8 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
     run.seed = derive_seed(experiment.seed, fmt::format("run {}#{}", pair, occurrence));
     run.stages = plan_stages(experiment, entry, catalogue);
     run.assembly = std::make_unique<assembly::Assembly>(experiment, entry, catalogue);
+    if (experiment.paired_starts)
+      run.paired_seed = derive_seed(experiment.seed, "starts in " + box_of(run.assembly->layout()));
     if (entry.fewer_simulations.guide)
       run.guide = assembly::make_guide(experiment, entry, run.label, catalogue, *run.assembly);
     check_needs(run, plan.warnings);
@@ -210,6 +232,7 @@ Plan make_plan(const experiment::Experiment& experiment, const plugins::Catalogu
       plan.tasks.push_back({plan.runs.size() - 1, realisation});
   }
   warn_of_idle_keys(experiment, plan, plan.warnings);
+  warn_of_unpaired_starts(plan);
   return plan;
 }
 

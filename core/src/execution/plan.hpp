@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct PlannedRun {
   std::unique_ptr<assembly::Assembly> guide;  ///< cheaper tests in place of costly ones, where the run asks for them
   std::vector<PlannedStage> stages;
   std::uint64_t seed = 0;  ///< derive_seed(root, "run <model>/<optimizer>#<k>")
+  /// Of the points that its searches begin at, where the experiment pairs them: the same for runs whose free parameters
+  /// have the same names, bounds and scales.
+  std::optional<std::uint64_t> paired_seed = {};
 };
 
 /// Everything a run of the experiment does, checked before anything starts. Refers to the experiment and the

@@ -9,6 +9,7 @@
 #include "plugins/guarded.hpp"
 #include "plugins/usual_arithmetic.hpp"
 #include "search/guided_search.hpp"
+#include "search/random_point.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::execution {
@@ -25,14 +26,6 @@ experiment::Stop stage_stop(const experiment::Stop& shared, const experiment::St
   if (!stop.target) stop.target = shared.target;
   if (!stop.stall) stop.stall = shared.stall;
   return stop;
-}
-
-/// Uniform in the unit box; the same for every optimiser of the same seed.
-std::vector<double> random_start(std::uint64_t seed, std::size_t n) {
-  std::vector<double> x(n);
-  for (std::size_t j = 0; j < n; ++j)
-    x[j] = static_cast<double>(derive_seed(seed, fmt::format("initial {}", j)) >> 11) * 0x1p-53;
-  return x;
 }
 
 /// One line, as evaluations.csv stores it, so that a resumed run reports the same words.
@@ -66,6 +59,8 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
   RealisationResult result;
   result.realisation = realisation;
   const std::uint64_t seed = derive_seed(run.seed, fmt::format("realisation {}", realisation));
+  const std::uint64_t starts =
+      derive_seed(run.paired_seed.value_or(run.seed), fmt::format("realisation {}", realisation));
   const auto& shared = run.entry->stop;
   const auto record = [&](const search::Record& entry) {
     result.seconds = std::max(result.seconds, entry.seconds);
@@ -87,7 +82,9 @@ RealisationResult run_realisation(const PlannedRun& run, std::uint64_t realisati
     settings.interrupted = surroundings.interrupted;
     settings.first_index = result.tally.evaluations;
     settings.elapsed_before = result.seconds;
-    if (run.entry->random_start) settings.start = random_start(seed, run.assembly->layout().parameters.size());
+    if (run.paired_seed) settings.paired_starts = derive_seed(starts, fmt::format("stage {}", s + 1));
+    if (run.entry->random_start)
+      settings.start = search::random_point(starts, run.assembly->layout().parameters.size());
     if (!result.best.parameters.empty()) {
       settings.start.resize(result.best.parameters.size());
       run.assembly->box().to_unit(result.best.parameters, settings.start);

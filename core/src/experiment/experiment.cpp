@@ -93,10 +93,10 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   if (!format.is_number() || format.number("") != 1)
     format.fail(fmt::format("found format {} where 1 is expected", format.dumped()),
                 "This version of tunica reads format 1 only.");
-  root.allow_only(
-      {"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers", "stop",
-       "initial", "runs", "on_failure", "fewer_simulations", "keep_evaluations", "analysis", "diagnosis", "discovery"},
-      "the experiment file");
+  root.allow_only({"$schema", "format", "name", "seed", "models", "tests", "objective", "constraints", "optimizers",
+                   "stop", "initial", "paired_starts", "runs", "on_failure", "fewer_simulations", "keep_evaluations",
+                   "analysis", "diagnosis", "discovery"},
+                  "the experiment file");
   Experiment experiment;
   experiment.file = file;
   experiment.name = file.stem().string();
@@ -124,6 +124,7 @@ Experiment parse_experiment(std::string text, const std::filesystem::path& file,
   if (const auto node = root.find("constraints")) defaults.constraints = read_constraints(*node);
   if (const auto node = root.find("stop")) defaults.stop = read_stop(*node);
   if (const auto node = root.find("initial")) defaults.random_start = read_initial(*node);
+  if (const auto node = root.find("paired_starts")) experiment.paired_starts = node->flag("true or false");
   if (const auto node = root.find("fewer_simulations")) defaults.fewer_simulations = read_fewer_simulations(*node);
   if (const auto node = root.find("keep_evaluations")) experiment.kept_evaluations = read_kept_evaluations(*node);
   if (const auto node = root.find("on_failure")) read_on_failure(*node, experiment);

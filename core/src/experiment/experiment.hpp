@@ -195,6 +195,7 @@ struct Experiment {
   std::string name;
   std::filesystem::path file;
   std::uint64_t seed = 1;
+  bool paired_starts = false;  ///< runs of the same parameters and bounds begin their searches at the same points
   std::vector<ModelEntry> models;
   std::vector<TestEntry> tests;
   std::vector<OptimizerEntry> optimizers;

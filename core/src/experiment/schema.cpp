@@ -295,6 +295,10 @@ std::string compose_schema(const plugins::Catalogue& catalogue) {
   properties["optimizers"] = named_entries("The optimizers to use, by name.", reference("optimizer"));
   properties["stop"] = reference("stop");
   properties["initial"] = initial_schema();
+  properties["paired_starts"] = {
+      {"description",
+       "Whether runs of the same parameters and bounds begin their searches at the same points (default false)."},
+      {"type", "boolean"}};
   properties["runs"] = list_schema("What to calibrate; the runs are compared.", run_schema());
   properties["runs"]["minItems"] = 1;
   properties["on_failure"] = on_failure_schema();

@@ -275,6 +275,7 @@ std::string write_input(const Experiment& experiment, const plugins::Catalogue& 
   Json runs = Json::array();
   for (const RunEntry& run : experiment.runs) runs.push_back(to_json(run));
   if (!runs.empty()) add_shared_by_runs(json, runs);
+  if (experiment.paired_starts) json["paired_starts"] = true;
   json["runs"] = std::move(runs);
   json["on_failure"] = {{"policy", text::code_of(on_failure_names, experiment.on_failure)}};
   if (experiment.on_failure != OnFailure::stop) json["on_failure"]["max_rate"] = experiment.max_failure_rate;

@@ -41,6 +41,12 @@ std::vector<std::string> merged(const Json& result) {
   return lines;
 }
 
+/// " (h = 0.7)": what tells a run from others of its model and optimizer.
+std::string differences(const Json& run) {
+  const auto parts = words(list(run, "differs_by"));
+  return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
+}
+
 }  // namespace
 
 void add_warnings(Page& page, const Folder& folder) {
@@ -66,7 +72,7 @@ void add_ranking(Page& page, const Folder& folder, const Order& order) {
       const double rank = number(entry, "rank");
       rows.push_back(
           {{std::isfinite(rank) ? figure(rank) : "–", true},
-           {word(entry, "run")},
+           {word(entry, "run") + differences(run)},
            {figure(number(entry, "objective")), true},
            {figure(number(entry, "delta_aicc")), true},
            {figure(number(member(best, "misfit"), "reduced_chi_square")), true,

@@ -2,6 +2,7 @@
 #include "search/calibration_problem.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,6 +23,7 @@ struct CalibrationProblem::Parts {
   Settings settings;
   SharedState shared;
   Oracle oracle;
+  std::optional<std::uint64_t> paired = settings.paired_starts;  ///< none once it was used
 
   /// Hands one evaluation out; its index is that of `ledger` before it was counted there.
   void record(const Evaluations& made, std::size_t slot, std::uint64_t index) const {
@@ -120,8 +122,10 @@ Status CalibrationProblem::constraints(std::span<const double> x, std::span<doub
 
 std::size_t CalibrationProblem::for_each_start(std::size_t count,
                                                const std::function<void(std::size_t, Problem&)>& body) {
+  // Later searches go on where earlier ones ended, or replace them: only the first can be paired.
+  const auto paired = std::exchange(parts_->paired, std::nullopt);
   return Starts(parts_->shared, parts_->oracle, [this](const Evaluations& made) { parts_->merge(made); })
-      .run(count, parts_->settings.seed, body);
+      .run(count, parts_->settings.seed, paired, body);
 }
 
 bool CalibrationProblem::should_stop() const { return parts_->oracle.should_stop(); }

@@ -110,8 +110,11 @@ class CalibrationProblem : public Problem {
     experiment::Stop stop;
     experiment::OnFailure on_failure = experiment::OnFailure::penalise;
     double max_failure_rate = 1;
-    std::uint64_t seed = 0;                          ///< of the realisation
-    std::vector<double> start;                       ///< unit box; empty = the parameters' initial values
+    std::uint64_t seed = 0;     ///< of the realisation
+    std::vector<double> start;  ///< unit box; empty = the parameters' initial values
+    /// Where given, the second and later of independent searches begin at points that depend on this number alone:
+    /// their problems' start() is that point.
+    std::optional<std::uint64_t> paired_starts = {};
     std::function<void(const Record&)> record = {};  ///< called in index order, never concurrently
     Replay replay = {};
     std::function<bool()> interrupted = {};  ///< Ctrl-C; called from any thread

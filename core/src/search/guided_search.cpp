@@ -55,6 +55,8 @@ Best GuidedSearch::search(const Correction& correction, std::span<const double> 
   settings.stop.target.reset();
   settings.interrupted = settings_.interrupted;
   settings.seed = derive_seed(settings_.seed, fmt::format("guide {}", round));
+  if (settings_.paired_starts)
+    settings.paired_starts = derive_seed(*settings_.paired_starts, fmt::format("guide {}", round));
   settings.skip_costly = settings_.skip_costly;
   settings.correction = &correction;
   settings.elapsed_before =

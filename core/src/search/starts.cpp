@@ -12,6 +12,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 
+#include "search/random_point.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::search {
@@ -25,9 +26,12 @@ std::uint64_t seed_of_start(std::uint64_t seed, std::size_t number) {
 
 }  // namespace
 
-StartProblem::StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed,
+StartProblem::StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed, std::vector<double> start,
                            std::optional<std::uint64_t> replay_from, const std::atomic<bool>* needless)
-    : oracle(shared, std::move(ledger), replay_from, needless), shared_(shared), seed_(seed) {}
+    : oracle(shared, std::move(ledger), replay_from, needless),
+      shared_(shared),
+      seed_(seed),
+      start_(std::move(start)) {}
 
 Status StartProblem::evaluate(std::span<const double> x, double& objective) { return oracle.evaluate(x, objective); }
 
@@ -53,6 +57,11 @@ std::size_t StartProblem::for_each_start(std::size_t count, const std::function<
 }
 
 std::uint64_t StartProblem::seed(std::string_view purpose) const { return derive_seed(seed_, purpose); }
+
+std::vector<double> Starts::start_of(std::size_t number) const {
+  if (!paired_ || number == 0) return shared_.start;
+  return random_point(seed_of_start(*paired_, number), shared_.parameters);
+}
 
 void Starts::take(StartProblem& start) {
   begun_ += parent_.ledger.stopped() ? 0 : 1;
@@ -84,7 +93,8 @@ void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
   std::size_t k = 0;
   // A journal numbers evaluations in the merged order, so starts that it covers run one after the other.
   for (; k < size && shared_.replaying && !parent_.ledger.stopped(); ++k) {
-    StartProblem start(shared_, at_begin, seed_of_start(seed, first + k), parent_.ledger.next_index());
+    StartProblem start(shared_, at_begin, seed_of_start(seed, first + k), start_of(first + k),
+                       parent_.ledger.next_index());
     body(first + k, start);
     take(start);
   }
@@ -97,8 +107,8 @@ void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
       tbb::blocked_range<std::size_t>(k, size, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t at = range.begin(); at < range.end(); ++at) {
-          starts[at] = std::make_unique<StartProblem>(shared_, at_begin, seed_of_start(seed, first + at), std::nullopt,
-                                                      &needless);
+          starts[at] = std::make_unique<StartProblem>(shared_, at_begin, seed_of_start(seed, first + at),
+                                                      start_of(first + at), std::nullopt, &needless);
           body(first + at, *starts[at]);
           const std::lock_guard lock(mutex);
           finished[at] = 1;
@@ -112,7 +122,9 @@ void Starts::run_block(std::size_t first, std::size_t size, std::uint64_t seed,
       tbb::simple_partitioner());
 }
 
-std::size_t Starts::run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body) {
+std::size_t Starts::run(std::size_t count, std::uint64_t seed, std::optional<std::uint64_t> paired,
+                        const std::function<void(std::size_t, Problem&)>& body) {
+  paired_ = paired;
   for (std::size_t done = 0, block = first_block; done < count && !parent_.should_stop();
        block = std::min(2 * block, largest_block)) {
     const std::size_t size = std::min(block, count - done);

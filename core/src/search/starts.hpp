@@ -15,11 +15,11 @@ namespace tunica::search {
 /// was when its block of starts began.
 class StartProblem : public Problem {
  public:
-  StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed, std::optional<std::uint64_t> replay_from,
-               const std::atomic<bool>* needless = nullptr);
+  StartProblem(SharedState& shared, Ledger ledger, std::uint64_t seed, std::vector<double> start,
+               std::optional<std::uint64_t> replay_from, const std::atomic<bool>* needless = nullptr);
 
   [[nodiscard]] std::size_t dimension() const override { return shared_.parameters; }
-  [[nodiscard]] std::span<const double> start() const override { return shared_.start; }
+  [[nodiscard]] std::span<const double> start() const override { return start_; }
   [[nodiscard]] std::span<const ResidualBlock> blocks() const override { return shared_.assembly.layout().blocks; }
   [[nodiscard]] std::size_t residual_count() const override { return shared_.assembly.layout().residual_count; }
   [[nodiscard]] std::size_t constraint_count() const override { return shared_.assembly.constraints().count(); }
@@ -46,6 +46,7 @@ class StartProblem : public Problem {
  private:
   SharedState& shared_;
   std::uint64_t seed_;
+  std::vector<double> start_;  ///< unit box
 };
 
 /// Runs starts block by block, of 8, 16, 32, then 64, each block side by side, and merges what they evaluated in the
@@ -61,13 +62,16 @@ class Starts {
  public:
   Starts(SharedState& shared, Oracle& parent, std::function<void(const Evaluations&)> merge)
       : shared_(shared), parent_(parent), merge_(std::move(merge)) {}
-  /// Returns how many begin before the stop when they run one after the other.
-  std::size_t run(std::size_t count, std::uint64_t seed, const std::function<void(std::size_t, Problem&)>& body);
+  /// Returns how many begin before the stop when they run one after the other. With `paired` all but the first begin at
+  /// points that follow from that number.
+  std::size_t run(std::size_t count, std::uint64_t seed, std::optional<std::uint64_t> paired,
+                  const std::function<void(std::size_t, Problem&)>& body);
 
  private:
   void run_block(std::size_t first, std::size_t size, std::uint64_t seed,
                  const std::function<void(std::size_t, Problem&)>& body);
   void take(StartProblem& start);
+  [[nodiscard]] std::vector<double> start_of(std::size_t number) const;
   /// Where a start ended: bounds that hold a search are to be told, whichever start wins.
   void note_end(const Evaluations& made);
 
@@ -75,6 +79,7 @@ class Starts {
   Oracle& parent_;
   std::function<void(const Evaluations&)> merge_;
   std::size_t begun_ = 0;
+  std::optional<std::uint64_t> paired_;
 };
 
 }  // namespace tunica::search

@@ -9,6 +9,7 @@
 
 #include "descent.hpp"
 #include "starts.hpp"
+#include "tunica/optimizers/start_of_search.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::ceres_lm {
@@ -51,7 +52,7 @@ void descend_all(Problem& problem, const std::vector<std::size_t>& which, std::v
                  int max_iterations, const Settings& settings) {
   std::vector<Descent> made(which.size());
   const std::size_t begun = problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
-    made[k] = descend(child, descents[which[k]].x, max_iterations, settings);
+    made[k] = descend(child, start_of_search(problem, child, descents[which[k]].x), max_iterations, settings);
   });
   // The last of them may have gone on beyond the stop.
   if (begun > 0 && problem.should_stop()) made[begun - 1].end = Descent::End::stopped;

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "search.hpp"
+#include "tunica/optimizers/start_of_search.hpp"
 #include "tunica/random.hpp"
 
 namespace tunica::nlopt_plugin {
@@ -89,9 +90,10 @@ Optimizer::Outcome NloptOptimizer::minimise_from_starts(Problem& problem) const 
     const std::size_t begun = problem.for_each_start(which.size(), [&](std::size_t k, Problem& child) {
       const std::size_t i = which[k];
       const std::vector<double> x =
-          i == 0 && round == 0
-              ? std::vector<double>(child.start().begin(), child.start().end())
-              : random_point(derive_seed(seed, fmt::format("start {} {}", i, round)), child.dimension());
+          i == 0 && round == 0 ? std::vector<double>(child.start().begin(), child.start().end())
+                               : start_of_search(problem, child,
+                                                 random_point(derive_seed(seed, fmt::format("start {} {}", i, round)),
+                                                              child.dimension()));
       searches[i] = search_locally(child, x, settings_.algorithm, settings_);
     });
     for (std::size_t k = begun; k < which.size(); ++k) searches[which[k]] = {};  // too late to count
