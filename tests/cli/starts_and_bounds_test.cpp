@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where searches begin, and bounds that nobody chose.
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -37,23 +38,23 @@ std::size_t in_common(const std::set<std::string>& a, const std::set<std::string
 }
 
 /// Two strips of a tissue whose fibres are stiff: hgo with k1 = 3000 kPa, where the default ends at 1000 kPa.
-trial::Bench stiff_tissue() {
-  trial::Bench bench;
-  bench.experiment["models"] = {{"wall", {{"type", "hgo"}}}};
-  bench.experiment["runs"] = {{{"model", "wall"}, {"optimizer", "lm"}}};
-  for (const char* name : {"circ", "axial"}) {
-    std::string rows = "stretch [1],stress [kPa]\n";
-    for (int k = 1; k <= 15; ++k) rows += fmt::format("{},1\n", 1 + 0.01 * k);
-    bench.folder.write(fmt::format("{}.csv", name), rows);
+struct StiffTissue : trial::Bench {
+  StiffTissue() {
+    experiment["models"] = {{"wall", {{"type", "hgo"}}}};
+    experiment["runs"] = {{{"model", "wall"}, {"optimizer", "lm"}}};
+    for (const char* name : {"circ", "axial"}) {
+      std::string rows = "stretch [1],stress [kPa]\n";
+      for (int k = 1; k <= 15; ++k) rows += fmt::format("{},1\n", 1 + 0.01 * k);
+      folder.write(fmt::format("{}.csv", name), rows);
+    }
+    folder.write("truth.json", R"({"mu": 30, "k1": 3000, "k2": 2, "theta": 40})");
+    const auto made =
+        tunica({"simulate", "experiment.json", "--model", "wall", "--parameters", "truth.json", "-o", "made"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    for (const char* name : {"circ", "axial"})
+      experiment["tests"][name]["data"]["file"] = fmt::format("made/{}.csv", name);
   }
-  bench.folder.write("truth.json", R"({"mu": 30, "k1": 3000, "k2": 2, "theta": 40})");
-  const auto made =
-      bench.tunica({"simulate", "experiment.json", "--model", "wall", "--parameters", "truth.json", "-o", "made"});
-  EXPECT_EQ(made.code, 0) << made.err;
-  for (const char* name : {"circ", "axial"})
-    bench.experiment["tests"][name]["data"]["file"] = fmt::format("made/{}.csv", name);
-  return bench;
-}
+};
 
 }  // namespace
 
@@ -99,7 +100,7 @@ TEST(PairedStarts, AreTrueOrFalse) {
 }
 
 TEST(DefaultBounds, AreToldWhereAStiffTissueLiesBeyondThem) {
-  trial::Bench bench = stiff_tissue();
+  StiffTissue bench;
   ASSERT_EQ(bench.tunica({"run", "experiment.json", "-o", "out"}).code, 0);
   const auto result = bench.result("out");
   // What k1 must not be, k2 makes up for as far as its own default goes.

@@ -30,8 +30,10 @@ std::vector<std::string> named_causes(const Json& diagnosis) {
 std::string verdict_words(const Json& diagnosis) {
   std::string verdict = word(diagnosis, "verdict");
   const std::string reasons = text::joined(words(list(diagnosis, "reasons")));
-  if (verdict == "nothing_detected" && list(diagnosis, "reasons").size() > 1)
-    return fmt::format("Nothing detected: {}.", words(list(diagnosis, "reasons")).back());
+  const auto reasons_of = words(list(diagnosis, "reasons")), codes = words(list(diagnosis, "reason_codes"));
+  const auto misses = std::find(codes.begin(), codes.end(), "rows_miss_the_model");
+  if (verdict == "nothing_detected" && misses != codes.end() && reasons_of.size() == codes.size())
+    return fmt::format("Nothing detected: {}.", reasons_of[static_cast<std::size_t>(misses - codes.begin())]);
   if (verdict == "nothing_detected") return "Nothing detected: the model describes these data to within their noise.";
   if (verdict == "named")
     return fmt::format("Named: the misfit is consistent with {}.", text::joined(named_causes(diagnosis)));

@@ -38,7 +38,8 @@ std::string verdict_line(const Diagnosis& d) {
   const Claim& claim = explanation.claim;
   switch (explanation.verdict) {
     case Verdict::nothing_detected:
-      if (explanation.reasons.size() > 1) return "NOTHING DETECTED: " + explanation.reasons.back().text;
+      for (const Reason& reason : explanation.reasons)
+        if (reason.kind == ReasonKind::rows_miss_the_model) return "NOTHING DETECTED: " + reason.text;
       return "NOTHING DETECTED: the model describes these data to within their noise";
     case Verdict::named: {
       std::vector<std::string> ids;
