@@ -124,7 +124,8 @@ class CandidateSearch {
     if (mechanism.stage < Stage::test) {
       std::vector<Place> materials;
       for (const std::string& name : models) {
-        if (already_there(experiment_.model(name).mechanisms, id) || lacks_directions(mechanism, name)) continue;
+        const bool has_it = !mechanism.several && already_there(experiment_.model(name).mechanisms, id);
+        if (has_it || lacks_directions(mechanism, name)) continue;
         const std::vector<std::string> forgotten = forgotten_in(mechanism, name);
         candidate.without_past.insert(forgotten.begin(), forgotten.end());
         if (!forgotten.empty()) continue;

@@ -10,6 +10,7 @@
 namespace tunica::diagnosis {
 namespace {
 
+using experiment::Experiment;
 using experiment::MechanismEntry;
 
 /// Defaults of its options, with what the addition says: number options of the setting, channel and row of the place.
@@ -39,6 +40,20 @@ auto& entry_named(Entries& entries, const std::string& name) {
   return *std::find_if(entries.begin(), entries.end(), [&name](const auto& entry) { return entry.name == name; });
 }
 
+/// A mechanism that is there already, in the base or before it among the additions, gets a name of its own.
+void name_apart(const Experiment& experiment, const std::string& model, Addition& addition) {
+  const auto taken = [&](const std::string& name) {
+    const auto has = [&](const std::vector<MechanismEntry>& entries) {
+      return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name() == name; });
+    };
+    if (addition.place.tests.empty()) return has(experiment.model(model).mechanisms);
+    return std::any_of(addition.place.tests.begin(), addition.place.tests.end(),
+                       [&](const std::string& test) { return has(experiment.test(test).mechanisms); });
+  };
+  addition.as.clear();
+  for (int number = 2; taken(addition.name()); ++number) addition.as = fmt::format("{}_{}", addition.id, number);
+}
+
 std::optional<std::size_t> index_of(const assembly::Assembly& assembly, const std::string& name) {
   const auto& parameters = assembly.layout().parameters;
   for (std::size_t j = 0; j < parameters.size(); ++j)
@@ -52,11 +67,12 @@ Extension::Extension(const experiment::Experiment& experiment, const experiment:
                      std::vector<Addition> additions, const plugins::Catalogue& catalogue)
     : experiment_(experiment), additions_(std::move(additions)) {
   const std::vector<std::string> models = experiment_.models_of(run);
-  for (const Addition& addition : additions_) {
+  for (Addition& addition : additions_) {
     const MechanismFactory& mechanism = catalogue.mechanisms().at(addition.id).factory;
+    const std::string& model = addition.place.model.empty() ? models.front() : addition.place.model;
+    name_apart(experiment_, model, addition);
     if (addition.place.tests.empty())
-      entry_named(experiment_.models, addition.place.model.empty() ? models.front() : addition.place.model)
-          .mechanisms.push_back(entry_of(addition, mechanism));
+      entry_named(experiment_.models, model).mechanisms.push_back(entry_of(addition, mechanism));
     for (const std::string& test : addition.place.tests)
       entry_named(experiment_.tests, test).mechanisms.push_back(entry_of(addition, mechanism));
   }

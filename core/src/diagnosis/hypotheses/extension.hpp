@@ -16,7 +16,8 @@ namespace tunica::diagnosis {
 /// name, with those of the mechanisms; `null` is the bare experiment.
 class Extension {
  public:
-  /// Throws InputError where a mechanism cannot act there.
+  /// Throws InputError where a mechanism cannot act there. Of several of one kind, in the base or among the additions,
+  /// each gets a name of its own.
   Extension(const experiment::Experiment& experiment, const experiment::RunEntry& run, std::vector<Addition> additions,
             const plugins::Catalogue& catalogue);
 

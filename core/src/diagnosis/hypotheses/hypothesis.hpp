@@ -24,7 +24,7 @@ struct Addition {
   Place place;
   MechanismFactory::Setting setting;         ///< nuisance parameters and number options where the search begins
   std::optional<AmplitudeRange> range = {};  ///< from the data; none: as the mechanism declares
-  std::string as = {};                       ///< of several side by side, the name; empty = the id
+  std::string as = {};                       ///< of several side by side, the name, from Extension; empty = the id
 
   /// The prefix of its parameters.
   [[nodiscard]] const std::string& name() const { return as.empty() ? id : as; }

@@ -8,8 +8,6 @@
 #include <span>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "diagnosis/naming/group_fits.hpp"
 
 namespace tunica::diagnosis {
@@ -23,14 +21,6 @@ constexpr std::size_t beside = 3;                        ///< of the best, and o
 constexpr std::size_t triples_tried = 6;
 constexpr double short_of = 3;             ///< of ln w: what a score may underrate a refit by
 constexpr double one_and_the_same = 0.02;  ///< 1 − c² below which two are one
-
-/// The addition with a name of its own where there is one of the same kind already.
-Addition named_beside(const std::vector<Addition>& others, Addition addition) {
-  std::size_t number = 1;
-  for (const Addition& other : others) number += other.id == addition.id;
-  if (number > 1) addition.as = fmt::format("{}_{}", addition.id, number);
-  return addition;
-}
 
 class GroupSearch {
  public:
@@ -147,7 +137,7 @@ class GroupSearch {
       more.begun_from = from;
       more.linear_gain += T + 2 * log_prior(directions_[k]);
       more.directions.push_back(k);
-      more.additions.push_back(named_beside(group.additions, hypotheses_.hypothesis(k).addition));
+      more.additions.push_back(hypotheses_.hypothesis(k).addition);
       more.amplitudes.push_back(amplitude);
       if (seen.insert(candidates_of(more)).second) onto.push_back(std::move(more));
     }

@@ -57,6 +57,7 @@ std::optional<Refit> fit_with(const Inquiry& inquiry, const Analysis& analysis, 
     return std::nullopt;
   }
   const Extension& extended = *refit.extension;
+  refit.additions = extended.additions();
   const auto& parameters = extended.assembly().layout().parameters;
   const auto workspace = extended.assembly().evaluator().make_workspace();
   const std::vector<Variable> variables = extended.variables(nuisance == Nuisance::fitted);
