@@ -36,6 +36,7 @@ std::string verdict_sentence(const CohortVerdict& verdict) {
     }
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + reasons_of(verdict);
+    case Verdict::leading:     // of a budget only
     case Verdict::discovered:  // terms are looked for by a discovery only
     case Verdict::unknown:
       break;

@@ -16,6 +16,7 @@ Request request_of(const experiment::Experiment& experiment) {
   request.mechanisms = entry.mechanisms;
   if (!entry.groups.empty()) request.groups = entry.groups;
   request.wrong_files = entry.wrong_files.value_or(request.wrong_files);
+  request.tolerance = entry.tolerance;
   return request;
 }
 

@@ -21,6 +21,8 @@ struct Request {
   double alpha = 0.05;                  ///< false alarms that are accepted
   std::vector<std::string> mechanisms;  ///< ids to consider; empty = all
   bool admissibility = false;           ///< lost stability changes the verdict
+  /// What is not worth caring about: observable (empty = all) and "2 %" of its range, or a quantity in its unit.
+  std::vector<std::pair<std::string, std::string>> tolerance = {};
   bool quick = false;                   ///< linear bootstrap only, refits of the likeliest causes only
   std::uint64_t seed = 1;
   std::vector<std::string> groups = {"material", "rig", "file"};  ///< where causes may lie

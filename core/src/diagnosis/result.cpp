@@ -18,6 +18,8 @@ const char* code_of(Verdict verdict) {
       return "suspect_data";
     case Verdict::discovered:
       return "discovered";
+    case Verdict::leading:
+      return "leading";
     case Verdict::unknown:
       break;
   }
@@ -30,6 +32,14 @@ const char* code_of(ReasonKind kind) {
       return "residuals_like_noise";
     case ReasonKind::rows_miss_the_model:
       return "rows_miss_the_model";
+    case ReasonKind::leads:
+      return "leads";
+    case ReasonKind::several_lead:
+      return "several_lead";
+    case ReasonKind::unlisted_misfit:
+      return "unlisted_misfit";
+    case ReasonKind::anisotropy_seen:
+      return "anisotropy_seen";
     case ReasonKind::terms_discovered:
       return "terms_discovered";
     case ReasonKind::no_trace:

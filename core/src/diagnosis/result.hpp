@@ -17,7 +17,8 @@ enum class Verdict {
   indistinguishable,
   unknown,
   suspect_data,
-  discovered  ///< no mechanism, but a term of the energy that no name fits
+  discovered,  ///< no mechanism, but a term of the energy that no name fits
+  leading      ///< one cause takes most of the misfit, and the rest is not noise
 };
 const char* code_of(Verdict verdict);
 
@@ -42,7 +43,11 @@ enum class ReasonKind {
   restored_by_larger,
   terms_discovered,
   file_suspected,  ///< what the file says is not so, and that explains the misfit
-  file_as_likely   ///< it may not be so, and nothing else explains the misfit better
+  file_as_likely,  ///< it may not be so, and nothing else explains the misfit better
+  leads,
+  several_lead,
+  unlisted_misfit,
+  anisotropy_seen
 };
 const char* code_of(ReasonKind kind);
 

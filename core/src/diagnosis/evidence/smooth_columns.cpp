@@ -31,9 +31,11 @@ double between(double x, double low, double high) { return high > low ? 2 * (x -
 
 class CurveColumns {
  public:
-  CurveColumns(const Curve& curve, Eigen::Index rows) : curve_(curve), rows_(rows), left_(curve.abscissa.size() / 3) {}
+  CurveColumns(const Curve& curve, Eigen::Index rows, unsigned most)
+      : curve_(curve), rows_(rows), most_(most), left_(curve.abscissa.size() / 3) {}
 
-  std::vector<Eigen::VectorXd> all() {
+  /// Each with its degree.
+  std::vector<std::pair<Eigen::VectorXd, unsigned>> all() {
     const auto [low, high] = std::minmax_element(curve_.abscissa.begin(), curve_.abscissa.end());
     const std::size_t n = curve_.abscissa.size();
     std::vector<double> u(n), once(n, 1);
@@ -45,9 +47,9 @@ class CurveColumns {
                down = std::count(directions.begin(), directions.end(), -1) > 0;
     const std::vector<double> direction(directions.begin(), directions.end());
     // Low degrees first, so that a short curve has those of both directions.
-    for (unsigned degree = 0; degree <= 5; ++degree) {
+    for (unsigned degree = 0; degree <= most_; ++degree) {
       add(degree, u, once);
-      if (up && down && degree >= 1 && degree <= 4) add(degree - 1, u, direction);
+      if (up && down && degree >= 1 && degree < most_) add(degree - 1, u, direction);
     }
     for (const auto& [first, end] : holds(curve_.abscissa, *high - *low)) {
       if (end - first < long_hold || end - first == n) continue;
@@ -69,13 +71,14 @@ class CurveColumns {
     for (std::size_t i = 0; i < u.size(); ++i)
       column[curve_.first + static_cast<Eigen::Index>(i)] =
           factor[i] * boost::math::legendre_p(static_cast<int>(degree), u[i]);
-    columns_.push_back(std::move(column));
+    columns_.emplace_back(std::move(column), degree);
   }
 
   const Curve& curve_;
   Eigen::Index rows_;
+  unsigned most_;
   std::size_t left_;  ///< columns that may still be added
-  std::vector<Eigen::VectorXd> columns_;
+  std::vector<std::pair<Eigen::VectorXd, unsigned>> columns_;
 };
 
 }  // namespace
@@ -114,13 +117,20 @@ std::vector<int> loading_directions(const std::vector<double>& abscissa) {
   return direction;
 }
 
-Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows) {
-  std::vector<Eigen::VectorXd> columns;
+SmoothShapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows, unsigned most) {
+  std::vector<std::pair<Eigen::VectorXd, unsigned>> columns;
   for (const Curve& curve : curves)
-    for (Eigen::VectorXd& column : CurveColumns(curve, rows).all()) columns.push_back(std::move(column));
-  Eigen::MatrixXd all(rows, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
-  return all;
+    for (auto& column : CurveColumns(curve, rows, most).all()) columns.push_back(std::move(column));
+  SmoothShapes shapes{Eigen::MatrixXd(rows, static_cast<Eigen::Index>(columns.size())), {}};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    shapes.columns.col(static_cast<Eigen::Index>(k)) = columns[k].first;
+    shapes.degree.push_back(columns[k].second);
+  }
+  return shapes;
+}
+
+Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows) {
+  return smooth_shapes(curves, rows, 5).columns;
 }
 
 }  // namespace tunica::diagnosis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "diagnosis/evidence/curves.hpp"
@@ -14,6 +16,13 @@ namespace tunica::diagnosis {
 ///
 /// A turning point is one that goes back by more than a twentieth of the range: an abscissa that was measured trembles.
 Eigen::MatrixXd smooth_columns(const std::vector<Curve>& curves, Eigen::Index rows);
+
+/// The same shapes up to any degree, and the degree of each.
+struct SmoothShapes {
+  Eigen::MatrixXd columns;
+  std::vector<double> degree;
+};
+SmoothShapes smooth_shapes(const std::vector<Curve>& curves, Eigen::Index rows, unsigned most);
 
 /// Direction of loading at each row of an abscissa: 1 up, −1 down, 0 held over four rows or more.
 std::vector<int> loading_directions(const std::vector<double>& abscissa);

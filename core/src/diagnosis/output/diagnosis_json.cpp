@@ -23,16 +23,6 @@ json or_null(const std::optional<Value>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-json place_json(const Place& place) {
-  if (place.tests.empty() && place.model.empty()) return nullptr;
-  json result = {{"test", place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
-                 {"channel", place.channel.empty() ? json(nullptr) : json(place.channel)}};
-  if (place.tests.size() > 1) result["tests"] = place.tests;
-  if (place.row) result["row"] = place.file_row;
-  if (!place.model.empty()) result["model"] = place.model;
-  return result;
-}
-
 json amplitude_json(const Amplitude& amplitude) {
   const bool interval = std::isfinite(amplitude.low) && std::isfinite(amplitude.high);
   return {{"name", amplitude.name},
@@ -250,6 +240,16 @@ json codes(const std::vector<Reason>& reasons) {
 
 }  // namespace
 
+json place_json(const Place& place) {
+  if (place.tests.empty() && place.model.empty()) return nullptr;
+  json result = {{"test", place.tests.size() == 1 ? json(place.tests.front()) : json(nullptr)},
+                 {"channel", place.channel.empty() ? json(nullptr) : json(place.channel)}};
+  if (place.tests.size() > 1) result["tests"] = place.tests;
+  if (place.row) result["row"] = place.file_row;
+  if (!place.model.empty()) result["model"] = place.model;
+  return result;
+}
+
 json warning_details(const std::vector<Warning>& warnings) {
   json all = json::array();
   for (const Warning& warning : warnings)
@@ -308,7 +308,8 @@ json diagnosis_json(const Diagnosis& d) {
 }
 
 std::string result_document(const Diagnosis& d, const experiment::Experiment& experiment,
-                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more) {
+                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more,
+                            const nlohmann::ordered_json& of_diagnosis) {
   const Evidence& evidence = d.analysis.evidence;
   std::set<std::string> plugins;
   for (const std::string& name : experiment.models_of(evidence.run))
@@ -330,6 +331,7 @@ std::string result_document(const Diagnosis& d, const experiment::Experiment& ex
       {"provenance", comparison::provenance_json(comparison::provenance_of(experiment, {plugins.begin(), plugins.end()},
                                                                            evidence.base->layout().data_hashes))}};
   document.update(more);
+  document["diagnosis"].update(of_diagnosis);
   return document.dump(2, ' ', false, json::error_handler_t::replace) + '\n';
 }
 

@@ -15,13 +15,17 @@ namespace tunica::diagnosis {
 /// `diagnosis` of result.json.
 nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis);
 
+/// The `target` of a cause: null where it acts on the only model.
+nlohmann::ordered_json place_json(const Place& place);
+
 /// `warning_details` of result.json; a diagnosis has no runs.
 nlohmann::ordered_json warning_details(const std::vector<Warning>& warnings);
 
 /// The whole of result.json: no runs, the diagnosis, its warnings and provenance; and what followed the diagnosis, by
-/// its key.
+/// its key; `of_diagnosis` are further keys of `diagnosis`.
 std::string result_document(const Diagnosis& diagnosis, const experiment::Experiment& experiment,
-                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more);
+                            const plugins::Catalogue& catalogue, const nlohmann::ordered_json& more,
+                            const nlohmann::ordered_json& of_diagnosis);
 
 /// The ambiguity set in words: "a (or b, c, much the same here)", "d"; of what acts together "a with b", "a with c".
 std::vector<std::string> explanations(const Claim& claim);

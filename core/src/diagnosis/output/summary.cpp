@@ -59,12 +59,16 @@ std::string verdict_line(const Diagnosis& d) {
       if (explanation.unlisted && claim.ambiguity_set.size() == claim.named)
         return fmt::format("INDISTINGUISHABLE: {} together, or one effect that the catalogue does not list",
                            fmt::join(claim.ambiguity_set, " and "));
-      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well",
-                         fmt::join(explanations(claim), ", "));
+      return fmt::format("INDISTINGUISHABLE: {} explain the misfit about equally well{}{}",
+                         fmt::join(explanations(claim), ", "),
+                         explanation.unlisted || explanation.reasons.empty() ? "" : "; ",
+                         explanation.unlisted ? "" : joined_reasons(explanation));
     case Verdict::suspect_data:
       return "SUSPECT DATA: " + joined_reasons(explanation);
     case Verdict::discovered:
       return "DISCOVERED: " + joined_reasons(explanation);
+    case Verdict::leading:
+      return "LEADING: " + joined_reasons(explanation);
     case Verdict::unknown:
       break;
   }

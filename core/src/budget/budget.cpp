@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "budget/budget.hpp"
+
+#include <algorithm>
+
+#include "budget/anisotropy.hpp"
+#include "diagnosis/hypotheses/isotropy.hpp"
+#include "diagnosis/naming/remainder.hpp"
+#include "discovery/preparation.hpp"
+
+namespace tunica::budget {
+namespace {
+
+using diagnosis::Verdict;
+
+/// Whether the verdict rests on causes or terms after which only noise is left.
+bool is_settled(const diagnosis::Diagnosis& d, const discovery::Discovery* search) {
+  switch (d.explanation.verdict) {
+    case Verdict::nothing_detected:
+    case Verdict::named:
+    case Verdict::suspect_data:
+    case Verdict::indistinguishable:
+      return true;
+    case Verdict::discovered:
+      return search != nullptr && diagnosis::is_clean(search->p_after);
+    case Verdict::leading:
+    case Verdict::unknown:
+      break;
+  }
+  return false;
+}
+
+/// The model that terms can be added to; none: there is no single one, or a test is too costly.
+std::optional<discovery::Subject> subject_of(const diagnosis::Diagnosis& d, const plugins::Catalogue& catalogue) {
+  const diagnosis::Evidence& evidence = d.analysis.evidence;
+  if (d.request.model.empty() || evidence.base->models().count() != 1 || evidence.base->layout().has_costly_tests)
+    return std::nullopt;
+  if (!d.request.mechanisms.empty() || !catalogue.models().contains("composed")) return std::nullopt;
+  return discovery::Subject{evidence.experiment, evidence.run, d.request.model, false, catalogue};
+}
+
+std::vector<discovery::KindPointer> kinds_for(const diagnosis::Diagnosis& d, const discovery::Subject& subject) {
+  const diagnosis::Evidence& evidence = d.analysis.evidence;
+  discovery::Request request;
+  request.model = d.request.model;
+  const bool directions =
+      !diagnosis::is_isotropic(evidence.base->models().model(0)) || discovery::shows_directions(evidence);
+  const discovery::Fitter fitter(subject, evidence);
+  return discovery::scaled_kinds(
+      fitter, discovery::kinds_of(request, discovery::reached_states(subject, evidence.fit.free), directions));
+}
+
+/// The causes of the verdict, in the order of its claim.
+std::optional<Mixture> claimed(const Field& field, const diagnosis::Explanation& explanation) {
+  if (!explanation.claim.best) return std::nullopt;
+  Mixture mixture = field.mixer.base();
+  for (const diagnosis::Addition& addition : explanation.claim.best->additions)
+    for (const Lead& lead : field.leads) {
+      if (!lead.member.mechanism || lead.member.mechanism->id != addition.id ||
+          !(lead.member.mechanism->place == addition.place) || lead.member.mechanism->setting != addition.setting)
+        continue;
+      if (auto more = field.mixer.grown(mixture, lead)) mixture = std::move(*more);
+      break;
+    }
+  return mixture.members.empty() ? std::nullopt : std::optional(std::move(mixture));
+}
+
+std::vector<std::string> not_looked_for(const diagnosis::Analysis& analysis) {
+  std::vector<std::string> ids;
+  for (const diagnosis::Candidate& one : analysis.hypotheses.candidates)
+    if (one.absence == diagnosis::Absence::no_clock || one.absence == diagnosis::Absence::no_past ||
+        !one.without_past.empty())
+      ids.push_back(one.id);
+  return ids;
+}
+
+}  // namespace
+
+Budget budget_of(const diagnosis::Diagnosis& d, const discovery::Discovery* search,
+                 const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                 const diagnosis::Progress& progress) {
+  const diagnosis::Analysis& analysis = d.analysis;
+  const MisfitSize size(analysis.evidence);
+  Budget budget;
+  budget.tolerance = tolerance_of(d.request, analysis.evidence);
+  budget.base = size.of(analysis.evidence.fit);
+  budget.base_channels = budget.rest_channels = size.channels(analysis.evidence.fit);
+  const auto finish = [&](std::optional<Mixture> fitted) {
+    if (fitted) {
+      budget.rest_channels = size.channels(fitted->fit);
+      budget.fitted = std::make_shared<const Mixture>(std::move(*fitted));
+    }
+    budget.adequate = budget.rest().upper <= budget.tolerance.share;
+    return budget;
+  };
+  if (!analysis.alarm.raised) return finish(std::nullopt);
+
+  const experiment::Experiment measured = experiment::measured_only(experiment);
+  const diagnosis::Inquiry inquiry{measured, d.request, catalogue, progress};
+  const auto subject = subject_of(d, catalogue);
+  const Mixer mixer(inquiry, analysis, subject ? &*subject : nullptr);
+  const bool settled = is_settled(d, search);
+  std::vector<discovery::KindPointer> kinds;
+  if (subject && !settled) kinds = kinds_for(d, *subject);
+  Field field{inquiry, analysis, mixer, size, leads_of(analysis, subject ? &*subject : nullptr, kinds)};
+  if (settled) {
+    auto fitted = claimed(field, d.explanation);
+    if (!fitted) return finish(std::nullopt);
+    budget.steps = steps_of(field, *fitted);
+    return finish(std::move(fitted));
+  }
+  inquiry.report("what takes how much", 0.96);
+  Entrants entrants = entrants_of(field);
+  budget.rough = entrants.rough;
+  budget.unlisted_probability = entrants.unlisted_probability;
+  for (const Entrant& one : entrants.all)
+    budget.contenders.push_back(
+        {one.id, one.sort, one.place, one.group, one.term, one.in_the_energy, one.share, one.probability, one.rest, one.belief});
+  budget.not_looked_for = not_looked_for(analysis);
+  if (subject && diagnosis::is_isotropic(analysis.evidence.base->models().model(0)))
+    budget.anisotropy = anisotropy_words(analysis.evidence, budget.tolerance.share);
+  Steps steps = steps_of(field, entrants, budget.tolerance.share);
+  budget.steps = std::move(steps.all);
+  return finish(std::move(steps.fitted));
+}
+
+}  // namespace tunica::budget

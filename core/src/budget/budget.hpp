@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "budget/steps.hpp"
+#include "budget/tolerance.hpp"
+#include "diagnosis/diagnosis.hpp"
+#include "discovery/discovery.hpp"
+
+namespace tunica::budget {
+
+/// A cause as the only explanation, without its fit.
+struct Contender {
+  std::string id, sort;
+  diagnosis::Place place;
+  diagnosis::CauseGroup group = diagnosis::CauseGroup::material;
+  bool term = false, in_the_energy = false;
+  double share = 0, probability = 0;
+  Size rest;
+  Belief belief = Belief::plausible;
+};
+
+/// How large the misfit of the base is, what takes it, and what is left.
+struct Budget {
+  Tolerance tolerance;
+  Size base;
+  std::vector<ChannelSize> base_channels, rest_channels;  ///< rest: after the last step
+  std::vector<Step> steps;
+  std::vector<Contender> contenders;  ///< largest share first; empty where the causes leave noise
+  double unlisted_probability = 0;    ///< of "no listed cause, only a smooth misfit"; of meaning with contenders
+  bool rough = false;                 ///< what is left is rougher than an unlisted misfit may be: no name is given
+  bool adequate = false;              ///< the bound of the rest is within the tolerance
+  std::string anisotropy;                   ///< what the data say of directions that the base lacks; empty: nothing
+  std::vector<std::string> not_looked_for;  ///< mechanisms that could be the cause, and why nobody tried them
+  std::shared_ptr<const Mixture> fitted;    ///< all steps; null where there are none
+
+  [[nodiscard]] Size rest() const { return steps.empty() ? base : steps.back().rest; }
+};
+
+/// The budget of a diagnosis. Where the rest is not noise, all causes and terms compete beside a smooth misfit that
+/// nobody lists; where it is, the steps are those of its verdict.
+Budget budget_of(const diagnosis::Diagnosis& diagnosis, const discovery::Discovery* search,
+                 const experiment::Experiment& experiment, const plugins::Catalogue& catalogue,
+                 const diagnosis::Progress& progress = {});
+
+/// The diagnosis with the verdict that the budget allows where its causes leave more than noise: `leading`,
+/// `indistinguishable`, or `unknown` with what is the case.
+diagnosis::Diagnosis with_verdict_of(const Budget& budget, const experiment::Experiment& experiment,
+                                     const plugins::Catalogue& catalogue, diagnosis::Diagnosis diagnosis);
+
+}  // namespace tunica::budget

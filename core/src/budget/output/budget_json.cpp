@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "budget/output/outputs.hpp"
+#include "diagnosis/output/outputs.hpp"
+#include "diagnosis/output/fitted_experiment.hpp"
+#include "experiment/reader.hpp"
+
+namespace tunica::budget {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+const char* belief_code(Belief belief) {
+  return belief == Belief::plausible ? "plausible" : belief == Belief::flagged ? "flagged" : "beyond";
+}
+
+json channels_json(const std::vector<ChannelSize>& channels) {
+  json all = json::array();
+  for (const ChannelSize& one : channels)
+    all.push_back({{"test", one.test},
+                   {"channel", one.channel},
+                   {"unit", one.unit},
+                   {"range", one.range},
+                   {"rms", one.rms},
+                   {"rms_upper", one.upper},
+                   {"rows", one.rows}});
+  return all;
+}
+
+}  // namespace
+
+json budget_json(const Budget& budget) {
+  json steps = json::array(), contenders = json::array();
+  for (const Step& step : budget.steps)
+    steps.push_back({{"id", step.id},
+                     {"term", step.term},
+                     {"target", diagnosis::place_json(step.place)},
+                     {"group", diagnosis::code_of(step.group)},
+                     {"belief", belief_code(step.belief)},
+                     {"share", step.share},
+                     {"shapley", step.shapley},
+                     {"rms", step.rest.rms},
+                     {"rms_upper", step.rest.upper}});
+  for (const Contender& one : budget.contenders)
+    contenders.push_back({{"id", one.id},
+                          {"term", one.term},
+                          {"target", diagnosis::place_json(one.place)},
+                          {"group", diagnosis::code_of(one.group)},
+                          {"belief", belief_code(one.belief)},
+                          {"share", one.share},
+                          {"probability", one.probability},
+                          {"rms", one.rest.rms}});
+  json result = {{"tolerance", budget.tolerance.share},
+                 {"tolerance_origin", budget::code_of(budget.tolerance.origin)},
+                 {"rms", budget.base.rms},
+                 {"rms_upper", budget.base.upper},
+                 {"steps", std::move(steps)},
+                 {"adequate", budget.adequate},
+                 {"channels", channels_json(budget.base_channels)},
+                 {"rest", channels_json(budget.rest_channels)}};
+  if (budget.contenders.empty()) return result;
+  result["alone"] = std::move(contenders);
+  result["unlisted_probability"] = budget.unlisted_probability;
+  result["rough"] = budget.rough;
+  result["not_looked_for"] = budget.not_looked_for;
+  return result;
+}
+
+std::string extended_experiment(const Budget& budget, const diagnosis::Diagnosis& d,
+                                const plugins::Catalogue& catalogue) {
+  if (!budget.fitted) return {};
+  experiment::Experiment experiment = budget.fitted->extension->experiment();
+  return experiment::write_input(
+      diagnosis::fitted_experiment(std::move(experiment), d.analysis.evidence.run,
+                                   budget.fitted->extension->assembly(), budget.fitted->fit.free, d.request.optimizer,
+                                   catalogue),
+      catalogue);
+}
+
+}  // namespace tunica::budget

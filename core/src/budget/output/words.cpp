@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "budget/output/outputs.hpp"
+#include "text/units.hpp"
+#include "text/wrapping.hpp"
+
+namespace tunica::budget {
+namespace {
+
+/// What a step adds: "a second viscoelasticity in the material", "I2 (linear)".
+std::string added(const std::vector<Step>& steps, std::size_t which) {
+  const Step& step = steps[which];
+  const auto before = std::count_if(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(which),
+                                    [&](const Step& other) { return other.id == step.id; });
+  const char* const ordinal = before == 0 ? "" : before == 1 ? "a second " : "one more ";
+  return fmt::format("{}{}{}", ordinal, step.id, step.place.tests.empty() ? "" : " " + step.place.words());
+}
+
+std::string tolerance_words(const Budget& budget) {
+  const double rest = budget.rest().rms, tolerance = budget.tolerance.share;
+  const char* const reached = budget.adequate ? "reached" : rest <= 1.2 * tolerance ? "nearly reached" : "not reached";
+  return fmt::format("tolerance {} ({}): {}", percent(tolerance), origin_words(budget.tolerance), reached);
+}
+
+std::string channel_words(const std::vector<ChannelSize>& channels) {
+  const auto worst = std::max_element(channels.begin(), channels.end(), [](const ChannelSize& a, const ChannelSize& b) {
+    return a.rms / a.range < b.rms / b.range;
+  });
+  return fmt::format("most in {}, {}: {:.3g}{} ({} of its range, at most {})", worst->test, worst->channel, worst->rms,
+                     text::unit_suffix(worst->unit), percent(worst->rms / worst->range),
+                     percent(worst->upper / worst->range));
+}
+
+}  // namespace
+
+std::string percent(double share) {
+  const double value = 100 * share;
+  return fmt::format("{:.{}f} %", value, value < 0.995 ? 2 : value < 9.95 ? 1 : 0);
+}
+
+const char* origin_words(const Tolerance& tolerance) {
+  switch (tolerance.origin) {
+    case Tolerance::Origin::stated:
+      return "stated";
+    case Tolerance::Origin::repeats:
+      return "scatter between the repeats";
+    case Tolerance::Origin::cohort:
+      return "spread between specimens";
+    case Tolerance::Origin::standard:
+      break;
+  }
+  return "default";
+}
+
+text::StyledText summary(const Budget& budget, const std::string& base) {
+  text::StyledText lines;
+  std::string text = fmt::format("{} misses by {} of the range", base, percent(budget.base.rms));
+  for (std::size_t k = 0; k < budget.steps.size(); ++k)
+    text += fmt::format("; + {}: {} ({})", added(budget.steps, k), percent(budget.steps[k].rest.rms),
+                        percent(budget.steps[k].share));
+  text += "; " + tolerance_words(budget);
+  lines += text::hanging("Budget:   ", text) + '\n';
+  if (!budget.rest_channels.empty()) lines += text::hanging("Left:     ", channel_words(budget.rest_channels)) + '\n';
+  std::vector<std::string> others;
+  for (const Contender& one : budget.contenders) {
+    const bool step = std::any_of(budget.steps.begin(), budget.steps.end(),
+                                  [&](const Step& own) { return own.id == one.id; });
+    if (step || one.share < 0.1 || others.size() >= 3) continue;
+    others.push_back(fmt::format("{}{} {}{}", one.id, one.place.tests.empty() ? "" : " " + one.place.words(),
+                                 percent(one.share), one.belief == Belief::beyond ? " (beyond belief)" : ""));
+  }
+  if (!others.empty()) lines += text::hanging("Alone:    ", fmt::format("{}", fmt::join(others, ", "))) + '\n';
+  if (!budget.not_looked_for.empty() && !budget.contenders.empty())
+    lines += text::hanging("Not tried:", fmt::format(" {}", fmt::join(budget.not_looked_for, ", "))) + '\n';
+  return lines;
+}
+
+}  // namespace tunica::budget

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "budget/misfit_size.hpp"
+#include "diagnosis/request.hpp"
+
+namespace tunica::budget {
+
+/// What is no longer worth caring about. It is no noise: real curves scatter by 0.2 % of their range, and no model of a
+/// tissue follows them better than 1–3 %.
+struct Tolerance {
+  enum class Origin { stated, repeats, cohort, standard };
+  double share = 0.02;  ///< of the range; of channels with their own, averaged as squares over rows
+  Origin origin = Origin::standard;
+};
+const char* code_of(Tolerance::Origin origin);
+
+/// As the request states it; else the scatter between the replicates of a curve; else 2 % of the range.
+Tolerance tolerance_of(const diagnosis::Request& request, const diagnosis::Evidence& evidence);
+
+}  // namespace tunica::budget

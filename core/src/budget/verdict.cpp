@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "budget/budget.hpp"
+#include "budget/output/outputs.hpp"
+#include "diagnosis/naming/causes.hpp"
+#include "diagnosis/prospects/gain.hpp"
+
+namespace tunica::budget {
+namespace {
+
+using diagnosis::Explanation;
+using diagnosis::ReasonKind;
+using diagnosis::Verdict;
+
+constexpr double most_of_it = 0.5;   ///< of the misfit: what leads takes so much at least
+constexpr double ahead = 0.15;       ///< of the misfit: of the next cause that is another one
+constexpr double unlikely = 0.01;    ///< of the probability of the likeliest form
+constexpr double sure_enough = 0.9;  ///< probability, with "no listed cause" among the rivals
+
+/// What the contenders allow to say.
+struct Decision {
+  Verdict verdict = Verdict::unknown;
+  std::vector<const Contender*> first;  ///< what leads, or is about as good; best first
+  const Contender* next = nullptr;      ///< the best cause that is another one
+};
+
+double probability_of(const std::vector<const Contender*>& some) {
+  double sum = 0;
+  for (const Contender* one : some) sum += one->probability;
+  return sum;
+}
+
+Decision decided(const Budget& budget) {
+  Decision decision;
+  const Contender* top = nullptr;
+  for (const Contender& one : budget.contenders)
+    if (one.belief != Belief::beyond && (top == nullptr || one.share > top->share)) top = &one;
+  if (top == nullptr || budget.rough) return decision;
+  // Forms of the energy are many and alike: among them, the evidence decides what is about as good.
+  double likeliest = 0;
+  for (const Contender& one : budget.contenders)
+    if (one.in_the_energy && one.share >= top->share - ahead) likeliest = std::max(likeliest, one.probability);
+  std::vector<const Contender*> ties;
+  for (const Contender& one : budget.contenders) {
+    if (one.share > top->share + ahead) return decision;  // its name is not for the runner-up to have
+    const bool close = one.share >= top->share - ahead;
+    if (close && one.in_the_energy && one.probability < unlikely * likeliest) continue;
+    (close ? ties : decision.first).push_back(&one);
+  }
+  const auto others = std::exchange(decision.first, {});
+  if (!others.empty()) decision.next = others.front();
+  if (top->share < most_of_it || probability_of(ties) < sure_enough) return decision;
+  // A cause that lets one test have a material of its own takes what any other takes there: it is named where nothing
+  // that is listed does so.
+  if (std::any_of(ties.begin(), ties.end(), [](const Contender* one) { return one->id != "another_state"; }))
+    std::erase_if(ties, [](const Contender* one) { return one->id == "another_state"; });
+  std::set<std::string> sorts;
+  for (const Contender* one : ties) sorts.insert(one->sort);
+  std::stable_sort(ties.begin(), ties.end(), [](const Contender* a, const Contender* b) {
+    return std::pair(a->belief == Belief::beyond, -a->probability) <
+           std::pair(b->belief == Belief::beyond, -b->probability);
+  });
+  decision.verdict = sorts.size() == 1 ? Verdict::leading : Verdict::indistinguishable;
+  decision.first = std::move(ties);
+  return decision;
+}
+
+/// Of the steps of the same cause; of a contender that is no step its own.
+double share_of(const Budget& budget, const Contender& contender) {
+  double sum = 0;
+  for (const Step& step : budget.steps)
+    if (step.id == contender.id) sum += step.shapley;
+  return std::max(sum, contender.share);
+}
+
+std::string remains(const Budget& budget) {
+  if (budget.rest().rms < 5e-4)
+    return fmt::format("nothing beyond noise is left, at most {} of the range (tolerance {}, {})",
+                       percent(budget.rest().upper), percent(budget.tolerance.share), origin_words(budget.tolerance));
+  return fmt::format("{} of the range remains (tolerance {}, {}), for which no cause is claimed",
+                     percent(budget.rest().rms), percent(budget.tolerance.share), origin_words(budget.tolerance));
+}
+
+std::string place_of(const diagnosis::Place& place) { return place.tests.empty() ? "" : " " + place.words(); }
+
+std::string leading_words(const Budget& budget, const Decision& decision) {
+  const Contender& first = *decision.first.front();
+  std::vector<std::string> forms;
+  for (std::size_t k = 1; k < decision.first.size() && forms.size() < 3; ++k)
+    forms.push_back(fmt::format("{} {}", decision.first[k]->id, percent(decision.first[k]->share)));
+  std::string text = fmt::format("mainly {}{}: it takes {} of the misfit", first.id, place_of(first.place),
+                                 percent(share_of(budget, first)));
+  if (first.belief == Belief::flagged) text += ", with an amplitude somewhat beyond what is plausible";
+  if (!forms.empty()) text += fmt::format("; its form is open ({} alone)", fmt::join(forms, ", "));
+  return text + "; " + remains(budget);
+}
+
+std::string tie_words(const Budget& budget, const Decision& decision) {
+  std::vector<std::string> parts;
+  std::set<std::string> sorts;
+  for (const Contender* one : decision.first)
+    if (sorts.insert(one->sort).second)
+      parts.push_back(fmt::format("{} {}{}", one->id, percent(one->share),
+                                  one->belief == Belief::beyond ? " (beyond what is plausible)" : ""));
+  return fmt::format("alone they take {} of the misfit; {}", fmt::join(parts, ", "), remains(budget));
+}
+
+std::string unknown_words(const Budget& budget, const Decision& decision) {
+  if (budget.rough)
+    return fmt::format(
+        "the base misses by {} of the range, and what the best cause leaves is rougher than a smooth misfit: the noise "
+        "is larger than it is said to be, or a cause with fine structure is not listed",
+        percent(budget.base.rms));
+  std::string text = fmt::format("the base misses by {} of the range", percent(budget.base.rms));
+  if (budget.base.upper <= budget.tolerance.share)
+    text += fmt::format(", which is within the tolerance ({}, {})", percent(budget.tolerance.share),
+                        origin_words(budget.tolerance));
+  if (budget.contenders.empty()) return text;
+  const Contender& best = budget.contenders.front();
+  text += fmt::format("; the best single cause, {}, takes {}", best.id, percent(best.share));
+  if (best.belief == Belief::beyond) text += " with an amplitude that is beyond belief";
+  if (budget.unlisted_probability > 1 - sure_enough)
+    text += fmt::format("; that it is a smooth misfit without a listed cause has probability {:.2f}",
+                        budget.unlisted_probability);
+  else if (decision.next == nullptr || best.share < most_of_it)
+    text += ", and no cause takes half";
+  return text;
+}
+
+/// The causes of a mixture that is made of mechanisms only.
+void claim(const diagnosis::Inquiry& inquiry, const diagnosis::Analysis& analysis, const Budget& budget,
+           const Mixture& mixture, Explanation& explanation) {
+  diagnosis::Refit refit{mixture.extension->additions(), mixture.extension, mixture.fit};
+  diagnosis::Claim claim;
+  claim.named = refit.additions.size();
+  for (std::size_t k = 0; k < refit.additions.size(); ++k) {
+    const diagnosis::Addition& addition = refit.additions[k];
+    for (const diagnosis::Direction& direction : analysis.hypotheses.directions) {
+      const diagnosis::Addition& own = analysis.hypotheses.hypothesis(direction).addition;
+      if (own.id != addition.id || !(own.place == addition.place)) continue;
+      diagnosis::Cause cause = diagnosis::cause_of(inquiry, analysis, refit, k, direction);
+      for (const Contender& one : budget.contenders)
+        if (one.id == cause.id) cause.probability = std::max(cause.probability, one.probability);
+      cause.p_value = analysis.alarm.detector->candidate_p(direction.candidate, cause.gain);
+      claim.causes.push_back(std::move(cause));
+      break;
+    }
+    if (std::find(claim.ambiguity_set.begin(), claim.ambiguity_set.end(), addition.id) == claim.ambiguity_set.end())
+      claim.ambiguity_set.push_back(addition.id);
+  }
+  claim.best = std::move(refit);
+  explanation.claim = std::move(claim);
+}
+
+void add_anisotropy(const Budget& budget, Explanation& explanation) {
+  if (!budget.anisotropy.empty()) explanation.reasons.push_back({ReasonKind::anisotropy_seen, budget.anisotropy});
+}
+
+bool only_mechanisms(const Mixture& mixture) {
+  return std::all_of(mixture.members.begin(), mixture.members.end(),
+                     [](const Member& member) { return member.mechanism.has_value(); });
+}
+
+}  // namespace
+
+diagnosis::Diagnosis with_verdict_of(const Budget& budget, const experiment::Experiment& experiment,
+                                     const plugins::Catalogue& catalogue, diagnosis::Diagnosis d) {
+  if (budget.contenders.empty()) return d;
+  const Decision decision = decided(budget);
+  Explanation& explanation = d.explanation;
+  if (decision.verdict == Verdict::unknown) {
+    if (explanation.verdict == Verdict::discovered) return d;
+    explanation.reasons = {{ReasonKind::unlisted_misfit, unknown_words(budget, decision)}};
+    add_anisotropy(budget, explanation);
+    return d;
+  }
+  explanation.verdict = decision.verdict;
+  explanation.noise_factor.reset();
+  explanation.unlisted = false;
+  explanation.claim = {};
+  d.prospects.gain.reset();
+  d.prospects.next.reset();
+  const experiment::Experiment measured = experiment::measured_only(experiment);
+  const diagnosis::Progress quiet;
+  const diagnosis::Inquiry inquiry{measured, d.request, catalogue, quiet};
+  const auto isolating = [&](const std::string& id) -> std::string {
+    const auto found = catalogue.mechanisms().find(id);
+    return found == catalogue.mechanisms().end() || found->second.factory.isolated_by.empty()
+               ? ""
+               : fmt::format("{}: {}", id, found->second.factory.isolated_by);
+  };
+  if (decision.verdict == Verdict::leading) {
+    explanation.reasons = {{ReasonKind::leads, leading_words(budget, decision)}};
+    if (budget.fitted && only_mechanisms(*budget.fitted)) {
+      claim(inquiry, d.analysis, budget, *budget.fitted, explanation);
+      d.prospects.gain = diagnosis::gain_of(inquiry, d.analysis, explanation.claim);
+    }
+    add_anisotropy(budget, explanation);
+    const Contender& first = *decision.first.front();
+    if (!first.term && first.belief == Belief::plausible)
+      if (const std::string how = isolating(first.id); !how.empty())
+        d.prospects.next = diagnosis::NextExperiment{fmt::format("To confirm {}.", how), {}, std::nullopt};
+    return d;
+  }
+  explanation.reasons = {{ReasonKind::several_lead, tie_words(budget, decision)}};
+  add_anisotropy(budget, explanation);
+  std::vector<std::string> how;
+  std::set<std::string> sorts;
+  for (const Contender* one : decision.first) {
+    if (!sorts.insert(one->sort).second) continue;
+    explanation.claim.ambiguity_set.push_back(one->id);
+    explanation.claim.look_alikes.push_back({one->id});
+    if (std::string text = isolating(one->id); !text.empty()) how.push_back(std::move(text));
+  }
+  if (!how.empty())
+    d.prospects.next =
+        diagnosis::NextExperiment{fmt::format("To tell them apart, a test that switches one of them alone: {}.",
+                                              fmt::join(how, "; ")),
+                                  explanation.claim.ambiguity_set, std::nullopt};
+  return d;
+}
+
+}  // namespace tunica::budget

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a budget says of strips with a cause that is listed and a smooth misfit that is not.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "budget/budget.hpp"
+#include "diagnosis/measured.hpp"
+#include "discovery/after_diagnosis.hpp"
+
+namespace tunica::trial {
+namespace {
+
+using diagnosis::Verdict;
+using ::testing::Ge;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+struct Answer {
+  budget::Budget budget;
+  diagnosis::Diagnosis diagnosis;
+};
+
+/// Two strips with a clock and cycles to rising stretches, of a wall that softens by `s`, and an unlisted smooth misfit
+/// of so many kPa. Noise has σ = 0.3 kPa, a hundredth of the range.
+Answer answered(double s, double unlisted) {
+  std::vector<double> stretch, time;
+  for (const double top : {1.25, 1.4, 1.5})
+    for (int i = 0; i < 24; ++i) {
+      const double share = i < 12 ? i / 12.0 : (24 - i) / 12.0;
+      stretch.push_back(1 + (top - 1) * share + 0.001);
+      time.push_back(static_cast<double>(time.size()));
+    }
+  Measured measured({{.stretch = stretch, .time = time}, {.name = "axial", .stretch = stretch, .time = time}});
+  measured.measure(
+      7,
+      [s](nlohmann::json& truth) {
+        if (s > 0) truth["models"]["gho"]["mechanisms"] = {mechanism("stress_softening", "s", s)};
+      },
+      [unlisted](const Strip&, double at) { return unlisted * std::sin(7 * (at - 1)); });
+  measured.save();
+  Answer answer{{}, measured.diagnose()};
+  const auto experiment = measured.read();
+  answer.budget = budget::budget_of(answer.diagnosis, nullptr, experiment, testing::catalogue());
+  answer.diagnosis =
+      budget::with_verdict_of(answer.budget, experiment, testing::catalogue(), std::move(answer.diagnosis));
+  return answer;
+}
+
+TEST(Budget, LeadsWithTheCauseThatTakesMostBesideAnUnlistedMisfit) {
+  const Answer answer = answered(0.4, 1.2);
+  EXPECT_EQ(answer.diagnosis.explanation.verdict, Verdict::leading);
+  EXPECT_THAT(answer.diagnosis.explanation.reasons.front().text, HasSubstr("mainly stress_softening: it takes "));
+  ASSERT_THAT(answer.budget.steps, SizeIs(Ge(1)));
+  EXPECT_EQ(answer.budget.steps.front().id, "stress_softening");
+  EXPECT_GT(answer.budget.steps.front().share, 0.6);
+  EXPECT_LT(answer.budget.rest().rms, answer.budget.base.rms);
+  ASSERT_TRUE(answer.diagnosis.explanation.claim.best);
+}
+
+TEST(Budget, LeadsWithNothingWhereOnlyAnUnlistedMisfitIsThere) {
+  const Answer answer = answered(0, 1.2);
+  EXPECT_NE(answer.diagnosis.explanation.verdict, Verdict::leading);
+  EXPECT_NE(answer.diagnosis.explanation.verdict, Verdict::named);
+}
+
+TEST(Budget, HasTheCausesOfTheVerdictWhereTheyLeaveNoise) {
+  const Answer answer = answered(0.4, 0);
+  EXPECT_EQ(answer.diagnosis.explanation.verdict, Verdict::named);
+  ASSERT_THAT(answer.budget.steps, SizeIs(1));
+  EXPECT_EQ(answer.budget.steps.front().id, "stress_softening");
+  EXPECT_GT(answer.budget.steps.front().share, 0.95);
+  EXPECT_DOUBLE_EQ(answer.budget.steps.front().share, answer.budget.steps.front().shapley);
+  EXPECT_TRUE(answer.budget.adequate);
+  EXPECT_THAT(answer.budget.contenders, SizeIs(0));
+}
+
+}  // namespace
+}  // namespace tunica::trial
